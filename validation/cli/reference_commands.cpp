@@ -44,6 +44,7 @@
 #include "validation/scene/orientation.hpp"
 #include "validation/scene/scene_text.hpp"
 #include "validation/sweep/rows.hpp"
+#include "validation/sweep/summary.hpp"
 
 namespace clatter::validation::inline cli {
 
@@ -114,6 +115,11 @@ void add_orientations(Report& report) {
   report.notes.push_back(words);
 }
 
+/// What the list of keys has no row for: a table that a file may have several of.
+const char* const probes_words =
+    "Tables [[probe]] of a file, each with name = \"camera\" and place = [0.05, 0.02, 0.009] in m, body frame, are the "
+    "points of clatter shock and clatter report; flag --probe NAME:X,Y,Z.";
+
 Report keys_report() {
   Report report = begun_report("keys", "the language of scenes");
   for (const auto& [name, meaning] : {std::pair{"key", "in scene files"},
@@ -131,6 +137,7 @@ Report keys_report() {
   report.fields["keys"] = row_objects(report.grid);
   report.fields["cases"] = Value(case_names());
   add_orientations(report);
+  report.notes.emplace_back(probes_words);
   return report;
 }
 
@@ -146,6 +153,7 @@ std::string keys_text(bool ascii) {
     text += wrapped("    " + meaning(key), 79, "    ") + "\n";
   }
   text += orientations_text();
+  text += "\n" + wrapped(probes_words) + "\n";
   text +=
       "\n" + wrapped(fmt::format("Cases that the program carries: {}", fmt::join(case_names(), ", ")), 79, "  ") + "\n";
   return ascii ? to_ascii(text) : text;
@@ -264,8 +272,9 @@ const std::vector<ColumnsOf>& all_columns() {
                                           {"shock-spectrum", spectrum_columns},
                                           {"shock-pulse", pulse_columns},
                                           {"shock-history", [] { return shock_history_columns({"probe"}); }},
-                                          {"ground", ground_columns},
+                                          {"ground", [] { return with_more(ground_columns(), material_columns()); }},
                                           {"sweep", sweep_all},
+                                          {"sweep-summary", Summary::columns},
                                           {"map", map_columns},
                                           {"verify", verify_columns},
                                           {"plan", plan_columns},

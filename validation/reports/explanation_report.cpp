@@ -114,6 +114,7 @@ std::string as_latex(const Explanation& explanation, const std::vector<std::stri
   const FormulaWriter writer(Notation::tex, explanation.scene.accuracy.digits);
   std::string out;
   for (const std::string& line : head) out += "% " + line + "\n";
+  out += "% needs \\usepackage{amsmath}\n";
   for (const Step& step : explanation.steps) {
     out += "\n\\paragraph{" + to_latex(step.title) + "}" + (step.words.empty() ? "" : " ") + writer.words(step.words) +
            "\n";

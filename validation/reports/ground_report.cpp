@@ -91,13 +91,18 @@ Report ground_report(const Scene& scene, const MeasuredNumber& first, const Meas
   return report;
 }
 
+std::vector<Column> material_columns() {
+  return {{"stiffness", "k_G", "N/m³", "of the ground"},
+          {"modulus", "E", "Pa", "Young's modulus"},
+          {"poisson", "ν", "", "Poisson's ratio"},
+          {"damping", "c_G", "N·s/m⁴", "of the ground, with a measured restitution"}};
+}
+
 Report material_report(const std::vector<MaterialGround>& grounds, const std::string& approximation,
                        const std::string& source, const std::optional<MaterialLoss>& loss) {
   Report report = begun_report("ground", "the ground from a material");
-  report.grid.columns = {{"stiffness", "k_G", "N/m³", "of the ground"},
-                         {"modulus", "E", "Pa", "Young's modulus"},
-                         {"poisson", "ν", "", "Poisson's ratio"}};
-  if (loss) report.grid.columns.push_back({"damping", "c_G", "N·s/m⁴", "of the ground"});
+  report.grid.columns = material_columns();
+  if (!loss) report.grid.columns.pop_back();
   const double damping_per_stiffness =
       loss ? analytic::damping_of_restitution(loss->restitution) / loss->approach_speed : 0;
   for (const MaterialGround& ground : grounds) {

@@ -27,6 +27,8 @@ struct MaterialGround {
 struct MaterialLoss {
   double restitution = 1, approach_speed = 0;  ///< of the first contact [m/s]
 };
+/// A row for each material or end of a floor's range; the last column with a measured restitution alone.
+[[nodiscard]] std::vector<Column> material_columns();
 /// A row for each; a named floor has two, the ends of its range.
 [[nodiscard]] Report material_report(const std::vector<MaterialGround>& grounds, const std::string& approximation,
                                      const std::string& source, const std::optional<MaterialLoss>& loss);

@@ -120,7 +120,8 @@ void add_boundary(const RegimeBoundary& b, int digits, Row& row) {
 Report report_of(const std::vector<Regimes>& all, const Quantity& quantity, const RodParameters& rod, int digits) {
   Report report = begun_report("regimes", regimes_summary);
   report.grid.columns = columns_of(quantity);
-  report.notes = {"Of the first three impacts all happen below θ₃, two from θ₃ to θ₂, one above (β, γ ≤ 90°).",
+  report.notes = {"Of the first three impacts all happen below θ₃, at least two below θ₂, one always (β, γ ≤ 90°).",
+                  "With gravity a rod that turns past upright may strike again in windows above, as clatter angles shows.",
                   "fold: the end grazes the ground; upright: it arrives at 90°; order: another contact comes first."};
   for (const auto& [value, second, third] : all) {
     Row& row = report.grid.rows.emplace_back();
@@ -227,7 +228,13 @@ Report regimes_report(const NamedTexts& given) {
   return find_regimes(input).report;
 }
 
-std::vector<Column> regimes_columns() { return columns_of(all_quantities().front()); }
+std::vector<Column> regimes_columns() {
+  std::vector<Column> columns;
+  for (const Quantity& quantity : all_quantities()) columns.push_back(columns_of(quantity).front());
+  const std::vector<Column> rest = columns_of(all_quantities().front());
+  columns.insert(columns.end(), rest.begin() + 1, rest.end());
+  return columns;
+}
 
 namespace {
 
@@ -306,8 +313,8 @@ Picture regimes_picture(const FoundRegimes& found) {
   for (const Regimes& one : found.all) panel.rows.push_back(row_of(one, true));
   if (!curve.empty()) {
     panel.plot.curves = {area(found, "zero", "below_3", "three impacts"),
-                         area(found, "below_3", "below_2", "two impacts"),
-                         area(found, "below_2", "upright", "one impact")};
+                         area(found, "below_3", "below_2", "at least two"),
+                         area(found, "below_2", "upright", "at least one")};
   }
   add_boundaries(found, !curve.empty(), panel.plot.curves);
   return {.what = "How many impacts, and where that changes", .scene = {found.rod_words}, .panels = {panel}};

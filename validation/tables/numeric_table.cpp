@@ -134,9 +134,16 @@ class NumericTable::Parser {
       table_.words_.push_back(name);
     }
     std::vector<std::string> wanted(header.size());
-    for (const std::string& name : request_.required) wanted[place_of(name, header).value()] = name;
+    const auto want = [&](const std::string& name, std::size_t place) {
+      if (!wanted[place].empty()) {
+        fail(1, fmt::format("column {} is taken for {} and for {}, must be for one ({})", shown_field(header[place]),
+                            wanted[place], name, request_.renaming));
+      }
+      wanted[place] = name;
+    };
+    for (const std::string& name : request_.required) want(name, place_of(name, header).value());
     for (const std::string& name : request_.optional) {
-      if (const auto place = place_of(name, header, request_.names.contains(name))) wanted[*place] = name;
+      if (const auto place = place_of(name, header, request_.names.contains(name))) want(name, *place);
     }
     for (std::size_t i = 0; i < header.size(); ++i) {
       if (wanted[i].empty()) continue;
