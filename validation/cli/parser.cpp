@@ -10,7 +10,6 @@
 
 #include "validation/output/bad_input.hpp"
 #include "validation/output/report.hpp"
-#include "validation/output/shell_word.hpp"
 #include "validation/output/version.hpp"
 #include "validation/scene/keys.hpp"
 

@@ -178,7 +178,8 @@ class SweepOutput {
     rows.grid.rows = read_csv_rows(collected_);
     SweepRowsView view{.swept = plan_.layout.swept.size(), .random = random_, .quantities = {}};
     for (const ImpactColumn& asked : plan_.layout.asked) {
-      if (!holds_texts(rows.grid, asked.column.name) && view.quantities.size() < most_panels) view.quantities.push_back(asked.column.name);
+      if (!holds_texts(rows.grid, asked.column.name) && view.quantities.size() < most_panels)
+        view.quantities.push_back(asked.column.name);
     }
     if (view.quantities.empty()) view.quantities = {"impacts", "total_normal_impulse", "energy_loss"};
     plot_.write(sweep_rows_picture(rows, view), {rows.title});

@@ -10,7 +10,6 @@
 
 #include "validation/output/json.hpp"
 #include "validation/output/number.hpp"
-#include "validation/output/shell_word.hpp"
 #include "validation/output/symbols.hpp"
 #include "validation/output/version.hpp"
 
@@ -358,6 +357,28 @@ std::string wrapped(const std::string& text, std::size_t width, const std::strin
     line += (first ? "" : " ") + word;
     first = false;
   }
+  return out + line;
+}
+
+std::string folded_command(const std::string& command, const std::string& indent, std::size_t width) {
+  constexpr std::size_t mark = 2;  // a blank and a backslash
+  std::string out, line, word;
+  bool quoted = false;
+  const auto take = [&] {
+    if (!line.empty() && display_width(line) + 1 + display_width(word) + mark > width) {
+      out += line + " \\\n";
+      line = indent + word;
+    } else {
+      line += (line.empty() ? "" : " ") + word;
+    }
+    word.clear();
+  };
+  for (const char c : command) {
+    if (c == '\'') quoted = !quoted;
+    if (c == ' ' && !quoted) take();
+    else word += c;
+  }
+  take();
   return out + line;
 }
 

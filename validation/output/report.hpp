@@ -119,4 +119,9 @@ void note_interrupt(const std::string& left_out, Report& report);
 /// Text broken at blanks into lines of at most `width` columns, continuation lines indented.
 [[nodiscard]] std::string wrapped(const std::string& text, std::size_t width = 79, const std::string& indent = "  ");
 
+/// A command as lines that a shell reads as one: each but the last ends in a backslash, and none has more than `width`
+/// columns unless a word, quoted or not, is as long.  Lines after the first begin with `indent`.
+[[nodiscard]] std::string folded_command(const std::string& command, const std::string& indent = "  ",
+                                         std::size_t width = 79);
+
 }  // namespace clatter::validation::inline output

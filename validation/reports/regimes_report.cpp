@@ -120,9 +120,10 @@ void add_boundary(const RegimeBoundary& b, int digits, Row& row) {
 Report report_of(const std::vector<Regimes>& all, const Quantity& quantity, const RodParameters& rod, int digits) {
   Report report = begun_report("regimes", regimes_summary);
   report.grid.columns = columns_of(quantity);
-  report.notes = {"Of the first three impacts all happen below θ₃, at least two below θ₂, one always (β, γ ≤ 90°).",
-                  "With gravity a rod that turns past upright may strike again in windows above, as clatter angles shows.",
-                  "fold: the end grazes the ground; upright: it arrives at 90°; order: another contact comes first."};
+  report.notes = {
+      "Of the first three impacts all happen below θ₃, at least two below θ₂, one always (β, γ ≤ 90°).",
+      "With gravity a rod that turns past upright may strike again in windows above, as clatter angles shows.",
+      "fold: the end grazes the ground; upright: it arrives at 90°; order: another contact comes first."};
   for (const auto& [value, second, third] : all) {
     Row& row = report.grid.rows.emplace_back();
     row.emplace_back(value, 6);

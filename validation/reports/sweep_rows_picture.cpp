@@ -10,6 +10,7 @@
 #include <numbers>
 #include <optional>
 #include <set>
+#include <span>
 
 #include "numeric/base/linear_algebra.hpp"
 #include "validation/output/bad_input.hpp"
@@ -149,6 +150,24 @@ std::string range_words(double low, double high) {
   return first == last ? first : fmt::format("{} to {}", first, last);
 }
 
+/// A curve of points for each class that has some, with the range of its values.
+/// @param known  all values, in order
+void add_classes(const std::vector<double>& known, std::span<const char* const> colours, PicturePanel& panel) {
+  for (std::size_t k = 0; k < colours.size(); ++k) {
+    const auto at = [&](std::size_t part) {
+      return known[std::min(part * known.size() / colours.size(), known.size() - 1)];
+    };
+    const auto is_of_class = [&](const std::vector<double>& row) { return row[2] == static_cast<double>(k); };
+    if (std::none_of(panel.rows.begin(), panel.rows.end(), is_of_class)) continue;
+    panel.plot.curves.push_back({.x = "x",
+                                 .y = "y",
+                                 .legend = range_words(at(k), at(k + 1)),
+                                 .style = FigureCurve::Style::points,
+                                 .where = {{"class", static_cast<double>(k)}},
+                                 .colour = colours[k]});
+  }
+}
+
 /// Which direction of the body points down, coloured by a quantity in classes of as many drops each; the largest on
 /// top.
 PicturePanel sphere(const Grid& grid, std::size_t attitude, std::size_t quantity) {
@@ -181,17 +200,7 @@ PicturePanel sphere(const Grid& grid, std::size_t attitude, std::size_t quantity
                           std::floor(static_cast<double>(classes * static_cast<std::size_t>(rank)) /
                                      static_cast<double>(known.size()))});
   }
-  for (std::size_t k = 0; k < classes && !known.empty(); ++k) {
-    const auto at = [&](std::size_t part) { return known[std::min(part * known.size() / classes, known.size() - 1)]; };
-    const auto is_of_class = [&](const std::vector<double>& row) { return row[2] == static_cast<double>(k); };
-    if (std::none_of(panel.rows.begin(), panel.rows.end(), is_of_class)) continue;
-    panel.plot.curves.push_back({.x = "x",
-                                 .y = "y",
-                                 .legend = range_words(at(k), at(k + 1)),
-                                 .style = FigureCurve::Style::points,
-                                 .where = {{"class", static_cast<double>(k)}},
-                                 .colour = colours[k]});
-  }
+  add_classes(known, colours, panel);
   return panel;
 }
 

@@ -106,23 +106,23 @@ const std::vector<std::string>& sweep_names() {
 }
 
 std::string Key::allowed() const {
-  return std::visit(Overloaded{
-                        [](const WholeNumber& v) {
-                          const bool is_wide = v.wide_low != v.low || v.wide_high != v.high;
-                          return fmt::format("a whole number from {} to {}", v.low, v.high) +
-                                 (is_wide ? fmt::format("; discrete model: from {} to {}", v.wide_low, v.wide_high) : "");
-                        },
-                        [](const LongNumber& v) { return fmt::format("a whole number from {} to {}", v.low, v.high); },
-                        [](const TruthValue&) { return std::string("true or false"); },
-                        [](const TextValue&) { return std::string("a text"); },
-                        [](const NameValue& v) { return fmt::format("one of {}", fmt::join(*v.names, ", ")); },
-                        [](const ListValue& v) { return std::string(v.words); },
-                        [](const auto& v) {
-                          return std::string(v.range.words) +
-                                 (v.wide ? fmt::format("; discrete model: {}", v.wide->words) : "");
-                        },
-                    },
-                    value);
+  return std::visit(
+      Overloaded{
+          [](const WholeNumber& v) {
+            const bool is_wide = v.wide_low != v.low || v.wide_high != v.high;
+            return fmt::format("a whole number from {} to {}", v.low, v.high) +
+                   (is_wide ? fmt::format("; discrete model: from {} to {}", v.wide_low, v.wide_high) : "");
+          },
+          [](const LongNumber& v) { return fmt::format("a whole number from {} to {}", v.low, v.high); },
+          [](const TruthValue&) { return std::string("true or false"); },
+          [](const TextValue&) { return std::string("a text"); },
+          [](const NameValue& v) { return fmt::format("one of {}", fmt::join(*v.names, ", ")); },
+          [](const ListValue& v) { return std::string(v.words); },
+          [](const auto& v) {
+            return std::string(v.range.words) + (v.wide ? fmt::format("; discrete model: {}", v.wide->words) : "");
+          },
+      },
+      value);
 }
 
 Value Key::get(const Scene& scene) const {
