@@ -299,6 +299,10 @@ class Against(Folder):
         head = run("sequence", *fall).stdout.splitlines()[1:5]
         self.assertRegex(head[2] + head[3], r"at 2\.\d+ m/s")
         self.assertEqual(run("compare", *fall, "--against", path).stdout.splitlines()[1:5], head)
+        for columns in ("omega=vz", "x=z"):  # a column of the file is one of the reader's
+            done = run("compare", *self.FLAGS, "--against", path, "--columns", columns)
+            self.assertEqual((done.returncode, done.stderr.count("\n")), (2, 1))
+            self.assertIn(f"column {columns.split('=')[1]} is taken for", done.stderr)
         for arguments in (("--columns", "t=time"), ("--require", "good")):
             self.assertEqual(run("compare", "rod-10", *arguments).returncode, 2)
 

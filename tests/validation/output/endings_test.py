@@ -11,7 +11,7 @@ import unittest
 
 from run_folder import CASES, PROGRAM, Folder
 
-from waiting import sizes, until
+from waiting import computing_seconds, sizes, until
 
 LONG_RUN = ["angles", "--count", "50000000", "--format", "csv"]
 
@@ -149,6 +149,19 @@ class Signals(Folder):
                 process.send_signal(number)
             self.assertEqual(process.returncode, 130, number)
             self.assertEqual(sorted(os.listdir(self.folder)), ["body.stl", "scene.toml"], number)
+
+    def test_a_table_of_an_interrupted_run_says_so(self):
+        told = 0
+        for command in (["tradeoff", "rod-45"], ["shock", "phone-damped", "--probe", "a:0.01,0,0", "--digits", "11"]):
+            for seconds in (0.1, 0.2, 0.4):  # of computing; where it has ended by then nothing is to be said
+                with subprocess.Popen([PROGRAM, *command], stdout=subprocess.PIPE, text=True) as process:
+                    until(lambda: process.poll() is not None or computing_seconds(process.pid) >= seconds)
+                    process.send_signal(signal.SIGINT)
+                    out = process.stdout.read()
+                if process.returncode == 0 or not out: continue
+                self.assertEqual((process.returncode, "interrupted: " in out), (130, True), out)
+                told += 1
+        self.assertGreater(told, 0)
 
     def test_nohup_keeps_a_run_going(self):
         with subprocess.Popen([PROGRAM, *LONG_RUN, "--output", "out"], cwd=self.folder,
