@@ -29,7 +29,7 @@ const Command& program_options() {
 }
 
 const Command& find_command(const std::vector<Command>& commands, const std::string& name) {
-  std::vector<std::string> names;
+  std::vector<std::string> names{"help"};
   for (const Command& command : commands) {
     if (command.name == name) return command;
     names.push_back(command.name);
