@@ -118,9 +118,8 @@ Command benchmark_command() {
   add_plot_options(command, input->plot);
   command.footer =
       "Example: clatter benchmark score rod-10.csv --require good\n"
-      "Files are CSV, t,x,z,phi,vx,vz,omega of the centre of mass (floor z = 0, phi and omega counter-clockwise), in "
-      "space "
-      "t,x,y,z,q0,q1,q2,q3,vx,vy,vz,wx,wy,wz, or impacts t,place,Pn,Pt,V,Omega, in space "
+      "Files are CSV, t,x,z,phi,vx,vz,omega of the centre of mass (floor z = 0, phi and omega counter-clockwise), "
+      "in space t,x,y,z,q0,q1,q2,q3,vx,vy,vz,wx,wy,wz, or impacts t,place,Pn,Pt,V,Omega, in space "
       "t,place,Px,Py,Pz,Vx,Vy,Vz,Wx,Wy,Wz (velocities after each, as clatter benchmark truth has them), after lines "
       "# problem: ID, and as they apply # engine:, # version:, # step:, # settings:, # law:, "
       "# Omega: clockwise|counter-clockwise (of lists), # ended: nothing approaches, # energy: J.\n"

@@ -161,9 +161,8 @@ Command measured_command() {
   add_plot_options(command, input->plot);
   command.footer =
       "Example: clatter measured score square-drops --plot score.svg\n"
-      "FILE has a row a frame, drop by drop: drop, sample, x_m, z_m, angle_rad for motion in a plane, drop, sample, "
-      "x_m, "
-      "y_m, z_m, q0, q1, q2, q3 in space.\n"
+      "FILE has a row a frame, drop by drop: drop, sample, x_m, z_m, angle_rad for motion in a plane, drop, "
+      "sample, x_m, y_m, z_m, q0, q1, q2, q3 in space.\n"
       "FILE.toml beside it says what was tracked: [body] size, mass; [track] motion, rate and the columns' names; "
       "[world] ground, gravity. The reference's page of this command has each key and an example.\n"
       "No drop is both fitted to and scored; at least 3 drops are fitted to.";
