@@ -246,12 +246,14 @@ test_interrupted_build_is_not_taken_for_finished() {
   mkfifo "$settings/build_waits"
   set -m  # a process group of its own, as a terminal gives
   with_stubs "$tree/clatter" >"$settings/out" 2>"$settings/err" </dev/null &
-  wait_for test -e "$tree/build/release/validation/clatter"
+  # Opens once cat reads: a shell whose cp has just ended would go on after the signal.
+  exec 8>"$settings/build_waits"
   kill -INT -- "-$!"
   status=0
   wait $! || status=$?
   set +m
   expect "exit status" 130 "$status"
+  exec 8>&-
   expect "standard output" "" "$(<"$settings/out")"
   rm "$settings/build_waits"
   launch
