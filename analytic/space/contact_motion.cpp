@@ -362,9 +362,10 @@ SustainedContact ContactMotion::ended(ContactEnd end, const std::string& reason)
   }
   const double rise = result.after.velocity.z() - start_.velocity.z();
   result.normal_impulse = drop_.body.mass * (rise + drop_.gravity * time_);
-  result.energy_loss = given_ - mechanical_energy(drop_, result.after);
+  const double energy = mechanical_energy(drop_, result.after);
+  result.energy_loss = given_ - energy;
   const double size = drop_.body.mass * speed_scale() * speed_scale();
-  if (!(mechanical_energy(drop_, start_) - mechanical_energy(drop_, result.after) >= -1e-8 * size)) {
+  if (!(mechanical_energy(drop_, start_) - energy >= -1e-8 * size)) {
     throw NumericalError("a body that stays on the ground gains energy");
   }
   return result;

@@ -7,7 +7,6 @@
 #include "validation/cli/command.hpp"
 #include "validation/cli/options.hpp"
 #include "validation/output/bad_input.hpp"
-#include "validation/output/symbols.hpp"
 #include "validation/reports/benchmark_report.hpp"
 #include "validation/reports/score_report.hpp"
 #include "validation/scene/failure.hpp"
@@ -38,8 +37,7 @@ const Problem& named_problem(const BenchmarkInput& input) {
 
 int run_list(const BenchmarkInput& input, const OutputChoice& choice) {
   if (!input.names.empty()) throw BadInput("benchmark list: takes no names");
-  if (choice.style.format == Format::table)
-    write_out(choice, choice.style.ascii ? to_ascii(benchmark_list_text()) : benchmark_list_text());
+  if (choice.style.format == Format::table) write_out(choice, benchmark_list_text());
   else write_report(choice, benchmark_list_report());
   return 0;
 }

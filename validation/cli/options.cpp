@@ -44,8 +44,10 @@ void check_files(const OutputChoice& choice, const std::vector<RunFile>& written
 }
 
 void write_out(const OutputChoice& choice, const std::string& text) {
+  const bool ascii = choice.style.ascii && choice.style.format == Format::table;
+  const std::string clean = printable(text, Lines::kept);
   Sink sink(choice.path);
-  sink.write(printable(text, Lines::kept));
+  sink.write(ascii ? to_ascii(clean) : clean);
   sink.commit();
 }
 

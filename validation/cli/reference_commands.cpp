@@ -17,7 +17,6 @@
 #include "validation/output/json.hpp"
 #include "validation/output/number.hpp"
 #include "validation/output/sink.hpp"
-#include "validation/output/symbols.hpp"
 #include "validation/output/version.hpp"
 #include "validation/record/history_file.hpp"
 #include "validation/record/impact_rows.hpp"
@@ -142,7 +141,7 @@ Report keys_report() {
 }
 
 /// Two lines a key, since a table of all columns is wider than a terminal.
-std::string keys_text(bool ascii) {
+std::string keys_text() {
   std::string text = headline("keys", "the language of scenes: keys of files, flags of commands") + "\n";
   for (const Key& key : all_keys()) {
     const std::string given = default_words(key);
@@ -156,7 +155,7 @@ std::string keys_text(bool ascii) {
   text += "\n" + wrapped(probes_words) + "\n";
   text +=
       "\n" + wrapped(fmt::format("Cases that the program carries: {}", fmt::join(case_names(), ", ")), 79, "  ") + "\n";
-  return ascii ? to_ascii(text) : text;
+  return text;
 }
 
 /// A value to begin with, for a key that has none by itself.
@@ -194,7 +193,7 @@ void require_new(const std::string& path) {
 int run_keys(const OutputTexts& texts) {
   const OutputChoice choice = read_output(texts);
   check_files(choice);
-  if (choice.style.format == Format::table) write_out(choice, keys_text(choice.style.ascii));
+  if (choice.style.format == Format::table) write_out(choice, keys_text());
   else write_report(choice, keys_report());
   return 0;
 }
@@ -311,7 +310,7 @@ Report columns_report(const std::string& command) {
 }
 
 /// A column a paragraph, under the command that has it.
-std::string columns_text(const Report& report, bool ascii) {
+std::string columns_text(const Report& report) {
   std::string text = report.title + "\n", command;
   for (const Row& row : report.grid.rows) {
     if (shown_text(row[0]) != command) text += fmt::format("\n{}\n", command = shown_text(row[0]));
@@ -319,7 +318,7 @@ std::string columns_text(const Report& report, bool ascii) {
     text += wrapped(fmt::format("  {}{}: {}", shown_text(row[1]), unit, shown_text(row[3])), 79, "    ") + "\n";
   }
   for (const std::string& note : report.notes) text += "\n" + wrapped(note) + "\n";
-  return ascii ? to_ascii(text) : text;
+  return text;
 }
 
 int run_columns(const ColumnsInput& input) {
@@ -331,7 +330,7 @@ int run_columns(const ColumnsInput& input) {
   }
   check_files(choice);
   const Report report = columns_report(input.command.value_or(""));
-  if (choice.style.format == Format::table) write_out(choice, columns_text(report, choice.style.ascii));
+  if (choice.style.format == Format::table) write_out(choice, columns_text(report));
   else write_report(choice, report);
   return 0;
 }

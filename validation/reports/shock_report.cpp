@@ -328,9 +328,7 @@ std::vector<std::string> notes_of(const ShockRun& run, const ShockView& view) {
   if (run.continuous) {
     for (const std::string& warning : run.continuous->planned.warnings) notes.push_back("!: warning: " + warning);
     const numeric::Simulation& simulation = run.continuous->planned.run;
-    if (!simulation.impacts.empty()) {
-      notes.push_back(other_law_remark(run.scene, simulation.impacts.front().value.approach_speed));
-    }
+    notes.push_back(other_law_remark(run.scene, simulation));
     notes.push_back(fmt::format("{}: {}", outcome_name(simulation.outcome), simulation.message));
   } else if (run.discrete_run) {
     notes.push_back(fmt::format("{}: {}", run.discrete_run->outcome, run.discrete_run->message));

@@ -116,9 +116,7 @@ std::string local_slip_words(const Scene& scene, const Simulation& run) {
 
 /// What the results leave out; none is empty.
 std::vector<std::string> remarks_of(const Scene& scene, const Simulation& run) {
-  std::vector<std::string> remarks{
-      run.impacts.empty() ? "" : other_law_remark(scene, run.impacts.front().value.approach_speed),
-      local_slip_words(scene, run)};
+  std::vector<std::string> remarks{other_law_remark(scene, run), local_slip_words(scene, run)};
   std::erase(remarks, "");
   return remarks;
 }

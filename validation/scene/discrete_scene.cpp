@@ -323,8 +323,9 @@ std::string other_law_words(const Scene& scene, double approach) {
   return words;
 }
 
-std::string other_law_remark(const Scene& scene, double approach) {
-  const std::string words = other_law_words(scene, approach);
+std::string other_law_remark(const Scene& scene, const numeric::Simulation& run) {
+  if (run.impacts.empty()) return "";
+  const std::string words = other_law_words(scene, run.impacts.front().value.approach_speed);
   if (words.empty()) return "";
   return fmt::format("the law of [impact] is the discrete model's alone: {}{}", words,
                      words.starts_with("e = ") ? "; clatter ground finds the damping for it" : "");

@@ -41,8 +41,9 @@ struct DiscreteLaw {
 /// clause; empty: by nothing.
 /// @param approach  speed of the first contact, for the ground's restitution [m/s]
 [[nodiscard]] std::string other_law_words(const Scene& scene, double approach);
-/// The same as a remark on the continuous model's numbers, which a reader may take for those of that law.
-[[nodiscard]] std::string other_law_remark(const Scene& scene, double approach);
+/// The same as a remark on a run of the continuous model, whose numbers a reader may take for those of that law; empty
+/// without an impact.
+[[nodiscard]] std::string other_law_remark(const Scene& scene, const numeric::Simulation& run);
 
 /// Why the drop moves in space and not in the plane y = 0, as its keys say; empty: in the plane.  The one place that
 /// decides so; planar_body refuses meshes whose shape or mass is not symmetric about that plane.

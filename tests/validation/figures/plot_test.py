@@ -288,20 +288,14 @@ class Data(InFolder):
         for block, column in (("panel1_0", "impacts"), ("panel2_0", "total_normal_impulse"), ("panel3_0", "energy_loss")):
             self.assertEqual(drawn[block], [[float(row["drop.angle_deg"]), float(row[column])] for row in rows])
 
-    def test_a_sweep_over_two_keys_has_a_curve_for_each_value_of_the_first(self):
-        out, drawn = self.plotted("sweep", case("rod-10"), "--model", "discrete", "--set", "impact.restitution=0.5,0.9",
-                                  "--set", "drop.angle_deg=10:40:10")
-        for i, value in enumerate(("0.5", "0.9")):
-            self.assertEqual(drawn[f"panel2_{i}"], [[float(row["drop.angle_deg"]), float(row["total_normal_impulse"])]
-                                                    for row in records(out) if row["impact.restitution"] == value])
-        self.assertIn("impact.restitution = 0.5", self.read("p.gnuplot"))
-
-    def test_of_two_keys_that_with_few_values_names_the_curves(self):
-        out, drawn = self.plotted("sweep", case("rod-10"), "--model", "discrete", "--set", "drop.angle_deg=10:34:2",
-                                  "--set", "impact.restitution=0.5,0.9")
-        for i, value in enumerate(("0.5", "0.9")):
-            self.assertEqual(drawn[f"panel2_{i}"], [[float(row["drop.angle_deg"]), float(row["total_normal_impulse"])]
-                                                    for row in records(out) if row["impact.restitution"] == value])
+    def test_a_sweep_over_two_keys_has_a_curve_for_each_value_of_the_first_or_of_that_with_few(self):
+        restitution = ("--set", "impact.restitution=0.5,0.9")
+        for settings in ((*restitution, "--set", "drop.angle_deg=10:40:10"), ("--set", "drop.angle_deg=10:34:2", *restitution)):
+            out, drawn = self.plotted("sweep", case("rod-10"), "--model", "discrete", *settings)
+            for i, value in enumerate(("0.5", "0.9")):
+                self.assertEqual(drawn[f"panel2_{i}"], [[float(row["drop.angle_deg"]), float(row["total_normal_impulse"])]
+                                                        for row in records(out) if row["impact.restitution"] == value])
+            self.assertIn("impact.restitution = 0.5", self.read("p.gnuplot"))
 
     def test_the_panel_below_a_map_is_as_wide_as_any(self):
         self.plotted("sweep", case("phone-corner"), "--set", "drop.attitude=uniform", "--random", "50", "--model", "discrete",
