@@ -152,9 +152,10 @@ class Output(unittest.TestCase):
     def test_ascii_means_ascii(self):
         for arguments in [["sequence", "--angle", "10", "--restitution", "0.5", "--gravity", "9.81", "--impacts", "99"],
                           ["angles", "--as-printed"], ["regimes"], ["explain", "2", "--angle", "10", "--gravity", "1"],
-                          ["gradient", "--angle", "10"], ["ground", "--floor", "wood"], ["columns"], ["keys"], ["benchmark", "list"],
+                          ["gradient", "--angle", "10"], ["ground", "--floor", "wood", "--footprint", "1e-4"], ["columns"], ["keys"], ["benchmark", "list"],
                           ["measured", "fit", "square-drops"], ["shock", "phone-damped", "--impacts", "1", "--probe", "a:0,0,0"]]:
-            run(*arguments, "--ascii").stdout.encode("ascii")
+            shown = run(*arguments, "--ascii").stdout
+            self.assertTrue(shown and shown.isascii(), (arguments, shown))
 
     def test_json_has_the_promised_keys_and_no_nan(self):
         text = run("sequence", "--angle", "10", "--format", "json").stdout
