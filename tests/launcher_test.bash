@@ -57,10 +57,17 @@ END
   stub apt-get <<'END'
 echo "noise of apt-get"; echo "complaint of apt-get" >&2
 [[ $* != *update* ]] || { rm -f "$SETTINGS/lists_are_stale"; exit 0; }
-[[ ! -e $SETTINGS/lists_are_stale && ! -e $SETTINGS/install_fails ]] || exit 100
+[[ ! -e $SETTINGS/interrupted ]] || exit 100
+[[ $* != *--fix-broken* ]] || { rm -f "$SETTINGS/lacks_dependency"; exit 0; }
+[[ ! -e $SETTINGS/lists_are_stale && ! -e $SETTINGS/install_fails && ! -e $SETTINGS/lacks_dependency ]] || exit 100
 for package; do echo "$package" >>"$SETTINGS/installed"; done
 shopt -s nullglob
 for tool in "$SETTINGS"/uninstalled/*; do mv "$tool" "${BASH_SOURCE[0]%/*}"; done
+END
+  # What was interrupted is taken up, even where a package still lacks another.
+  stub dpkg <<'END'
+rm -f "$SETTINGS/interrupted"
+[[ ! -e $SETTINGS/lacks_dependency ]]
 END
   stub id <<'END'
 cat "$SETTINGS/uid"
@@ -363,6 +370,23 @@ test_stale_package_lists_are_renewed_once() {
   expect "exit status" 0 "$status"
   expect_calls 2 "apt-get.* install .*libgsl-dev"
   expect_calls 1 "apt-get.* update"
+}
+
+test_interrupted_installation_is_finished() {
+  remove_package libgsl-dev
+  touch "$settings/interrupted"
+  launch
+  expect "exit status" 0 "$status"
+  expect_calls 1 "^dpkg --configure -a"
+  expect_calls 0 "apt-get.* --fix-broken"
+}
+
+test_interrupted_installation_gets_what_it_lacked() {
+  remove_package libgsl-dev
+  touch "$settings/interrupted" "$settings/lacks_dependency"
+  launch
+  expect "exit status" 0 "$status"
+  expect_calls 1 "apt-get.* --fix-broken install"
 }
 
 test_failed_installation_builds_nothing() {

@@ -53,20 +53,27 @@ is_present() {
   [[ $(dpkg-query -W -f='${db:Status-Status}' "$1" 2>/dev/null) == installed* ]]
 }
 
-# Without a terminal nobody can answer questions, so apt-get must ask none; it
-# waits when another package manager is at work.
-apt_get() {
-  local command=(env DEBIAN_FRONTEND=noninteractive
-                 apt-get -y -o DPkg::Lock::Timeout=300 "$@")
+# Without a terminal nobody can answer questions, so none is asked.
+as_root() {
+  local command=(env DEBIAN_FRONTEND=noninteractive "$@")
   [[ $(id -u) == 0 ]] || command=(sudo "${command[@]}")
   "${command[@]}" </dev/null >>"$log" 2>&1
 }
+
+# Waits while another package manager is at work.
+apt_get() { as_root apt-get -y -o DPkg::Lock::Timeout=300 "$@"; }
+
+# apt-get refuses all work on a machine that was stopped while it installed,
+# until what was unpacked there is set up; that takes what it depends on.
+finish_what_was_interrupted() { as_root dpkg --configure -a || apt_get --fix-broken install || true; }
 
 # Most machines know their packages, so the lists are renewed only when they
 # turn out to be missing or stale.
 apt_install() {
   local install=(install --no-install-recommends "$@")
-  apt_get "${install[@]}" || { apt_get update && apt_get "${install[@]}"; }
+  apt_get "${install[@]}" && return
+  finish_what_was_interrupted
+  apt_get update && apt_get "${install[@]}"
 }
 
 can_install() { [[ $(id -u) == 0 ]] || has_command sudo; }
