@@ -126,7 +126,8 @@ class Run : public SequenceLoop<Sequence, ErrorGrowth> {
     auto tail = bouncing_tail(motion_, law_, strike);
     if (!tail) return extrapolated_end(strike.impact.mode);
     if (bounces_on(strike.impact.separation_speed, gravity_)) return false;
-    finish(*tail);
+    if (strike.impact.separation_speed == 0) stay(strike.vertices);
+    else finish(*tail);
     return true;
   }
 
@@ -178,15 +179,16 @@ class Run : public SequenceLoop<Sequence, ErrorGrowth> {
     return "end " + PlanarBody::vertex_set_name(vertices) + " stays on the ground while the body still turns";
   }
 
+  /// The last impact has left `touching` on the ground.
+  void stay(VertexSet touching) {
+    const PlanarVelocity after = motion_.velocity();
+    const bool tips = tips_over(result_.rows.back().vertices, after);
+    rest(after.angular != 0 || tips, slides(after), "no rebound (e = 0)", tips ? over_the_edge : stays(touching));
+  }
+
   void end_without_contact(const Flight& flight) {
-    if (flight.end == FlightEnd::stays_touching) {
-      const PlanarVelocity after = motion_.velocity();
-      const bool tips = tips_over(result_.rows.back().vertices, after);
-      const auto vertex = static_cast<VertexSet>(1u << flight.arrival.vertex);
-      return rest(after.angular != 0 || tips, slides(after), "no rebound (e = 0)",
-                  tips ? over_the_edge : stays(vertex));
-    }
-    end_in_flight(flight.near_miss);
+    if (flight.end == FlightEnd::stays_touching) stay(static_cast<VertexSet>(1u << flight.arrival.vertex));
+    else end_in_flight(flight.near_miss);
   }
 
   static constexpr const char* over_the_edge = "it tips over its lower edge";

@@ -297,7 +297,8 @@ class Run : public SequenceLoop<Sequence, ErrorGrowth> {
     const ImpactRow& last = result_.rows.back();
     if (auto tail = bouncing_tail(drop_, last)) {
       if (bounces_on(last.impact.velocity_after.z(), drop_.gravity)) return false;
-      finish(std::move(*tail));
+      if (last.impact.velocity_after.z() == 0) rest_as_it_is("no rebound");
+      else finish(std::move(*tail));
       return true;
     }
     return may_accumulate(drop_.law.law) && drop_.gravity > 0 && extrapolated_end();

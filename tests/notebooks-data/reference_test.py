@@ -103,6 +103,19 @@ class Reference(unittest.TestCase):
             page = self.text(f"{command}.html")
             self.assertEqual([name for name in names if name not in page], [])
 
+    def test_it_explains_every_name_that_a_cell_may_hold(self):
+        names = re.findall(r'return "([^"]+)"', (ROOT / "validation/record/names.cpp").read_text(encoding="utf-8"))
+        self.assertGreater(len(names), 30)
+        explained = re.findall(r"`([^`]+)`", (ROOT / "notebooks-data/reference/columns.md").read_text(encoding="utf-8"))
+        self.assertEqual([name for name in names if name not in explained], [])
+
+    def test_the_sources_that_it_names_exist(self):
+        files = [str(path) for folder in ("analytic", "numeric", "validation", "tests") for path in (ROOT / folder).rglob("*.[ch]pp")]
+        named = [(page.name, name) for page in (ROOT / "notebooks-data/reference").rglob("*.md")
+                 for name in re.findall(r"`<?([\w./]+\.[ch]pp)>?`", page.read_text(encoding="utf-8"))]
+        self.assertGreater(len(named), 30)
+        self.assertEqual([one for one in named if not any(file.endswith("/" + one[1].removeprefix("clatter/")) for file in files)], [])
+
     def test_it_holds_all_that_the_python_module_offers(self):
         source = (ROOT / "notebooks-data/python/clatter/__init__.py").read_text(encoding="utf-8")
         names = re.findall(r'"(\w+)"', source.split("__all__ =")[1])

@@ -32,7 +32,8 @@ int run_plan(const PlanInput& input) {
   const PlanTarget target = plan_target(scene, {input.within, is_typed});
   check_files(choice, plot_files(input.plot));
   PlotFile plot(input.plot);
-  const Plan plan = make_plan(scene, target);
+  Plan plan = make_plan(scene, target);
+  plan.given = overrides_of(input.scene);
   write_report(choice, plan_report(scene, plan));
   plot.write(plan_picture(scene, plan), run_words("plan", "the smallest model that serves", scene));
   const std::string shortfall = plan_shortfall(plan);

@@ -39,12 +39,8 @@ struct Attitudes {
 
 /// What was typed, with which every command begins: the scene and its flags.
 std::string scene_words(const ReportInput& input) {
-  std::string words = input.scene.source.empty() ? "" : " " + shell_word(input.scene.source);
-  for (const SceneOverride& given : overrides_of(input.scene)) {
-    const bool is_truth = input.scene.truths.contains(given.flag);
-    words += " " + given.flag + (is_truth ? "" : " " + shell_word(given.text));
-  }
-  return words;
+  return (input.scene.source.empty() ? "" : " " + shell_word(input.scene.source)) +
+         flag_words(overrides_of(input.scene));
 }
 
 std::string probe_words(const ReportInput& input) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "validation/output/shell_word.hpp"
 #include "validation/scene/keys.hpp"
 
 namespace clatter::validation::inline scene {
@@ -216,6 +217,17 @@ const std::map<std::string, std::string>& key_flags() {
     return by_key;
   }();
   return flags;
+}
+
+std::string flag_words(const std::vector<SceneOverride>& overrides) {
+  std::string words;
+  for (const SceneOverride& given : overrides) {
+    const Key& key = key_named(given.key);
+    const std::string flag = key.flag;
+    if (flag.empty() || (key.is_truth() && (given.text == "false") != flag.starts_with("--no-"))) continue;
+    words += " " + flag + (key.is_truth() ? "" : " " + shell_word(given.text));
+  }
+  return words;
 }
 
 void put_values(const SceneValues& values, Scene& scene, Model model) {

@@ -129,7 +129,7 @@ void append_motion(std::vector<Key>& keys) {
            "or all of it: at the first touch, world components",
            three_velocities<&Scene::angular_velocity>("[0, 0, 0]"), nullptr, false, turn_of_plane},
           {"drop.topple", Use::both, "--topple", "M", "m",
-           "or let go from rest on the lower edge of end b, that of end a raised by this: it turns about the edge",
+           "or let go from rest on the lower edge of end b, that of end a raised by this: it turns about the edge; angle 0",
            OptionalNumber{[](Scene& s) -> std::optional<double>& { return s.topple; }, heights, &positive_number},
            nullptr, false, all_of_motion},
           {"world.gravity", Use::both, "--gravity", "M/S2", "m/s²",
@@ -296,8 +296,8 @@ void append_run(std::vector<Key>& keys) {
           {"run.impacts", Use::both, "--impacts", "N", "", "most impacts to report",
            WholeNumber{[](Scene& s) -> int& { return s.request.impacts; }, 1, 1'000'000}},
           {"run.until_rest", Use::discrete, "--until-rest", "", "",
-           "go on until the body rests or no impact follows, for 100000 impacts at most; exit status 3 if that is not "
-           "enough",
+           "discrete model: go on until the body rests, no impact follows or, in the plane, an end stays on the ground, "
+           "for 100000 impacts at most; exit status 3 if that is not enough",
            TruthValue{[](Scene& s) -> bool& { return s.until_rest; }},
            [](const Scene& s, Model) { return s.until_rest ? Echo::value : Echo::absent; }},
           {"run.digits", Use::both, "--digits", "N", "", "significant digits asked for",
@@ -319,7 +319,7 @@ void append_run(std::vector<Key>& keys) {
           {"run.planar", Use::continuous, "--planar", "", "", "keep the motion in its plane",
            TruthValue{[](Scene& s) -> bool& { return s.world.planar; }}},
           {"run.contact_gravity", Use::continuous, "--no-contact-gravity", "", "",
-           "whether gravity acts during contacts too; by the flag in flight alone",
+           "whether gravity acts during contacts too; with the flag it acts in flight only",
            TruthValue{[](Scene& s) -> bool& { return s.world.gravity_in_contact; }}},
       });
 }

@@ -161,7 +161,8 @@ py::tuple plan(const std::string& name, const std::optional<std::string>& text, 
     const Scene scene = source.read(Model::continuous);
     const auto is_given = [&](const char* argument) { return source.changes.contains(argument); };
     const validation::PlanTarget target = validation::plan_target(scene, {within, is_given});
-    const validation::Plan made = make_plan(scene, target, {.progress = [&](int, long) { return watch(); }});
+    validation::Plan made = make_plan(scene, target, {.progress = [&](int, long) { return watch(); }});
+    made.given = validation::scene_overrides(source.changes);
     return std::pair(kept(plan_report(scene, made)), plan_shortfall(made));
   };
   return py::cast(run_interruptible(work));

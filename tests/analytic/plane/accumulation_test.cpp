@@ -116,8 +116,19 @@ BOOST_AUTO_TEST_CASE(on_damped_ground_only_friction_ends_a_bouncing_and_more_dig
 
 BOOST_AUTO_TEST_CASE(without_rebound_a_flat_body_rests_at_once_and_an_inclined_one_keeps_its_end_down) {
   Drop drop = bouncing(0, 0);
-  drop.law.restitution = 0;
-  BOOST_CHECK(impact_sequence(drop, {}).outcome == Outcome::at_rest);
+  for (const double degrees : {0.0, 90.0}) {
+    drop = bouncing(degrees, 0);
+    drop.law.restitution = 0;
+    for (const int impacts : {1, 6}) {
+      const Sequence s = impact_sequence(drop, {.impacts = impacts});
+      BOOST_CHECK(s.outcome == Outcome::at_rest);
+      BOOST_TEST(s.rows.size() == 1);
+      BOOST_TEST(!s.tail.has_value());
+      BOOST_TEST(s.end_predictable);
+      BOOST_TEST(std::fabs(s.total_normal_impulse - 2 * 3) <= s.total_normal_impulse_error);
+      BOOST_TEST(s.total_normal_impulse_error <= 1e-13);
+    }
+  }
   drop.inclination = Angle::from_degrees(20);
   drop.velocity.normal = -0.5;
   BOOST_CHECK(impact_sequence(drop, {}).outcome == Outcome::sustained_contact);

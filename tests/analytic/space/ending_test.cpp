@@ -47,6 +47,18 @@ BOOST_AUTO_TEST_CASE(a_flat_landing_ends_after_the_time_and_impulse_of_a_geometr
   BOOST_TEST(std::fabs(s.total_normal_impulse - (1 + g * s.tail->end_time)) <= 1e-14);
 }
 
+BOOST_AUTO_TEST_CASE(a_flat_landing_without_rebound_is_one_impact_and_nothing_after_it) {
+  space::Drop drop = slab(Quaternion::Identity(), 0);
+  drop.velocity.y() = 0.1;
+  const space::Sequence s = space::impact_sequence(drop, {.impacts = 3});
+  BOOST_CHECK(s.outcome == Outcome::at_rest);
+  BOOST_TEST(s.rows.size() == 1);
+  BOOST_TEST(!s.tail);
+  BOOST_TEST(s.rest.has_value());
+  BOOST_TEST(s.message == "no rebound; the body slides on");
+  BOOST_TEST(std::fabs(s.total_normal_impulse - 1) <= 1e-15);
+}
+
 BOOST_AUTO_TEST_CASE(a_slab_on_damped_ground_never_comes_to_rest_since_slow_contacts_lose_nothing) {
   for (const Quaternion& attitude : {Quaternion::Identity(), turn(0.05, {1, 0, 0}) * turn(0.2, {0, 1, 0})}) {
     for (const double damping : {0.01, 0.3, 10.0}) {

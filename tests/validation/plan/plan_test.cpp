@@ -218,6 +218,26 @@ BOOST_AUTO_TEST_CASE(command_line_of_a_plan_names_what_it_leaves_out) {
   BOOST_TEST(line.find("--tolerance") != std::string::npos);
 }
 
+BOOST_AUTO_TEST_CASE(command_line_of_a_plan_repeats_the_flags_that_it_leaves_as_they_are) {
+  const auto line_of = [](const Scene& scene, const std::vector<SceneOverride>& given, int digits) {
+    Plan plan = make_plan(scene, {.digits = digits});
+    plan.given = given;
+    return command_line(plan);
+  };
+  std::vector<SceneOverride> given{{"drop.angle_deg", "--angle", "40"},
+                                   {"run.digits", "--digits", "3"},
+                                   {"run.contact_gravity", "--no-contact-gravity", "false"},
+                                   {"run.tolerance", "--tolerance", "1e-3"}};
+  // The discrete model has neither tolerance nor gravity during contacts.
+  BOOST_TEST(line_of(case_scene("rod-45", given), given, 2) == "clatter sequence rod-45 --angle 40 --digits 3");
+  BOOST_TEST(line_of(case_scene("rod-45", given), given, 5)
+                 .starts_with("clatter simulate rod-45 --angle 40 --digits 3 --no-contact-gravity --method "));
+  given.push_back({"ground.stiffness", "--stiffness", "1e9"});
+  const std::string flags_alone = line_of(read_scene("", given), given, 3);
+  BOOST_TEST(flags_alone.starts_with("clatter simulate --angle 40 --digits 3 --no-contact-gravity --stiffness 1e9 --method "));
+  BOOST_TEST(flags_alone.find("--tolerance 1e-3") == std::string::npos);
+}
+
 BOOST_AUTO_TEST_CASE(table_of_costs_is_read_and_refused) {
   const CostTable& table = CostTable::measured();
   using numeric::Method;
