@@ -24,6 +24,7 @@ constexpr double shorter_steps = 0.7;
 constexpr double error_per_distance_of_finer = 4;
 constexpr double error_per_distance_of_coarser = 4;
 constexpr double another_way = 0.1;  ///< relative distance of impulses: what follows such impacts differs altogether
+constexpr double of_a_graze = 1e-3;   ///< the same, below which a touch that one run alone has changes nothing else
 constexpr double step_part = 0.5;
 constexpr double error_per_distance_of_steps = 3;  ///< 8/7 where the step is short enough for the order to show
 
@@ -101,6 +102,11 @@ void add_rounding(const Body& body, const ImpactRecord& row, ImpactNumbers& erro
   }
 }
 
+/// Relative, of the impulses.
+double distance_of(const ImpactRecord& row, const ImpactRecord& second) {
+  return (second.value.impulse - row.value.impulse).norm() / row.value.impulse.norm();
+}
+
 }  // namespace
 
 SecondRun second_run(const Integration& main, double used_step) {
@@ -116,9 +122,12 @@ SecondRun second_run(const Integration& main, double used_step) {
   return second;
 }
 
+bool has_the_same_contacts(const ImpactRecord& row, const ImpactRecord& second) {
+  return second.end == row.end && (second.touches == row.touches || distance_of(row, second) <= of_a_graze);
+}
+
 bool goes_another_way(const ImpactRecord& row, const ImpactRecord& second) {
-  if (second.end != row.end || second.touches != row.touches) return true;
-  return !((second.value.impulse - row.value.impulse).norm() <= another_way * row.value.impulse.norm());
+  return !has_the_same_contacts(row, second) || !(distance_of(row, second) <= another_way);
 }
 
 double tolerance_beside(const Body& body, double tolerance, const ImpactRecord& row, const ImpactRecord& second) {
@@ -139,7 +148,7 @@ void estimate_errors(const Body& body, double error_per_distance, std::vector<Im
   for (std::size_t i = 0; i < rows.size(); ++i) {
     ImpactRecord& row = rows[i];
     parted = parted || i >= second.size();
-    const bool known = !parted && second[i].end == row.end && second[i].touches == row.touches;
+    const bool known = !parted && has_the_same_contacts(row, second[i]);
     parted = parted || goes_another_way(row, second[i]);
     const ImpactNumbers& other = known ? second[i].value : row.value;
     for_each_number(row.value, other, row.error, [&](double value, double other_value) {

@@ -22,8 +22,12 @@ struct SecondRun {
 /// @param used_step  of the main run, fixed [s]
 [[nodiscard]] SecondRun second_run(const Integration& main, double used_step);
 
-/// Whether two runs of a drop have parted in this impact, so that what follows says nothing about errors: it has
-/// another end or number of touches in the second run, or an impulse that is a tenth of its size off.
+/// Whether an impact has the same end in both runs, and the same touches but for grazes: those that only one of the two
+/// has, while the impulses differ by less than a thousandth.
+[[nodiscard]] bool has_the_same_contacts(const ImpactRecord& row, const ImpactRecord& second);
+
+/// Whether two runs of a drop have parted in this impact, so that what follows says nothing about errors: it has other
+/// contacts in the second run, or an impulse that is a tenth of its size off.
 [[nodiscard]] bool goes_another_way(const ImpactRecord& row, const ImpactRecord& second);
 
 /// Tolerance that the second run's contacts may have after an impact, or 0: a tenth of the relative distance of the
@@ -36,8 +40,8 @@ struct SecondRun {
 /// Fills in `error` of each row: error_per_distance × |row − second's row|, and rounding_errors().  A vector's
 /// component takes at least a tenth of the vector's distance, duration, restitution and peak force of the impulse's
 /// relative one, and energies and works that relative one of the energy before: two runs may agree by chance.  A row
-/// that has another end or number of touches in the second run, and all rows after one that goes another way there, get
-/// NaN, not known, and are not predictable.
+/// that has other contacts in the second run, and all rows after one that goes another way there, get NaN, not known,
+/// and are not predictable.
 void estimate_errors(const Body& body, double error_per_distance, std::vector<ImpactRecord>& rows,
                      const std::vector<ImpactRecord>& second);
 

@@ -112,13 +112,14 @@ void FrictionPhases::start(Kind kind, const AlongGround& direction, const Contac
 
 double FrictionPhases::slow_slip() const { return slow_part * std::sqrt(settings_.tolerance) * scales_.speed; }
 
-/// Whether the patch spins noticeably; returns how fast its farthest point might.  As fast as that, slip needs no
-/// direction from the phase: over the patch it has all of them, and a lean would count as slip.
+/// Whether the patch spins noticeably; returns how fast its farthest point might.  The faster, the less slip needs a
+/// direction from the phase: over the patch it has all of them, and a lean would count as slip.  A lean that ended at
+/// once would switch on and off where friction brings the spin back to that speed.
 double FrictionPhases::note_variation(FrictionPhase& phase, const ContactInstant& now) const {
   if (settings_.point_friction) return 0;
   const double spin_speed = std::fabs(system_.vertical_spin(now.state)) * system_.body().radius();
   phase.varies = spin_speed > least_spin * settings_.tolerance * scales_.speed;
-  phase.slow = spin_speed < slow_slip() ? slow_slip() : 0;
+  phase.slow = std::max(slow_slip() - spin_speed, 0.0);
   return spin_speed;
 }
 

@@ -37,7 +37,9 @@ bool is_ledger_open(const Scene& scene, const Simulation& run, const ImpactRecor
 /// Why the numbers of an impact are not known, one clause; empty: they are.  What follows such an impact is no better.
 std::string doubt(const Scene& scene, const Simulation& run, const ImpactRecord& row) {
   if (!row.predictable) {
-    return fmt::format("an error of the start has grown {} times by then", significant(row.amplification, 2));
+    return numeric::is_predictable(row.amplification)
+               ? "a second, finer run has other contacts, or does not get as far"
+               : fmt::format("an error of the start has grown {} times by then", significant(row.amplification, 2));
   }
   if (is_ledger_open(scene, run, row)) {
     return fmt::format("the ledger of energy stays open by {}", significant(std::fabs(row.ledger_gap), 1));

@@ -158,7 +158,12 @@ BOOST_AUTO_TEST_CASE(the_second_run_ends_where_it_goes_another_way_and_nothing_i
   other_end.end = ContactEnd::b;
   unknown.value.impulse.z() = std::numeric_limits<double>::quiet_NaN();
   BOOST_TEST(!goes_another_way(row, near));
-  for (const ImpactRecord& second : {far, other_end, unknown}) BOOST_TEST(goes_another_way(row, second));
+  ImpactRecord grazes = row, touches = row;
+  grazes.touches = touches.touches = row.touches + 1;
+  grazes.value.impulse.z() *= 1 + 9e-4;
+  touches.value.impulse.z() *= 1 + 2e-3;
+  BOOST_TEST((!goes_another_way(row, grazes) && has_the_same_contacts(row, grazes)));
+  for (const ImpactRecord& second : {far, other_end, touches, unknown}) BOOST_TEST(goes_another_way(row, second));
   std::vector<ImpactRecord> rows{row, row, row};
   estimate_errors(phone(), 1, rows, {near, far, near});
   BOOST_TEST((rows[0].predictable && rows[1].predictable && !rows[2].predictable));

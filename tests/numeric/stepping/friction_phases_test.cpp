@@ -179,3 +179,23 @@ BOOST_AUTO_TEST_CASE(the_regularised_law_slows_a_spinning_plate) {
   BOOST_TEST(spin > -10 * eps);  // it may come to rest, to rounding, and does not turn back
   BOOST_TEST(run.impacts[0].value.work_friction > 0);
 }
+
+/// Friction that brings slip and spin to rest together is stiff; a law that jumps there made steps a billionth as long.
+BOOST_AUTO_TEST_CASE(a_patch_that_hardly_slips_and_spins_takes_few_steps_at_any_tolerance) {
+  const Body body = box_body({0.25, 0.17, 0.008}, 0.48);
+  const World world{.ground = {.stiffness = 5.6e10, .damping = 1.65e10, .static_friction = 0.4, .sliding_friction = 0.4}};
+  const MotionState start =
+      touching_state(body, {.inclination = 85 * degree, .velocity = {0, 0, -4.852}, .out_of_plane_tilt = 2 * degree});
+  const auto run = [&](Method method, double tolerance) {
+    return simulate(body, world, start, plain, {.method = method, .tolerance = tolerance, .evaluation_limit = 100'000});
+  };
+  const Simulation best = run(Method::rk8pd, 1e-12);
+  BOOST_REQUIRE(best.impacts.size() == 1);
+  for (const double tolerance : {1e-8, 1e-10, 1e-12}) {
+    const Simulation other = run(Method::rkck, tolerance);
+    BOOST_REQUIRE(other.impacts.size() == 1);
+    const Vector3 off = other.impacts[0].value.impulse - best.impacts[0].value.impulse;
+    // Slow slip errs by the root of the tolerance.
+    BOOST_TEST(off.norm() <= 0.01 * std::sqrt(tolerance) * best.impacts[0].value.impulse.norm());
+  }
+}
