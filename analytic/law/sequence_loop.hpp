@@ -74,10 +74,11 @@ class SequenceLoop {
     return true;
   }
 
-  /// A bouncing in closed form fills the rows asked for first, as far as its speeds and times are numbers.
+  /// A bouncing in closed form fills the rows asked for first, as far as its speeds and times are numbers; none where
+  /// the end is asked for and no number of rows.
   [[nodiscard]] bool bounces_on(double separation_speed, double gravity) const {
     constexpr double least = std::numeric_limits<double>::min() / std::numeric_limits<double>::epsilon();
-    return !is_last_row() && separation_speed > least && separation_speed > least * gravity;
+    return !options_.until_rest && !is_last_row() && separation_speed > least && separation_speed > least * gravity;
   }
 
   /// Notes the loss of the next row's impact where it is below zero by more than `rounding` of the energy at the start,

@@ -12,8 +12,9 @@ struct SequenceOptions {
   /// Also follow how errors of the drop and of rounding grow: `error` and `amplification` of each row, and the errors
   /// of tail and total.
   bool amplification = true;
-  /// In space: goes on after corners have stayed on the ground while the body turns (space/sustained_contact.hpp), and
-  /// ends where the body has to settle on one face and no impact can be predicted any more.
+  /// The end is asked for and no number of rows: bouncing in closed form is summed up at once.  In space: goes on after
+  /// corners have stayed on the ground while the body turns (space/sustained_contact.hpp), and ends where the body has
+  /// to settle on one face and no impact can be predicted any more.
   bool until_rest = false;
 
   /// @throws std::domain_error naming the field, its value and what is allowed.

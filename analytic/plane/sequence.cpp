@@ -156,14 +156,15 @@ class Run : public SequenceLoop<Sequence, ErrorGrowth> {
   }
 
   void finish(Tail tail) {
+    const bool slides_on = slides(tail.after, tail.after_error.tangential);
     if (growth_) growth_->add_to(motion_, tail);
     const bool tips = tips_over(tail.vertices, tail.after);
-    end_in(tail, tail.after.angular != 0 || tips, slides(tail.after), tips ? over_the_edge : stays(tail.vertices));
+    end_in(tail, tail.after.angular != 0 || tips, slides_on, tips ? over_the_edge : stays(tail.vertices));
   }
 
-  /// Whether the body moves along the ground at the end, or begins to.
-  [[nodiscard]] bool slides(const PlanarVelocity& after) const {
-    return after.tangential != 0 || slides_down(law_, gravity_, gravity_along_);
+  /// Whether the body moves along the ground at the end, as far as an extrapolation can tell, or begins to.
+  [[nodiscard]] bool slides(const PlanarVelocity& after, double error = 0) const {
+    return std::fabs(after.tangential) > error || slides_down(law_, gravity_, gravity_along_);
   }
 
   /// Whether a face that has come to rest on sloping ground turns over its lower edge.

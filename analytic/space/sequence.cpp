@@ -322,9 +322,9 @@ class Run : public SequenceLoop<Sequence, ErrorGrowth> {
     return true;
   }
 
-  /// Whether the body moves along the ground, or begins to where that slopes.
-  [[nodiscard]] bool slides(const State& end) const {
-    return end.velocity.head<2>() != Vector2::Zero() || slides_down(drop_.law.law, drop_.gravity, drop_.gravity_along);
+  /// Whether the body moves along the ground, as far as an extrapolation can tell, or begins to where that slopes.
+  [[nodiscard]] bool slides(const State& end, double error = 0) const {
+    return end.velocity.head<2>().norm() > error || slides_down(drop_.law.law, drop_.gravity, drop_.gravity_along);
   }
 
   /// Whether a face that settles() does not hold on sloping ground may turn over one of its edges.
@@ -345,6 +345,7 @@ class Run : public SequenceLoop<Sequence, ErrorGrowth> {
 
   void finish(Tail tail) {
     const State end = end_of(tail);
+    const bool slides_on = slides(end, tail.tangential_impulse_error / body_.mass);
     tail.energy_loss = energy(state_) - energy(end);
     result_.rest = settles(drop_, end, tail.end_time);
     if (!growth_) tail.forget();
@@ -357,7 +358,7 @@ class Run : public SequenceLoop<Sequence, ErrorGrowth> {
     state_ = end;
     time_ = tail.end_time;
     if (turns) result_.standing = Standing{time_, state_, errors_after(tail), tail.corners};
-    end_in(std::move(tail), turns, slides(end) || spins, stays, comes_down ? ", then the body settles on a face" : "");
+    end_in(std::move(tail), turns, slides_on || spins, stays, comes_down ? ", then the body settles on a face" : "");
   }
 
   /// Of the attitude in which hops end, from the second order of the turn meanwhile and the error of its time.

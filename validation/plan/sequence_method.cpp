@@ -16,7 +16,8 @@ namespace {
 // grow and takes any body; only Eq. 9 by itself is cheaper.
 analytic::Sequence planar_sequence(const Scene& scene, const analytic::Drop& drop, SequenceMethod method) {
   if (method != SequenceMethod::closed_form) {
-    return impact_sequence(drop, {.impacts = scene.most_impacts(), .digits = scene.accuracy.digits});
+    return impact_sequence(
+        drop, {.impacts = scene.most_impacts(), .digits = scene.accuracy.digits, .until_rest = scene.until_rest});
   }
   const std::string reason = reason_against_closed_form(drop);
   if (!reason.empty()) throw BadInput("--method closed-form: does not apply: " + reason);

@@ -159,7 +159,7 @@ double relative_error(const analytic::Sequence& sequence) {
   if (!sequence.tail) return worst;
   const analytic::Tail& tail = *sequence.tail;
   if (tail.end_time > 0) worst = std::max(worst, tail.end_time_error / tail.end_time);
-  if (tail.normal_impulse > 0) worst = std::max(worst, tail.normal_impulse_error / tail.normal_impulse);
+  if (tail.normal_impulse > 0) worst = std::max(worst, tail.normal_impulse_error / sequence.total_normal_impulse);
   return worst;
 }
 
