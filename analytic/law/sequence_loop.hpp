@@ -85,7 +85,7 @@ class SequenceLoop {
   /// which is of order 1 at the first impact.
   void note_energy(double loss, double rounding) {
     const double start = result_.rows.empty() ? 1 : result_.rows.front().energy_before;
-    if (loss >= -rounding * start) return;
+    if (!(loss < -rounding * start)) return;
     created_.sum -= loss;
     if (created_.first == 0) created_.first = result_.rows.size() + 1;
   }

@@ -156,7 +156,8 @@ std::string block_text(const TableColumns& columns, std::size_t rows) {
     headings.push_back(column.heading);
     units.push_back(column.unit);
   }
-  std::string out = row_text(columns, headings) + row_text(columns, units) + std::string(gap, ' ');
+  const bool has_units = std::ranges::any_of(units, [](const std::string& unit) { return !unit.empty(); });
+  std::string out = row_text(columns, headings) + (has_units ? row_text(columns, units) : "") + std::string(gap, ' ');
   for (std::size_t i = gap; i < total_width(columns); ++i) out += "─";
   out += "\n";
   for (std::size_t row = 0; row < rows; ++row) {
@@ -247,8 +248,9 @@ std::string markdown(const Report& report) {
   const Grid& grid = report.table();
   const std::vector<std::size_t> columns = shown_columns(grid);
   const Texts texts = shown_texts(grid, columns);
+  constexpr const char* end_of_line = "  \n";  // without the blanks lines would flow into one paragraph
   std::string out;
-  for (const auto& line : head_lines(report)) out += line + "\n";
+  for (const auto& line : head_lines(report)) out += line + end_of_line;
   out += "\n|";
   for (std::size_t i = 0; i < texts[0].size(); ++i) {
     out += " " + texts[0][i] + (texts[1][i].empty() ? "" : " [" + texts[1][i] + "]") + " |";
@@ -262,8 +264,14 @@ std::string markdown(const Report& report) {
     out += "\n";
   }
   out += "\n";
-  for (const auto& line : notes_and_commands(report)) out += line + "\n";
+  for (const auto& line : notes_and_commands(report)) out += line + end_of_line;
   return out;
+}
+
+/// A number below zero begins with a minus sign, not with a hyphen.
+std::string latex_cell(const std::string& text) {
+  const bool is_negative = text.size() > 1 && text[0] == '-' && text[1] >= '0' && text[1] <= '9';
+  return is_negative ? "$-$" + to_latex(text.substr(1)) : to_latex(text);
 }
 
 std::string latex(const Report& report) {
@@ -275,7 +283,7 @@ std::string latex(const Report& report) {
   for (const std::size_t column : shown_columns(grid)) out += grid.columns[column].words ? 'l' : 'r';
   out += "}\n\\hline\n";
   for (std::size_t row = 0; row < texts.size(); ++row) {
-    for (std::size_t i = 0; i < texts[row].size(); ++i) out += (i ? " & " : "") + to_latex(texts[row][i]);
+    for (std::size_t i = 0; i < texts[row].size(); ++i) out += (i ? " & " : "") + latex_cell(texts[row][i]);
     out += row == 1 ? " \\\\\n\\hline\n" : " \\\\\n";
   }
   out += "\\hline\n\\end{tabular}\n";

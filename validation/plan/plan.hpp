@@ -61,10 +61,10 @@ struct Plan {
   double error_constant = 0;  ///< error over tolerance of rkck, from the pilot runs
   std::vector<WeighedLevel> levels;
   std::vector<WeighedPart> parts;
-  long planning_evaluations = 0;  ///< of all runs of the planning
-  std::string pilot_ending;       ///< how the finest pilot run ended
+  long planning_evaluations = 0;     ///< of all runs of the planning
+  std::string pilot_ending;          ///< how the finest pilot run ended
   std::vector<SceneOverride> given;  ///< flags that changed the scene, for command_line()
-  bool cut_short = false;         ///< because a number could not be computed or a limit was reached
+  bool cut_short = false;            ///< because a number could not be computed or a limit was reached
 };
 
 /// Plans the scene.

@@ -129,7 +129,8 @@ void append_motion(std::vector<Key>& keys) {
            "or all of it: at the first touch, world components",
            three_velocities<&Scene::angular_velocity>("[0, 0, 0]"), nullptr, false, turn_of_plane},
           {"drop.topple", Use::both, "--topple", "M", "m",
-           "or let go from rest on the lower edge of end b, that of end a raised by this: it turns about the edge; angle 0",
+           "or let go from rest on the lower edge of end b, that of end a raised by this: it turns about the edge and "
+           "lands flat",
            OptionalNumber{[](Scene& s) -> std::optional<double>& { return s.topple; }, heights, &positive_number},
            nullptr, false, all_of_motion},
           {"world.gravity", Use::both, "--gravity", "M/S2", "m/s²",
@@ -171,7 +172,8 @@ void append_shape(std::vector<Key>& keys) {
   keys.insert(
       keys.end(),
       {
-          {"body.shape", Use::both, "--body", "rod|box|mesh|sphere|ellipsoid|capsule", "", "shape of what falls",
+          {"body.shape", Use::both, "--body", "rod|box|mesh|sphere|ellipsoid|capsule", "",
+           "shape of what falls; a rod with a radius is a cylinder",
            NameValue{&shape_names(), [](const Scene& s) { return index_of(s.body.shape); },
                      [](Scene& s, std::size_t i) { s.body.shape = static_cast<BodyScene::Shape>(i); }}},
           {"body.mass", Use::both, "--mass", "KG", "kg", "mass",
@@ -296,7 +298,8 @@ void append_run(std::vector<Key>& keys) {
           {"run.impacts", Use::both, "--impacts", "N", "", "most impacts to report",
            WholeNumber{[](Scene& s) -> int& { return s.request.impacts; }, 1, 1'000'000}},
           {"run.until_rest", Use::discrete, "--until-rest", "", "",
-           "discrete model: go on until the body rests, no impact follows or, in the plane, an end stays on the ground, "
+           "discrete model: go on until the body rests, no impact follows or, in the plane, an end stays on the "
+           "ground, "
            "for 100000 impacts at most; exit status 3 if that is not enough",
            TruthValue{[](Scene& s) -> bool& { return s.until_rest; }},
            [](const Scene& s, Model) { return s.until_rest ? Echo::value : Echo::absent; }},

@@ -82,6 +82,10 @@ void check_body(const SceneValues& values, BodyScene& body) {
 void check_ground(const SceneValues& values, numeric::Ground& ground, Model model) {
   if (model == Model::continuous)
     values.require("ground.stiffness", "k_G in N/m3, such as 1e11; clatter ground finds that of a floor");
+  if (!values.has("ground.stiffness")) {
+    only_for(values, {"ground.damping", "ground.static_friction", "ground.sliding_friction"},
+             "a ground with a stiffness");
+  }
   // One coefficient given is both.
   if (!values.has("ground.sliding_friction")) ground.sliding_friction = ground.static_friction;
   if (!values.has("ground.static_friction")) ground.static_friction = ground.sliding_friction;
@@ -125,7 +129,7 @@ void check_drop(const SceneValues& values, Scene& scene) {
   scene.settle();
   if (!scene.attitude.empty()) {
     if (!is_attitude(scene.attitude)) values.refuse("drop.attitude", key_named("drop.attitude").allowed());
-  } else if (!swept && scene.body.shape != BodyScene::Shape::sphere) {
+  } else if (!swept && !scene.topple && scene.body.shape != BodyScene::Shape::sphere) {
     values.require("drop.angle_deg", "the inclination at the first impact, or drop.attitude");
   }
   for (const auto& [key, is_given] :

@@ -120,12 +120,18 @@ std::string clearance_words(const Scene& scene) {
   return fmt::format("from a clearance of {} m", shortest(*scene.clearance));
 }
 
-/// How the body comes to the ground in the plane: zeros, too, and the speed of a fall, which is computed.
-std::string planar_drop_words(const Scene& scene, const KeyNames& unsettled) {
+std::string tilt_words(const Scene& scene) {
+  return scene.tilt_deg != 0 ? fmt::format("tilted by {}°", shortest(scene.tilt_deg)) : "";
+}
+
+/// How the body comes to the ground, without vectors: zeros, too, and the speed of a fall, which is computed.
+std::string plain_drop_words(const Scene& scene, const KeyNames& unsettled) {
   const double fallen = scene.clearance ? -scene.touch_velocity().z() : scene.speed;
   const std::string speed = scene.falls() ? significant(fallen, 6) : shortest(scene.speed);
-  const std::string angle =
-      Phrases(unsettled).add(fmt::format("{}°", shortest(scene.angle_deg)), {"drop.angle_deg"}).text();
+  const std::string angle = Phrases(unsettled)
+                                .add(fmt::format("{}°", shortest(scene.angle_deg)), {"drop.angle_deg"})
+                                .add(tilt_words(scene), {"drop.tilt_deg"})
+                                .text();
   const std::string fall = Phrases(unsettled)
                                .add(fmt::format("at {} m/s", speed), {"drop.speed", "drop.height", "drop.clearance",
                                                                       scene.falls() ? "world.gravity" : "drop.speed"})
@@ -152,7 +158,7 @@ void add_gravity(const Scene& scene, Phrases& words) {
 
 std::vector<std::string> discrete_summary(const Scene& scene, const KeyNames& unsettled) {
   Phrases drop(unsettled);
-  drop.add(scene.has_vectors() ? scene.drop_words(unsettled) : planar_drop_words(scene, unsettled));
+  drop.add(scene.has_vectors() ? scene.drop_words(unsettled) : plain_drop_words(scene, unsettled));
   add_gravity(scene, drop);
   return {shape_words(scene.body, Model::discrete, unsettled), "drop: " + drop.text()};
 }
@@ -170,7 +176,7 @@ std::string Scene::drop_words(const KeyNames& unsettled) const {
   if (!attitude.empty()) turn = "attitude " + in_brackets(attitude);
   Phrases turns(unsettled), way(unsettled), words(unsettled);
   turns.add(turn, {"drop.angle_deg", "drop.attitude", "drop.orientation"});
-  if (tilt_deg != 0) turns.add(fmt::format("tilted by {}°", shortest(tilt_deg)), {"drop.tilt_deg"});
+  turns.add(tilt_words(*this), {"drop.tilt_deg"});
   if (topple) way.add(fmt::format("toppled from {} m", shortest(*topple)), {"drop.topple"});
   else if (height) way.add(fmt::format("from {} m", shortest(*height)), {"drop.height"});
   else if (clearance) way.add(clearance_words(*this), {"drop.clearance"});

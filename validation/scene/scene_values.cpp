@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <sstream>
 
 #include "validation/output/bad_input.hpp"
@@ -47,13 +49,10 @@ toml::table parse(const std::string& path) {
     throw BadInput(fmt::format("{}: {}", path, std::filesystem::exists(path, error) ? "not a file" : "cannot be read"));
   }
   note_read(path);
-  try {
-    return toml::parse_file(path);
-  } catch (const toml::parse_error& error) {
-    const toml::source_region& region = error.source();
-    if (region.begin.line == 0) throw BadInput(fmt::format("{}: cannot be read", path));
-    throw BadInput(fmt::format("{}: {}", position(path, region), words_of(error)));
-  }
+  std::ifstream file(path, std::ios::binary);
+  const std::string text{std::istreambuf_iterator<char>(file), {}};  // of a pipe, too, which has no length
+  if (!file.is_open() || file.bad()) throw BadInput(fmt::format("{}: cannot be read", path));
+  return parse(path, text);
 }
 
 }  // namespace

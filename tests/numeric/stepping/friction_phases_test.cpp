@@ -183,7 +183,8 @@ BOOST_AUTO_TEST_CASE(the_regularised_law_slows_a_spinning_plate) {
 /// Friction that brings slip and spin to rest together is stiff; a law that jumps there made steps a billionth as long.
 BOOST_AUTO_TEST_CASE(a_patch_that_hardly_slips_and_spins_takes_few_steps_at_any_tolerance) {
   const Body body = box_body({0.25, 0.17, 0.008}, 0.48);
-  const World world{.ground = {.stiffness = 5.6e10, .damping = 1.65e10, .static_friction = 0.4, .sliding_friction = 0.4}};
+  const World world{
+      .ground = {.stiffness = 5.6e10, .damping = 1.65e10, .static_friction = 0.4, .sliding_friction = 0.4}};
   const MotionState start =
       touching_state(body, {.inclination = 85 * degree, .velocity = {0, 0, -4.852}, .out_of_plane_tilt = 2 * degree});
   const auto run = [&](Method method, double tolerance) {

@@ -234,7 +234,8 @@ BOOST_AUTO_TEST_CASE(command_line_of_a_plan_repeats_the_flags_that_it_leaves_as_
                  .starts_with("clatter simulate rod-45 --angle 40 --digits 3 --no-contact-gravity --method "));
   given.push_back({"ground.stiffness", "--stiffness", "1e9"});
   const std::string flags_alone = line_of(read_scene("", given), given, 3);
-  BOOST_TEST(flags_alone.starts_with("clatter simulate --angle 40 --digits 3 --no-contact-gravity --stiffness 1e9 --method "));
+  BOOST_TEST(
+      flags_alone.starts_with("clatter simulate --angle 40 --digits 3 --no-contact-gravity --stiffness 1e9 --method "));
   BOOST_TEST(flags_alone.find("--tolerance 1e-3") == std::string::npos);
 }
 
