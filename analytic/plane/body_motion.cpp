@@ -21,6 +21,9 @@ PlanarBody turned_by_a_quarter(PlanarBody body) {
   return body;
 }
 
+/// Of the faster end's approach speed: a face's end that comes down more slowly is the edge that the body turned about.
+constexpr double pivot_part = 1e-11;
+
 VertexSet only(int vertex) { return static_cast<VertexSet>(1u << vertex); }
 
 /// The two vertices of a set that are farthest apart along the ground.
@@ -132,10 +135,13 @@ BodyMotion::Strike BodyMotion::strike(VertexSet vertices, const ImpactLaw& law) 
       scale_ = {.normal = std::fabs(before.normal),
                 .tangential = std::fabs(before.tangential) + std::fabs(impact->slip_after)};
       touching_ = vertices;
-      reference_ = first;
       slip_ = impact->slip_after;
       const double e = law.law == RestitutionLaw::viscoelastic ? impact->restitution() : law.restitution;
-      rebound_speed_ = -e * normal_velocity(before, contact_point(first));
+      const double of_first = -normal_velocity(before, contact_point(first)),
+                   of_second = -normal_velocity(before, contact_point(second));
+      const bool pivots = gravity_ > 0 && std::fmin(of_first, of_second) <= pivot_part * std::fmax(of_first, of_second);
+      reference_ = pivots && of_second < of_first ? second : first;
+      rebound_speed_ = pivots ? 0 : e * of_first;
       return {*impact, vertices};
     }
     const bool first_faster =

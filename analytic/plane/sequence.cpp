@@ -184,7 +184,8 @@ class Run : public SequenceLoop<Sequence, ErrorGrowth> {
   void stay(VertexSet touching) {
     const PlanarVelocity after = motion_.velocity();
     const bool tips = tips_over(result_.rows.back().vertices, after);
-    rest(after.angular != 0 || tips, slides(after), "no rebound (e = 0)", tips ? over_the_edge : stays(touching));
+    rest(after.angular != 0 || tips, slides(after), law_.restitution == 0 ? "no rebound (e = 0)" : "no rebound there",
+         tips ? over_the_edge : stays(touching));
   }
 
   void end_without_contact(const Flight& flight) {

@@ -53,13 +53,15 @@ std::string probe_words(const ReportInput& input) {
 /// The sweep of a box's attitudes by the same scene, to digits enough for a statistic; flags of the drop's own attitude
 /// stay out.
 SweepRequest sweep_of(const ReportInput& input, const Attitudes& attitudes) {
+  const bool discrete = model_of(input) == Model::discrete;
   SweepRequest request{.file = input.scene.source,
                        .text = {},
                        .sets = {"drop.attitude=26", "run.digits=3"},
+                       .probes = discrete ? input.probes : std::vector<std::string>{},
                        .random = std::to_string(attitudes.drops),
                        .seed = {},
                        .scatter = attitudes.scatter,
-                       .model = model_of(input) == Model::continuous ? "continuous" : "discrete",
+                       .model = discrete ? "discrete" : "continuous",
                        .rows = {},
                        .columns = {},
                        .no_errors = true,
@@ -76,6 +78,7 @@ SweepRequest sweep_of(const ReportInput& input, const Attitudes& attitudes) {
 std::string sweep_command_of(const SweepRequest& request) {
   std::string words = "clatter sweep " + shell_word(request.file) + " --model " + *request.model;
   for (const std::string& set : request.sets) words += " --set " + shell_word(set);
+  for (const std::string& probe : request.probes) words += " --probe " + shell_word(probe);
   return words + fmt::format(" --random {} --scatter {} --no-errors --summary", *request.random, *request.scatter);
 }
 
@@ -98,9 +101,10 @@ std::string worst_html(const ReportInput& input, const Attitudes& attitudes, con
   summary.fill(
       report, [&](long long index) { return plan.command_of(index); },
       [&](long long place) { return plan.attitude_name(place); });
-  // Of the commands that show extremes that of the hardest blow; without a file none could name the scene.
+  // Of the commands that show extremes those of the hardest blows; without a file none could name the scene.
   std::erase_if(report.commands, [&](const NamedCommand& one) {
-    return request.file.empty() || one.what != "largest hardest_impulse_normal";
+    const bool of_probe = one.what.starts_with("largest delta_v_") && !one.what.ends_with("_impact");
+    return request.file.empty() || (one.what != "largest hardest_impulse_normal" && !of_probe);
   });
   if (!request.file.empty()) commands.push_back(sweep_command_of(request));
   return fmt::format(

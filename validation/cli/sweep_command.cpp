@@ -181,6 +181,9 @@ class SweepOutput {
       if (!holds_texts(rows.grid, asked.column.name) && view.quantities.size() < most_panels)
         view.quantities.push_back(asked.column.name);
     }
+    for (const Probe& probe : plan_.layout.probes) {
+      if (view.quantities.size() < most_panels) view.quantities.push_back("delta_v_" + probe.name);
+    }
     if (view.quantities.empty()) view.quantities = {"impacts", "total_normal_impulse", "energy_loss"};
     plot_.write(sweep_rows_picture(rows, view), {rows.title});
   }
@@ -307,6 +310,12 @@ Command sweep_command() {
   command.add_text(
       "--columns", request.columns, "NAME,...",
       "more columns of rows of scenes: QUANTITY_N of impact N, QUANTITY of each, hardest, hardest_QUANTITY");
+  command.add({.name = "--probe",
+               .target = &request.probes,
+               .type = "NAME:X,Y,Z",
+               .help = "discrete model: columns for the largest change of velocity of this point of the body [m], and "
+                       "its impact; may be repeated (else [[probe]] in the scene file)",
+               .repeats = true});
   command.add_text("--output", input->output, "FILE",
                    "write there; until it is complete the rows are in FILE.part; FILE.h5 is HDF5, columns with units");
   command.add_flag("--summary", request.summary,

@@ -244,14 +244,20 @@ Report shown_report(const Report& report, const std::function<std::string(const 
   return shown;
 }
 
+/// Each ends with two blanks, without which they would flow into one paragraph, unless they have paragraphs of their
+/// own.
+std::string markdown_lines(const std::vector<std::string>& lines) {
+  const bool has_paragraphs = std::ranges::any_of(lines, [](const std::string& line) { return line.empty(); });
+  std::string out;
+  for (const auto& line : lines) out += line + (has_paragraphs ? "\n" : "  \n");
+  return out;
+}
+
 std::string markdown(const Report& report) {
   const Grid& grid = report.table();
   const std::vector<std::size_t> columns = shown_columns(grid);
   const Texts texts = shown_texts(grid, columns);
-  constexpr const char* end_of_line = "  \n";  // without the blanks lines would flow into one paragraph
-  std::string out;
-  for (const auto& line : head_lines(report)) out += line + end_of_line;
-  out += "\n|";
+  std::string out = markdown_lines(head_lines(report)) + "\n|";
   for (std::size_t i = 0; i < texts[0].size(); ++i) {
     out += " " + texts[0][i] + (texts[1][i].empty() ? "" : " [" + texts[1][i] + "]") + " |";
   }
@@ -264,8 +270,7 @@ std::string markdown(const Report& report) {
     out += "\n";
   }
   out += "\n";
-  for (const auto& line : notes_and_commands(report)) out += line + end_of_line;
-  return out;
+  return out + markdown_lines(notes_and_commands(report));
 }
 
 /// A number below zero begins with a minus sign, not with a hyphen.

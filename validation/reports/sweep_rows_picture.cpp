@@ -6,6 +6,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <iterator>
 #include <numbers>
 #include <optional>
@@ -59,8 +60,28 @@ std::size_t place_of(const Grid& grid, const std::string& name) {
   throw BadInput(fmt::format("--plot: the rows have no column {}", name));
 }
 
+bool are_whole(const std::vector<double>& values) {
+  return std::all_of(values.begin(), values.end(), [](double v) { return v == std::floor(v); });
+}
+
+/// Classes of equal width, the first from `low` on.
+struct Classes {
+  double low = 0, width = 1;
+  std::size_t count = 1;
+};
+
+/// 40, but one about each whole number where these are fewer, and a single one for a single value.
+Classes classes_of(const std::vector<double>& values) {
+  constexpr double most = 40;
+  const auto [least, greatest] = std::minmax_element(values.begin(), values.end());
+  const double range = *greatest - *least;
+  if (are_whole(values) && range < most) return {*least - 0.5, 1, static_cast<std::size_t>(range) + 1};
+  if (range > 0) return {*least, range / most, static_cast<std::size_t>(most)};
+  const double width = std::fabs(*least) / most;
+  return {*least - width / 2, width, 1};
+}
+
 PicturePanel histogram(const Column& column, std::vector<double> values) {
-  constexpr int classes = 40;
   std::erase_if(values, [](double value) { return !std::isfinite(value); });
   PicturePanel panel{
       .columns = {{"value", column.unit.empty() ? "1" : column.unit, column.name},
@@ -74,16 +95,15 @@ PicturePanel histogram(const Column& column, std::vector<double> values) {
           .curves = {{.x = "value", .y = "scenes", .legend = "", .style = FigureCurve::Style::area, .y_low = "zero"}},
           .y = {0, no_number}}};
   if (values.empty()) return panel;
-  const auto [least, greatest] = std::minmax_element(values.begin(), values.end());
-  const double low = *least, width = *greatest > low ? (*greatest - low) / classes : 1;
-  std::vector<double> counts(classes, 0);
+  const Classes classes = classes_of(values);
+  std::vector<double> counts(classes.count, 0);
   for (const double value : values) {
-    ++counts[std::min<std::size_t>(static_cast<std::size_t>((value - low) / width), classes - 1)];
+    ++counts[std::min(static_cast<std::size_t>((value - classes.low) / classes.width), classes.count - 1)];
   }
   for (std::size_t k = 0; k < counts.size(); ++k) {
-    const double from = low + static_cast<double>(k) * width;
+    const double from = classes.low + static_cast<double>(k) * classes.width;
     panel.rows.push_back({from, 0, counts[k]});
-    panel.rows.push_back({from + width, 0, counts[k]});
+    panel.rows.push_back({from + classes.width, 0, counts[k]});
   }
   return panel;
 }
@@ -92,7 +112,7 @@ PicturePanel histogram(const Column& column, std::vector<double> values) {
 void count_on_y(std::vector<double> values, FigurePlot& plot) {
   constexpr double most = 12;
   std::erase_if(values, [](double value) { return !std::isfinite(value); });
-  if (values.empty() || std::any_of(values.begin(), values.end(), [](double v) { return v != std::floor(v); })) return;
+  if (values.empty() || !are_whole(values)) return;
   const auto [least, greatest] = std::minmax_element(values.begin(), values.end());
   if (*greatest - *least > most) return;
   plot.y = {std::min(*least, std::max(0.0, *least - 1)), *greatest + 1};
@@ -142,8 +162,9 @@ std::pair<double, double> mapped(const numeric::Vector3& direction) {
   return {2 * std::numbers::sqrt2 / pi * longitude * std::cos(low), std::numbers::sqrt2 * std::sin(low)};
 }
 
-/// With as many digits, three to six, as tell the two apart.
+/// With as many digits, three to six, as tell the two apart; whole numbers without a fraction.
 std::string range_words(double low, double high) {
+  if (are_whole({low, high})) return low == high ? shortest(low) : shortest(low) + " to " + shortest(high);
   int digits = 3;
   while (digits < 6 && significant(low, digits) == significant(high, digits)) ++digits;
   const std::string first = significant(low, digits), last = significant(high, digits);
@@ -204,6 +225,17 @@ PicturePanel sphere(const Grid& grid, std::size_t attitude, std::size_t quantity
   return panel;
 }
 
+/// The first of the quantities that is not the same in all rows, or else the first.
+std::size_t varied_quantity(const Grid& grid, const std::vector<std::string>& names) {
+  for (const std::string& name : names) {
+    std::vector<double> values = numbers_of(grid, place_of(grid, name));
+    std::erase_if(values, [](double value) { return !std::isfinite(value); });
+    if (std::adjacent_find(values.begin(), values.end(), std::not_equal_to<>()) != values.end())
+      return place_of(grid, name);
+  }
+  return place_of(grid, names.front());
+}
+
 /// The rows as few curves, over the last key if that leaves few; none: they are no curves.
 std::optional<SweptAxes> axes_of(const Grid& grid, const SweepRowsView& view) {
   if (view.random || view.swept == 0 || view.swept > 2) return {};
@@ -243,7 +275,7 @@ Picture sweep_rows_picture(const Report& report, const SweepRowsView& view) {
   const std::optional<SweptAxes> swept = axes_of(report.grid, view);
   for (std::size_t i = 0; i < report.grid.columns.size() && !view.quantities.empty(); ++i) {
     if (report.grid.columns[i].name == "drop.attitude_q0")
-      picture.panels.push_back(sphere(report.grid, i, place_of(report.grid, view.quantities.front())));
+      picture.panels.push_back(sphere(report.grid, i, varied_quantity(report.grid, view.quantities)));
   }
   for (const std::string& name : view.quantities) {
     const std::size_t quantity = place_of(report.grid, name);

@@ -18,7 +18,7 @@ struct Probe {
   numeric::Vector3 place = numeric::Vector3::Zero();  ///< body frame, as BodyProperties has it [m]
 };
 
-/// Those of a file, which other commands than `shock` leave alone:
+/// Those of a file, which other commands than `shock`, `report` and `sweep` leave alone:
 ///     [[probe]]
 ///     name = "camera"              letters, digits, "_", "-" and ".", at most 40; no two alike
 ///     place = [0.05, 0.02, 0.009]  body frame, from the geometric centre; a mesh: in its file's frame [m]

@@ -73,13 +73,13 @@ Strike strike_of(const space::ImpactRow& row, const space::Body& body) {
           .predictable = row.error.predictable};
 }
 
-std::vector<Strike> strikes_of(const PreparedScene& prepared, const DiscreteRun& found) {
+std::vector<Strike> strikes_of(const DiscreteDrop& drop, const DiscreteSequence& sequence) {
   std::vector<Strike> strikes;
-  if (const auto* const plane = std::get_if<analytic::Sequence>(&found.sequence)) {
-    for (const auto& row : plane->rows) strikes.push_back(strike_of(row, std::get<analytic::Drop>(prepared.drop).body));
+  if (const auto* const plane = std::get_if<analytic::Sequence>(&sequence)) {
+    for (const auto& row : plane->rows) strikes.push_back(strike_of(row, std::get<analytic::Drop>(drop).body));
   } else {
-    const auto& rows = std::get<space::Sequence>(found.sequence).rows;
-    for (const auto& row : rows) strikes.push_back(strike_of(row, std::get<space::Drop>(prepared.drop).body));
+    const auto& rows = std::get<space::Sequence>(sequence).rows;
+    for (const auto& row : rows) strikes.push_back(strike_of(row, std::get<space::Drop>(drop).body));
   }
   return strikes;
 }
@@ -110,11 +110,11 @@ ShockRow row_of(const Strike& strike, const Vector3& r) {
 
 }  // namespace
 
-std::vector<ShockRow> discrete_shock(const PreparedScene& prepared, const DiscreteRun& found,
+std::vector<ShockRow> discrete_shock(const DiscreteDrop& drop, const DiscreteSequence& sequence,
                                      const std::vector<Vector3>& places) {
   std::vector<ShockRow> rows;
   int impact = 0;
-  for (const Strike& strike : strikes_of(prepared, found)) {
+  for (const Strike& strike : strikes_of(drop, sequence)) {
     ++impact;
     for (std::size_t i = 0; i < places.size(); ++i) {
       rows.push_back(row_of(strike, places[i]));

@@ -14,7 +14,7 @@ namespace clatter::validation::inline shock {
 ///     |δΔω| <= K |δP| + 2 |Δω| |δφ|,   K the largest |I⁻¹ (r_c × p)| of unit impulses p at what strikes.
 /// A sequence's infinitely many impacts after its last row are left out.
 /// @param places  of the probes, from the centre of mass, body frame [m]
-[[nodiscard]] std::vector<ShockRow> discrete_shock(const PreparedScene& prepared, const DiscreteRun& found,
+[[nodiscard]] std::vector<ShockRow> discrete_shock(const DiscreteDrop& drop, const DiscreteSequence& sequence,
                                                    const std::vector<Vector3>& places);
 
 }  // namespace clatter::validation::inline shock

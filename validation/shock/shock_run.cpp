@@ -120,7 +120,7 @@ std::string run_discrete_side(const Scene& scene, const std::vector<Probe>& prob
   const auto failure = failure_of_scene([&] {
     const PreparedScene drop = prepared(scene);
     const DiscreteRun found = run_discrete(drop, SequenceMethod::automatic);
-    rows = discrete_shock(drop, found, places_of(scene, probes, Model::discrete));
+    rows = discrete_shock(drop.drop, found.sequence, places_of(scene, probes, Model::discrete));
     if (run) *run = found.run;
   });
   return failure ? failure->message : "";
@@ -172,7 +172,7 @@ ShockRun run_shock(const Scene& scene, const std::vector<Probe>& probes, const S
   } else {
     const PreparedScene drop = prepared(scene);
     const DiscreteRun found = run_discrete(drop, SequenceMethod::automatic);
-    run.discrete = discrete_shock(drop, found, places_of(scene, probes, Model::discrete));
+    run.discrete = discrete_shock(drop.drop, found.sequence, places_of(scene, probes, Model::discrete));
     run.discrete_run = found.run;
   }
   for (std::size_t i = 0; i < probes.size(); ++i) {

@@ -81,6 +81,11 @@ std::vector<Column> scene_columns(const RowLayout& layout) {
     if (has_error(*asked.quantity, layout)) add(asked.column);
     else columns.push_back(asked.column);
   }
+  for (const Probe& probe : layout.probes) {
+    const std::string name = "delta_v_" + probe.name;
+    add({name, name, "m/s", "largest change of velocity of the point " + probe.name + " over an impact"});
+    columns.push_back({name + "_impact", name + "_impact", "", "number of that impact"});
+  }
   columns.insert(columns.end(), errors.begin(), errors.end());
   return columns;
 }
@@ -245,11 +250,19 @@ void append_scene_row(const RowForm& form, const Run& run) {
   if (form.predictions) form.out.truth(sums.predictable);
   else form.out.nothing();
   append_asked(form, run, false);
+  for (const LargestShock& shock : form.shocks) {
+    form.out.number(shock.delta_v.value);
+    form.out.whole(shock.impact);
+  }
   for_each_number(model, [&](const SceneNumber& n) {
     if (form.errors) form.out.error((sums.*n.sum).error);
     else form.out.nothing();
   });
   append_asked(form, run, true);
+  for (const LargestShock& shock : form.shocks) {
+    if (form.errors) form.out.error(shock.delta_v.error);
+    else form.out.nothing();
+  }
   form.out.word(form.reason);
   form.out.end_row();
 }

@@ -9,6 +9,7 @@
 #include "validation/output/cells.hpp"
 #include "validation/output/report.hpp"
 #include "validation/record/impact_quantities.hpp"
+#include "validation/scene/probes.hpp"
 #include "validation/scene/scene.hpp"
 #include "validation/scene/shortfall.hpp"
 
@@ -31,6 +32,7 @@ struct RowLayout {
   bool in_space = false;  ///< whether a scene may leave its plane
   std::vector<std::string> swept{};
   std::vector<ImpactColumn> asked{};  ///< with rows of scenes
+  std::vector<Probe> probes{};        ///< likewise, of the discrete model
 
   /// Whether rows have this number of impacts.
   [[nodiscard]] bool has(std::string_view quantity) const;
@@ -45,8 +47,9 @@ struct RowLayout {
 
 /// Index and swept keys, then per scene
 ///     impacts, outcome, total_normal_impulse [N·s], first_peak_force, largest_peak_force [N] (continuous model),
-///     energy_loss [J] and last_start [s] over the impacts listed, predictable, the columns asked for, the error of
-///     each of these numbers, reason;
+///     energy_loss [J] and last_start [s] over the impacts listed, predictable, the columns asked for, of each probe
+///     the largest change of its velocity over an impact [m/s] and which impact that is, the error of each of these
+///     numbers, reason;
 /// or per impact what `clatter sequence` and `clatter simulate` write as CSV, the scene's outcome and reason; where
 /// scenes may leave their plane, what `clatter sequence` writes in space.
 /// The reason says why a scene has no numbers, fewer impacts than asked for or fewer digits than required; else it is
@@ -56,6 +59,12 @@ struct RowLayout {
 /// What all rows of a scene begin with.
 [[nodiscard]] std::string row_prefix(long long index, const std::vector<double>& values, bool packed);
 
+/// The largest |ΔV| of a point of the body over an impact.
+struct LargestShock {
+  Estimated delta_v;  ///< [m/s]
+  int impact = 0;     ///< its number, from 1
+};
+
 /// Where the rows of one scene go, and what they hold besides its numbers.
 struct RowForm {
   CellWriter& out;
@@ -64,6 +73,7 @@ struct RowForm {
   bool errors = true;       ///< whether errors were asked for
   bool predictions = true;  ///< whether their growth was
   std::string reason;
+  std::vector<LargestShock> shocks{};  ///< of the layout's probes
 };
 /// Appends the rows of one scene.
 void append_rows(const RowForm& form, const Run& run);

@@ -121,7 +121,9 @@ void Summary::add_attitudes(Report& report, const std::function<std::string(long
         std::find_if(columns_.begin(), columns_.end(), [&](const Column& one) { return one.name == wanted; }) -
         columns_.begin());
   };
-  std::size_t by = columns_.size();  // by which blows are hard
+  // By which blows are hard: for the first of the probes, if there are any.
+  const auto is_of_probe = [](const Column& one) { return one.name.starts_with("delta_v_"); };
+  auto by = static_cast<std::size_t>(std::find_if(columns_.begin(), columns_.end(), is_of_probe) - columns_.begin());
   for (const char* const wanted : {"largest_peak_force", "hardest_impulse_normal", "total_normal_impulse"}) {
     if (by == columns_.size()) by = column_named(wanted);
   }

@@ -353,6 +353,24 @@ void choose_columns(const SweepRequest& request, SweepPlan& plan) {
   plan.words.push_back(fmt::format("columns: {}", *columns));
 }
 
+/// The points of flags, else of the scene's file, where rows have columns for them.
+void choose_probes(const SweepRequest& request, const SceneValues& values, SweepPlan& plan) {
+  RowLayout& layout = plan.layout;
+  const bool have_columns = layout.model == Model::discrete && layout.rows == RowKind::scene;
+  if (!have_columns && !request.probes.empty()) {
+    throw BadInput(
+        fmt::format("--probe {}: is for rows of scenes of the discrete model (--model discrete); clatter shock has "
+                    "the simulator's",
+                    request.probes.front()));
+  }
+  if (have_columns)
+    layout.probes = request.probes.empty() ? read_probes(values) : read_probes("--probe", request.probes);
+  for (const Probe& probe : layout.probes) {
+    plan.words.push_back(fmt::format("probe: {} at ({}, {}, {}) m, body frame", probe.name, shortest(probe.place.x()),
+                                     shortest(probe.place.y()), shortest(probe.place.z())));
+  }
+}
+
 /// Nothing in the place of each key.
 void forget(const std::vector<std::string>& keys, Value& scene) {
   for (const std::string& key : keys) {
@@ -410,6 +428,7 @@ SweepPlan read_sweep_plan(const SweepRequest& request) {
   read_points(request, settings, plan);
   choose_setters(values, settings, plan);
   choose_columns(request, plan);
+  choose_probes(request, values, plan);
   return plan;
 }
 

@@ -21,7 +21,7 @@ namespace clatter::validation::inline sweep {
 struct SweepRequest {
   std::string file;
   std::optional<std::string> text;  ///< of the scene that `file` then only names in messages
-  std::vector<std::string> sets;
+  std::vector<std::string> sets, probes;
   std::optional<std::string> random, seed, scatter, model, rows, columns;
   bool no_errors = false;       ///< as --set run.errors=false
   bool require_digits = false;  ///< as --set run.require_digits=true

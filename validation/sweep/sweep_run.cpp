@@ -11,6 +11,7 @@
 #include "validation/plan/planned_run.hpp"
 #include "validation/scene/failure.hpp"
 #include "validation/scene/shortfall.hpp"
+#include "validation/shock/discrete_shock.hpp"
 
 namespace clatter::validation::inline sweep {
 namespace {
@@ -167,15 +168,30 @@ bool SweptBody::renew(const Scene& scene, const std::vector<double>& values) {
   return true;
 }
 
-/// The sequence of the scene, in the plane or in space.
-DiscreteSequence SceneRunner::sequence(bool with_errors) {
+/// Of each probe, the first of equal ones.
+std::vector<LargestShock> SceneRunner::largest_shocks(const DiscreteDrop& drop, const DiscreteSequence& found) {
+  std::vector<numeric::Vector3> places;
+  for (const Probe& probe : plan_.layout.probes) places.push_back(probe.place - body_->discrete->centre());
+  std::vector<LargestShock> largest(places.size());
+  if (places.empty()) return largest;
+  for (const ShockRow& row : discrete_shock(drop, found, places)) {
+    LargestShock& so_far = largest[row.probe];
+    const Estimated delta_v{row.value.delta_v_size, row.error.delta_v_size};
+    if (delta_v.value > so_far.delta_v.value) so_far.impact = row.impact;
+    so_far.delta_v = larger(so_far.delta_v, delta_v);
+  }
+  return largest;
+}
+
+/// The sequence of the drop, in the plane or in space.
+DiscreteSequence SceneRunner::sequence(const DiscreteDrop& drop, bool with_errors) {
   const analytic::SequenceOptions options{.impacts = scene_.most_impacts(),
                                           .digits = scene_.accuracy.digits,
                                           .amplification = with_errors,
                                           .until_rest = scene_.until_rest};
-  const DiscreteDrop drop = body_->discrete->drop(scene_);
   const auto* const planar = std::get_if<analytic::Drop>(&drop);
-  const bool sums_only = plan_.layout.rows == RowKind::scene && plan_.layout.asked.empty();
+  const RowLayout& layout = plan_.layout;
+  const bool sums_only = layout.rows == RowKind::scene && layout.asked.empty() && layout.probes.empty();
   if (planar != nullptr && sums_only) return summed_sequence(*planar, options);
   return std::visit([&](const auto& one) -> DiscreteSequence { return impact_sequence(one, options); }, drop);
 }
@@ -183,7 +199,10 @@ DiscreteSequence SceneRunner::sequence(bool with_errors) {
 bool SceneRunner::append_result(RowForm& form) {
   body_.renew(scene_, values_);
   if (plan_.layout.model == Model::discrete) {
-    const Run run = named_run(scene_, sequence(form.errors), body_->discrete->centre());
+    const DiscreteDrop drop = body_->discrete->drop(scene_);
+    const DiscreteSequence found = sequence(drop, form.errors);
+    form.shocks = largest_shocks(drop, found);
+    const Run run = named_run(scene_, found, body_->discrete->centre());
     form.reason = shortfall(scene_, run);
     append_rows(form, run);
     return true;

@@ -154,7 +154,8 @@ class SceneRunner {
   /// False if it was stopped; then nothing is appended.
   bool append_scene(long long index, std::string& out);
   bool append_result(RowForm& form);
-  [[nodiscard]] DiscreteSequence sequence(bool with_errors);
+  [[nodiscard]] DiscreteSequence sequence(const DiscreteDrop& drop, bool with_errors);
+  [[nodiscard]] std::vector<LargestShock> largest_shocks(const DiscreteDrop& drop, const DiscreteSequence& found);
   [[nodiscard]] RowForm form_of(const std::string& prefix, CellWriter& out) const;
 
   const SweepPlan& plan_;

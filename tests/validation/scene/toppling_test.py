@@ -58,6 +58,14 @@ class Toppling(SpaceFolder):
             self.check_against([*BRICK, *inertia, "--orientation", orientation, "--topple", "0.01"],
                                *self.rate((0.06, 0.2), 0.009 / 2, 0.01, centre))
 
+    def test_the_edge_that_a_slab_turned_about_stays_where_it_is_and_makes_no_hops(self):
+        for slab in (["--size", "0.25x0.17x0.008"], ["--size", "0.25x0.17x0.008", "--centre", "0.006,0,0.0005"]):
+            run = self.json_of("sequence", "--body", "box", *slab, "--topple", "0.1", "--restitution", "0.5", "--friction", "0.3")
+            self.assertEqual((len(run["impacts"]), run["outcome"]), (1, "sustained-contact"))
+            self.assertIn("end b stays on the ground", run["message"])
+            self.assertTrue(run["impacts"][0]["predictable"])
+            self.assertLess(run["accuracy"]["achieved"], 1e-9)
+
     def test_no_raise_beyond_the_balance_is_taken_and_the_balance_itself_is(self):
         done = self.run_program("sequence", *BRICK, "--orientation", "1", "--topple", "0.06")
         self.assertEqual(done.returncode, 2)

@@ -80,6 +80,9 @@ BAD_OPTIONS = {
     "--columns peak_force_1,corners_1": "--columns 'corners_1'",
     "--rows impact --columns hardest": "--rows scene",
     "--model discreet": "did you mean discrete?",
+    "--rows impact --probe tip:0,0,0": "is for rows of scenes of the discrete model",
+    "--probe tip:0,0": "--probe",
+    "--probe tip:0,0,0 --probe tip:1,0,0": "--probe",
     "--rows impacts": "did you mean impact?",
     "--rows scene --rows scene": "twice",
     "--threads 0": "--threads",
@@ -200,6 +203,36 @@ class SameAsTheOtherCommands(Folder):
             # Sums of two doubles: one rounding.
             for total, part in (("total_normal_impulse", "impulse_normal"), ("energy_loss", "energy_loss")):
                 self.assertAlmostEqual(float(row[total]), sum(float(impact[part]) for impact in own), delta=1e-15)
+
+    def test_the_shock_of_a_point_is_that_of_shock_in_the_plane_and_in_space(self):
+        probes = {"camera": "0.048,0.016,0.0095", "back.left-1": "-0.05,0.02,0"}
+        flags = [word for name, place in probes.items() for word in ("--probe", f"{name}:{place}")]
+        with open(PHONE, encoding="utf-8") as file:
+            off_centre = self.write("off.toml", file.read().replace("[body]\n", "[body]\ncentre = [0.004, 0.001, 0.002]\n"))
+        for scene, tilt in ((PHONE, "0"), (off_centre, "20")):
+            fixed, turn = ["--set", f"drop.tilt_deg={tilt}"], ["--tilt", tilt]
+            swept = records(self.sweep(scene, "--model", "discrete", "--set", "drop.angle_deg=10:60:25", *fixed, *flags))
+            for row in swept:
+                one = self.run_program("shock", scene, "--model", "discrete", "--angle", row["drop.angle_deg"], *turn, *flags,
+                                       "--format", "csv", "--bare")
+                for name in probes:
+                    own = [shock for shock in records(one.stdout) if shock["probe"] == name]
+                    hardest = max(own, key=lambda shock: float(shock["discrete_delta_v"]))
+                    self.assertEqual(row[f"delta_v_{name}"], hardest["discrete_delta_v"])
+                    self.assertEqual(row[f"delta_v_{name}_impact"], hardest["n"])
+                    self.assertGreaterEqual(float(row[f"delta_v_{name}_error"]), float(hardest["discrete_delta_v_error"]))
+                    self.assertLess(float(row[f"delta_v_{name}_error"]), 1e-4)
+
+    def test_points_of_the_scene_file_have_columns_too_where_rows_can_have_them(self):
+        scene = self.write("probed.toml", THIN_ROD + '[[probe]]\nname = "tip"\nplace = [0.5, 0, 0]\n')
+        rows = records(self.sweep(scene, "--set", "drop.speed=1:2:1"))
+        self.assertGreater(float(rows[0]["delta_v_tip"]), 0)
+        self.assertNotIn("delta_v_tip", self.sweep(scene, "--set", "drop.speed=1:2:1", "--rows", "impact"))
+        self.assertNotIn("delta_v_tip", self.sweep(scene, "--set", "drop.speed=1:2:1", "--probe", "middle:0,0,0"))
+        summary = self.sweep(scene, "--set", "drop.speed=1:2:1", "--summary", "--format", "table")
+        self.assertIn("delta_v_tip", summary)
+        bare = records(self.sweep(scene, "--set", "drop.speed=1:2:1", "--no-errors"))
+        self.assertEqual((bare[0]["delta_v_tip"], bare[0]["delta_v_tip_error"]), (rows[0]["delta_v_tip"], ""))
 
     def test_a_body_that_is_swept_is_the_body_of_each_scene(self):
         rod = os.path.join(CASES, "rod-at-1ms.toml")
@@ -520,6 +553,17 @@ class RowsTogether(Folder):
         worst = [row for row in summary["rows"] if row["quantity"] == "hardest_impulse_normal"][0]
         again = self.numbers(self.sweep(*shlex.split(worst["largest_command"])[2:]), "impulse_normal")
         self.assertEqual(max(again), worst["largest"])
+
+    def test_a_summary_with_a_probe_ranks_attitudes_by_what_it_feels(self):
+        arguments = [os.path.join(CASES, "phone-corner.toml"), "--model", "discrete", "--set", "drop.attitude=26", "--random", "52",
+                     "--scatter", "4", "--probe", "corner:0.05,0.02,0.009"]
+        felt = {}
+        for row in records(self.sweep(*arguments)):
+            place = int(row["index"]) % 26
+            felt[place] = max(felt.get(place, 0), float(row["delta_v_corner"]))
+        summary = json.loads(self.sweep(*arguments, "--summary", "--format", "json"))
+        self.assertEqual([int(one["attitude"].split()[0]) - 1 for one in summary["attitudes"]], sorted(felt, key=lambda place: -felt[place]))
+        self.assertIn("attitudes by delta_v_corner", self.sweep(*arguments, "--summary", "--format", "table"))
 
     def test_the_commands_below_a_summary_can_be_pasted_into_a_shell(self):
         summary = self.sweep(os.path.join(CASES, "phone-corner.toml"), "--model", "discrete", "--set", "drop.attitude=26", "--random", "26",
