@@ -286,12 +286,8 @@ constexpr const char* sweep_footer =
     "Exit status 3 if a number could not be computed, a limit left fewer impacts than asked for, or required digits\n"
     "are not known, in any scene; its row says why.";
 
-}  // namespace
-
-Command sweep_command() {
-  auto input = std::make_shared<SweepInput>();
-  Command command{.name = "sweep", .help = "many scenes: grids or random values, rows as CSV"};
-  SweepRequest& request = input->request;
+/// Which scenes, and what their rows hold.
+void add_request_options(Command& command, SweepRequest& request) {
   add_scene_argument(command, request.file, true);
   command.add({.name = "--set",
                .target = &request.sets,
@@ -316,6 +312,15 @@ Command sweep_command() {
                .help = "discrete model: columns for the largest change of velocity of this point of the body [m], and "
                        "its impact; may be repeated (else [[probe]] in the scene file)",
                .repeats = true});
+}
+
+}  // namespace
+
+Command sweep_command() {
+  auto input = std::make_shared<SweepInput>();
+  Command command{.name = "sweep", .help = "many scenes: grids or random values, rows as CSV"};
+  SweepRequest& request = input->request;
+  add_request_options(command, request);
   command.add_text("--output", input->output, "FILE",
                    "write there; until it is complete the rows are in FILE.part; FILE.h5 is HDF5, columns with units");
   command.add_flag("--summary", request.summary,

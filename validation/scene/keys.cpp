@@ -129,8 +129,7 @@ void append_motion(std::vector<Key>& keys) {
            "or all of it: at the first touch, world components",
            three_velocities<&Scene::angular_velocity>("[0, 0, 0]"), nullptr, false, turn_of_plane},
           {"drop.topple", Use::both, "--topple", "M", "m",
-           "or let go from rest on the lower edge of end b, that of end a raised by this: it turns about the edge and "
-           "lands flat",
+           "or let go from rest, end a raised by this: it turns about the lower edge of end b and lands flat",
            OptionalNumber{[](Scene& s) -> std::optional<double>& { return s.topple; }, heights, &positive_number},
            nullptr, false, all_of_motion},
           {"world.gravity", Use::both, "--gravity", "M/S2", "m/s²",

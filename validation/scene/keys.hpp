@@ -119,7 +119,8 @@ struct Alternative {
 /// The flag of each key that has one.
 [[nodiscard]] const std::map<std::string, std::string>& key_flags();
 
-/// " --angle 10 --planar": what to type for these overrides, each as the flag of its key; a key without one is left out.
+/// " --angle 10 --planar": what to type for these overrides, each as the flag of its key; a key without one is left
+/// out.
 [[nodiscard]] std::string flag_words(const std::vector<SceneOverride>& overrides);
 
 /// Puts each key that is given in its place.  @throws BadInput where one is out of its range.
