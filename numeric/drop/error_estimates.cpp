@@ -24,7 +24,7 @@ constexpr double shorter_steps = 0.7;
 constexpr double error_per_distance_of_finer = 4;
 constexpr double error_per_distance_of_coarser = 4;
 constexpr double another_way = 0.1;  ///< relative distance of impulses: what follows such impacts differs altogether
-constexpr double of_a_graze = 1e-3;  ///< the same, below which a touch that one run alone has changes nothing else
+constexpr double of_a_graze = 0.01;  ///< the same, below which a touch that one run alone has changes nothing else
 constexpr double step_part = 0.5;
 constexpr double error_per_distance_of_steps = 3;  ///< 8/7 where the step is short enough for the order to show
 

@@ -23,7 +23,7 @@ struct SecondRun {
 [[nodiscard]] SecondRun second_run(const Integration& main, double used_step);
 
 /// Whether an impact has the same end in both runs, and the same touches but for grazes: those that only one of the two
-/// has, while the impulses differ by less than a thousandth.
+/// has, while the impulses differ by less than a hundredth.
 [[nodiscard]] bool has_the_same_contacts(const ImpactRecord& row, const ImpactRecord& second);
 
 /// Whether two runs of a drop have parted in this impact, so that what follows says nothing about errors: it has other
