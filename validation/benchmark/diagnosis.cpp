@@ -139,6 +139,29 @@ void add_time_step(const Motion& motion, const Reference& reference, const Score
                    misfit_words(left), three_digits(latest), three_digits(longest))});
 }
 
+/// Rows beside a motion that is right without them.
+std::vector<Cause> stray_rows_of(const Answer& answer, const Motion& motion, const Reference& reference,
+                                 const Score& score) {
+  constexpr std::size_t few_rows = 6;
+  if (!score.stray) return {};
+  const Stray& stray = *score.stray;
+  const std::string law = score.law == "any" ? "" : score.law;
+  for (const auto& [from, to] : stray.alone) {
+    const std::size_t first = motion.table_row(from), last = motion.table_row(to);
+    if (motion.size() < few_rows + last - first) continue;
+    const Motion rest(answer.table.without(first, last), reference);
+    const double left = score_motion(rest, reference, law, answer.ending).error();
+    if (!(left <= explained * std::fmin(score.error(), 1))) continue;
+    const std::size_t line = answer.table.line(first), end = answer.table.line(last);
+    const std::string words =
+        first == last ? fmt::format("line {}: {} off the flight between its neighbours, without it", line, stray.size)
+                      : fmt::format("lines {} to {}: {} off the flight between their neighbours, without them", line,
+                                    end, stray.size);
+    return {{"stray-rows", {}, left, fmt::format("{} all is right {}", words, misfit_words(left))}};
+  }
+  return {};
+}
+
 /// Impulses of a list that are those of another mass than its velocities.
 void add_mass(const Reference& reference, const std::vector<FoundImpact>& impacts, std::vector<Cause>& causes) {
   std::vector<std::pair<double, double>> points;
@@ -297,6 +320,7 @@ std::vector<Cause> causes_of(const Answer& answer, const Reference& reference, c
   if (sequence == reference.sequences.end()) return {};
   if (answer.is_list) return causes_of_list(answer, reference, *sequence, score);
   const Motion motion(answer.table, reference);
+  if (std::vector<Cause> stray = stray_rows_of(answer, motion, reference, score); !stray.empty()) return stray;
   std::vector<Cause> causes = chosen(readings_of(answer, motion, reference, score));
   const auto is_mirrored = [](const Cause& one) { return one.name == "phi-sign" || one.name == "left-right"; };
   if (!causes.empty() && !std::any_of(causes.begin(), causes.end(), is_mirrored)) return causes;

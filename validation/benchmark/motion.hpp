@@ -52,6 +52,8 @@ class Motion {
   /// Of the code: as its file says, otherwise the median from row to row [s].
   [[nodiscard]] double step() const { return step_; }
   [[nodiscard]] const NumericTable& table() const { return table_; }
+  /// Row of the table that a row of the motion is.
+  [[nodiscard]] std::size_t table_row(std::size_t row) const { return row - (lead_ && row > 0 ? 1 : 0); }
 
  private:
   void check_rows() const;

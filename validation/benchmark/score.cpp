@@ -118,6 +118,34 @@ Score score_impacts(const std::vector<FoundImpact>& impacts, const Reference& re
   return score;
 }
 
+/// The impact that counts what comes after n impacts, or before the first; nothing where there is none.
+ImpactScore* counted_by(Score& score, std::size_t n) {
+  if (score.impacts.empty()) return nullptr;
+  return &score.impacts[std::min(std::max<std::size_t>(n, 1), score.impacts.size()) - 1];
+}
+
+void note_drift(Score& score, double error, std::size_t n) {
+  if (ImpactScore* impact = counted_by(score, n)) impact->drift = worse(impact->drift, error);
+  if (error <= score.energy_error) return;
+  score.energy_error = worse(score.energy_error, error);
+  score.drift = n;
+}
+
+/// @param time that errors of times are relative to [s]
+void sum_up(Score& score, double time) {
+  for (std::size_t i = 0; i < score.impacts.size(); ++i) {
+    ImpactScore& one = score.impacts[i];
+    one.error = i == 0 ? score.start_error : 0;
+    for (const double error : {one.law_error, one.velocity_error, one.angular_error, std::fabs(one.time_error) / time,
+                               std::fabs(one.energy_error), one.impulse_error, one.drift, one.flight_error}) {
+      one.error = worse(one.error, error);
+    }
+  }
+}
+
+/// Which flight, by the impacts before it.
+std::string flight_words(std::size_t n) { return n == 0 ? "before impact 1" : fmt::format("after impact {}", n); }
+
 /// Words for each error beyond the class "sharp".
 void explain(Score& score, double tolerance, double time) {
   const auto add = [&](double error, const std::string& words) {
@@ -135,14 +163,16 @@ void explain(Score& score, double tolerance, double time) {
                                                                 : ", which has no answer there"));
     break;
   }
-  if (score.drift) add(score.energy_error, fmt::format("energy drifts in flight after impact {}", *score.drift));
-  if (score.stray) add(score.flight_error, fmt::format("the flight after impact {} is not free", *score.stray));
+  if (score.drift) add(score.energy_error, "energy drifts in flight " + flight_words(*score.drift));
+  if (score.stray) add(score.flight_error, score.stray->words);
   for (std::size_t i = 0; i < std::min(score.impacts.size(), score.expected); ++i) {
     const ImpactScore& one = score.impacts[i];
     const std::string at = fmt::format(" of impact {} is off", i + 1);
     const std::size_t before = score.findings.size();
     add(one.velocity_error, "velocity" + at);
     add(one.angular_error, "angular velocity" + at);
+    const double energy = std::fabs(one.energy_error);
+    if (!(energy <= worse(one.velocity_error, one.angular_error))) add(energy, "energy after" + at.substr(3));
     add(one.impulse_error, "impulse" + at);
     constexpr double most = 1e6;  // times of the sequence: a run that never touches the ground has no time of touch
     if (!(std::fabs(one.time_error) <= most * time)) {
@@ -164,7 +194,9 @@ Score best_of(const Reference& reference, const std::string& law, Judge&& judge)
     Score score = judge(sequence);
     score.law_is_declared = !law.empty();
     if (!score.left_out.empty()) score.findings.push_back("incomplete: " + score.left_out);
-    explain(score, reference.tolerances[1], sizes_of(reference, sequence).time);
+    const double time = sizes_of(reference, sequence).time;
+    explain(score, reference.tolerances[1], time);
+    sum_up(score, time);
     if (first || score.error() < best.error() || (score.order_is_right && !best.order_is_right)) best = score;
     first = false;
   }
@@ -187,7 +219,28 @@ ImpactSearch search_for(const Reference& reference) {
   return search;
 }
 
-/// Energy that is gained or lost in flight, and the way that free flight does not explain, up to the last impact asked
+/// Distance of a body's points by attitude alone [m]; a ball looks the same however it is turned.
+double way_of_turn(const Reference& reference, const space::Quaternion& a, const space::Quaternion& b) {
+  const bool is_round = reference.body.vertices.empty() && !reference.body.is_ball();
+  double way = is_round ? 2 * reference.reach() * (a.conjugate() * b).vec().norm() : 0;
+  for (const Vector3& vertex : reference.body.vertices) way = worse(way, (a * vertex - b * vertex).norm());
+  return way;
+}
+
+/// "z is 5.1 m" or "phi is 1 rad" of what two states differ most in.
+std::string difference_words(const Reference& reference, const State& a, const State& b) {
+  const Vector3 way = (a.position - b.position).cwiseAbs();
+  int axis = 0;
+  const double largest = way.maxCoeff(&axis);
+  if (!(way_of_turn(reference, a.attitude, b.attitude) > largest)) {
+    return fmt::format("{} is {} m", "xyz"[axis], significant(largest, 2));
+  }
+  const space::Quaternion turn = a.attitude.conjugate() * b.attitude;
+  return fmt::format("{} is {} rad", reference.is_planar ? "phi" : "the attitude",
+                     significant(2 * std::atan2(turn.vec().norm(), std::fabs(turn.w())), 2));
+}
+
+/// Energy that is gained or lost in flight, and rows that free flight does not explain, up to the last impact asked
 /// for or Reference::until; of a problem of energy alone the energy at its end, too.
 class Flights {
  public:
@@ -207,7 +260,9 @@ class Flights {
       std::size_t last = i < impacts_.size() ? impacts_[i].first_row : motion_.size() - 1;
       while (i == count && last > row && motion_.time(last) > end) --last;
       if (last > row) follow(row, last, score, i);
-      if (i < count) row = impacts_[i].last_row;
+      const std::size_t next = i < count ? impacts_[i].last_row : motion_.size() - 1;
+      for (std::size_t k = std::max(row, last); k < next; ++k) leap(k, score, std::min(i + 1, count));
+      row = next;
     }
     score.left_out = missing_time();
     if (reference_.energy_alone && score.left_out.empty()) long_run(score);
@@ -227,21 +282,68 @@ class Flights {
     for (std::size_t row = from; row <= to; ++row) {
       drift = worse(drift, std::fabs(motion_.energy(row) - start) / energy_);
     }
-    if (drift > score.energy_error) {
-      score.energy_error = drift;
-      score.drift = n;
-    }
-    const State begin = motion_.state(from), end = motion_.state(to);
-    const double time = motion_.time(to) - motion_.time(from);
-    const State flown = reference_.flight(begin).at(time);
-    double away = (flown.position + time * creep_ - end.position).norm();
-    const std::vector<Vector3> wanted = reference_.arms(flown.attitude), arms = reference_.arms(end.attitude);
-    for (std::size_t i = 0; i < arms.size(); ++i) away = worse(away, (arms[i] - wanted[i]).norm());
-    if (away / reference_.reach() > score.flight_error) {
-      score.flight_error = away / reference_.reach();
-      score.stray = n;
-    }
+    note_drift(score, drift, n);
+    follow_places(from, to, score, n);
   }
+
+  void follow_places(std::size_t from, std::size_t to, Score& score, std::size_t n) const {
+    const space::FreeFlight flight = reference_.flight(motion_.state(from));
+    std::vector<double> away(to - from + 1);  // of each row
+    for (std::size_t row = from + 1; row <= to; ++row) {
+      const double time = motion_.time(row) - motion_.time(from);
+      const State flown = flight.at(time), given = motion_.state(row);
+      away[row - from] = worse((flown.position + time * creep_ - given.position).norm(),
+                               way_of_turn(reference_, flown.attitude, given.attitude));
+    }
+    const auto worst = std::max_element(away.begin(), away.end());
+    if (!is_worst(*worst / reference_.reach(), score, n)) return;
+    constexpr double nearly_on = 0.05;  // of the worst: rows that are not meant
+    std::size_t first = static_cast<std::size_t>(worst - away.begin()), last = first;
+    const std::size_t at = from + first;
+    while (first > 0 && away[first - 1] > nearly_on * *worst) --first;
+    while (last + 1 < away.size() && away[last + 1] > nearly_on * *worst) ++last;
+    const std::string size =
+        difference_words(reference_, flight.at(motion_.time(at) - motion_.time(from)), motion_.state(at));
+    const bool has_end = last + 1 < away.size();
+    score.stray = Stray{
+        .alone = {},
+        .size = size,
+        .words = fmt::format("the flight {} is not free: {} off it in line {}", flight_words(n), size, line_of(at))};
+    if (away.size() < 3) return;  // of two rows either may be wrong
+    if (first == last || has_end) score.stray->alone.emplace_back(from + first, from + last);
+    if (first == 1 && !has_end) score.stray->alone.emplace_back(from, from);
+  }
+
+  /// What a row's successor lies farther from it than the speeds of both allow,
+  ///     |Δx| <= (|v₀| + |v₁| + reach (|ω₀| + |ω₁|)) Δt + g Δt² + depth₀                                   (2)
+  /// of a point of the body, where contacts may act in any way and take back a depth in the ground.
+  void leap(std::size_t row, Score& score, std::size_t n) const {
+    const State from = motion_.state(row), to = motion_.state(row + 1);
+    const double step = motion_.time(row + 1) - motion_.time(row), reach = reference_.reach();
+    if (!(step > 0)) return;  // a first row that the file does not have
+    const std::vector<Vector3> arms = reference_.arms(from.attitude);
+    const double depth = std::fmax(-from.position.z() - arms[lowest_of(arms)].z(), 0);
+    const double speed =
+        from.velocity.norm() + to.velocity.norm() + reach * (from.angular_velocity.norm() + to.angular_velocity.norm());
+    const double allowed = (speed + step * reference_.pull().norm()) * step + depth;
+    const double way = worse((to.position - from.position).norm(), way_of_turn(reference_, from.attitude, to.attitude));
+    if (!is_worst((way - allowed) / reach, score, n)) return;
+    const std::string size = difference_words(reference_, from, to);
+    score.stray = Stray{.alone = {{row + 1, row + 1}, {row, row}},
+                        .size = size,
+                        .words = fmt::format("no speed explains the way to line {} {}: {} off the line before",
+                                             line_of(row + 1), flight_words(n), size)};
+  }
+
+  /// Notes the error of a flight, and whether it is the worst up to now; n impacts came before.
+  [[nodiscard]] static bool is_worst(double error, Score& score, std::size_t n) {
+    if (ImpactScore* impact = counted_by(score, n)) impact->flight_error = worse(impact->flight_error, error);
+    if (error <= score.flight_error) return false;
+    score.flight_error = worse(score.flight_error, error);
+    return true;
+  }
+
+  [[nodiscard]] std::size_t line_of(std::size_t row) const { return motion_.table().line(motion_.table_row(row)); }
 
   /// That the run ends before the time until which the problem asks, unless it says that nothing approaches any more.
   [[nodiscard]] std::string missing_time() const {
@@ -262,10 +364,7 @@ class Flights {
     while (row > 0 && motion_.time(row) > end) --row;
     const double wanted = reference_.last_energy(sequence_);
     const double error = std::fabs((reference_.end_energy ? energy_at(end) : motion_.energy(row)) - wanted) / energy_;
-    if (error > score.energy_error) {
-      score.energy_error = error;
-      score.drift = sequence_.truth.size();
-    }
+    note_drift(score, error, sequence_.truth.size());
   }
 
   /// Of a body that slides, whose energy is a parabola in time: through the last three rows about a time.
@@ -315,6 +414,7 @@ void score_ending(Score& score, const Ending& ending, const Reference& reference
     const double wanted = reference.last_energy(sequence);
     const double error = std::fabs(*ending.energy - wanted) / reference.energy(reference.start);
     score.energy_error = worse(score.energy_error, error);
+    if (ImpactScore* last = counted_by(score, score.expected)) last->drift = error;
     if (error <= reference.tolerances[1]) return;
     score.findings.push_back(
         fmt::format("the energy at the end is {} J, must be {} J", shortest(*ending.energy), significant(wanted, 6)));
@@ -361,6 +461,17 @@ const char* verdict_name(Verdict verdict) { return verdict_names()[static_cast<s
 double Score::motion_error() const { return worse(velocity_error, worse(angular_error, time_error)); }
 
 double Score::error() const { return worse(impacts_error(), gradient_error); }
+
+std::string Score::decided_by() const {
+  if (!order_is_right) return "number or places of the impacts";
+  const std::pair<const char*, double> parts[]{
+      {"law", law_error},       {"V", velocity_error},    {"Ω", angular_error},
+      {"t", time_error},        {"energy", energy_error}, {"impulse", impulse_error},
+      {"flight", flight_error}, {"start", start_error},   {"derivatives", gradient_error}};
+  return std::max_element(std::begin(parts), std::end(parts),
+                          [](const auto& a, const auto& b) { return a.second < b.second; })
+      ->first;
+}
 
 double Score::impacts_error() const {
   if (!order_is_right) return unknown;

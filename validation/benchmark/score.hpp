@@ -5,6 +5,7 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "validation/benchmark/found_impacts.hpp"
@@ -33,9 +34,20 @@ struct ImpactScore {
   double angular_error = 0;   ///< |ΔΩ| over the sequence's largest |Ω|, at least |V|/reach
   double energy_error = 0;    ///< of the energy after it, relative to that of the start, signed
   double impulse_error = 0;   ///< |ΔP| over the sequence's largest |P|, of a list; of a motion P is m ΔV
+  double drift = 0;           ///< of energy in flight after it, of the first impact also before it
+  double flight_error = 0;    ///< of the rows there
+  double error = 0;           ///< the largest of these, of the first impact also the start's
   double impulse_normal = 0;  ///< [N·s]
   double impulse_tangential = 0;
   analytic::space::State after;
+};
+
+/// Rows that lie off their flight, and how far the worst of them does.
+struct Stray {
+  /// Rows of the motion, first and last, that may be wrong while all others are right.
+  std::vector<std::pair<std::size_t, std::size_t>> alone;
+  std::string size;   ///< "z is 5.1 m", of the worst
+  std::string words;  ///< a finding
 };
 
 /// The scores of one run.  Errors are relative; a score that cannot be had is infinite.
@@ -45,7 +57,10 @@ struct ImpactScore {
 ///   motion    V, Ω and t against the truth; t over the last impact's time, at least reach/speed
 ///   impulse   of a list against the truth
 ///   energy    after the impacts against the truth, and what is gained or lost between impacts
-///   flight    what free flight does not explain of the way between impacts, over the reach
+///   flight    the farthest that a row lies off the free flight from the row after the impact before, over the reach;
+///   of
+///             rows in impacts and behind what is asked for, what they lie farther from the row before than their
+///             speeds allow
 ///   start     of the state at the first touch, as Motion::start_error()
 struct Score {
   static constexpr double unknown = std::numeric_limits<double>::infinity();
@@ -57,9 +72,10 @@ struct Score {
   bool order_is_right = false;
   double law_error = 0, velocity_error = 0, angular_error = 0, time_error = 0, impulse_error = 0, energy_error = 0,
          flight_error = 0, start_error = 0;
-  double gradient_error = 0;                    ///< of derivatives that a list gives (gradient_score.hpp)
-  std::optional<std::size_t> drift{}, stray{};  ///< after how many impacts energy or flight is worst
-  std::string start_words{};                    ///< what differs at the start
+  double gradient_error = 0;            ///< of derivatives that a list gives (gradient_score.hpp)
+  std::optional<std::size_t> drift{};   ///< after how many impacts energy is worst
+  std::optional<Stray> stray{};         ///< the flight that is worst
+  std::string start_words{};            ///< what differs at the start
   std::string left_out{};               ///< what the problem asks for and the answer does not say; empty: nothing
   std::vector<std::string> findings{};  ///< what is wrong, in words, the first first
 
@@ -69,6 +85,8 @@ struct Score {
   [[nodiscard]] double impacts_error() const;
   /// The largest of all.
   [[nodiscard]] double error() const;
+  /// What that is an error of, in words.
+  [[nodiscard]] std::string decided_by() const;
 };
 
 /// Distance of the velocities after an impact from the law's exact map at the state before it, over the map's own

@@ -185,8 +185,9 @@ std::vector<std::string> data_lines(const Problem& problem) {
 std::string error_words(const Problem& problem) {
   return fmt::format(
       "error: the largest of: law (distance of an impact from the exact map at the code's own state, relative), V and "
-      "Ω over the sequence's largest, t over the last impact's time, energy over the start's, way in flight over the "
-      "body's reach; order and number of places must be right.  Classes: exact {}, sharp {}, good {}, coarse {}",
+      "Ω over the sequence's largest, t over the last impact's time, energy over the start's, way of each row off the "
+      "free flight since the impact before over the body's reach; order and number of places must be right.  Classes: "
+      "exact {}, sharp {}, good {}, coarse {}",
       shortest(problem.tolerances[0]), shortest(problem.tolerances[1]), shortest(problem.tolerances[2]),
       shortest(problem.tolerances[3]));
 }

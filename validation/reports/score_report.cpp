@@ -28,6 +28,9 @@ Value impact_value(const ImpactScore& one, int n) {
   value["velocity_error"] = rounded_up(one.velocity_error);
   value["angular_velocity_error"] = rounded_up(one.angular_error);
   value["energy_error"] = rounded_up(one.energy_error);
+  value["energy_drift"] = rounded_up(one.drift);
+  value["flight_error"] = rounded_up(one.flight_error);
+  value["error"] = rounded_up(one.error);
   value["impulse_normal"] = one.impulse_normal;
   value["impulse_tangential"] = one.impulse_tangential;
   value["velocity_after"] = parts(one.after.velocity);
@@ -63,6 +66,7 @@ Row submission_row(const Submission& one) {
           one.is_list ? Cell() : error_cell(score.start_error),
           one.gradients ? error_cell(score.gradient_error) : Cell(),
           error_cell(score.error()),
+          Cell(score.error() > 0 ? Value(score.decided_by()) : Value()),
           Cell(verdict_name(one.verdict)),
           Cell(text_or_nothing(score.findings.empty() ? std::string() : score.findings.front()))};
 }
@@ -119,6 +123,13 @@ std::vector<std::string> cause_words(const std::vector<Cause>& causes) {
   return lines;
 }
 
+/// "coarse by energy, off by 0.0042"
+std::string class_words(const Submission& one) {
+  const double error = one.score.error();
+  return fmt::format("{} by {}{}", verdict_name(one.verdict), one.score.decided_by(),
+                     std::isfinite(error) ? ", off by " + significant(error, 2) : "");
+}
+
 std::string group_words(const SubmissionGroup& group) {
   std::string name;
   for (const std::string& part : {group.head.problem, group.head.engine, group.head.version, group.head.settings}) {
@@ -157,11 +168,12 @@ std::vector<Column> score_columns() {
       {"time_error", "t", "", "largest error of an impact's time, over that of the last impact"},
       Column{"impulse_error", "", "", "of a list the largest error of an impulse, over the sequence's largest", false},
       {"energy_error", "energy", "", "largest error of energy after impacts, or drift between them, over the start's"},
-      Column{"flight_error", "", "", "way between impacts that free flight does not explain, over the body's reach",
-             false},
+      Column{"flight_error", "", "",
+             "the farthest of a row off the free flight since the impact before, over the body's reach", false},
       Column{"start_error", "", "", "distance of the state at the first touch from the problem's", false},
       Column{"gradient_error", "d/d", "", "of a list that gives derivatives their largest error", false},
       Column{"error", "", "", "the largest of all", false},
+      Column{"decided_by", "", "", "what that is an error of", false, true},
       word_column("verdict", "verdict", "class of tolerance: exact, sharp, good, coarse, fails"),
       Column{"finding", "", "", "what is wrong, the first", false, true}};
 }
@@ -187,6 +199,10 @@ Report score_report(const std::string& command, const std::vector<Submission>& s
     files.push_back(submission_value(report.grid.columns, one));
     worst = std::max(worst, one.verdict);
     const std::string name = std::filesystem::path(one.path).filename().string();
+    const bool says_why = !one.score.order_is_right || one.verdict == Verdict::incomplete;  // in a finding
+    if (one.verdict != Verdict::exact && !says_why) {
+      report.notes.push_back(name + ": " + class_words(one));
+    }
     for (const std::string& words : cause_words(one.causes)) report.notes.push_back(name + ": " + words);
     for (const std::string& finding : one.score.findings) report.notes.push_back(name + ": " + finding);
     if (!one.score.law_is_declared && one.score.law != "any") {
@@ -222,29 +238,28 @@ Requirement read_requirement(const std::optional<std::string>& text) {
 namespace {
 
 void add_answer(const Submission& submission, double curve, PicturePanel& panel) {
-  constexpr double least = 1e-17;  // an error of zero is drawn here
+  constexpr double least = 1e-17, most = 10;  // drawn where they are 0, larger or unknown
   for (std::size_t n = 0; n < submission.score.impacts.size(); ++n) {
-    const ImpactScore& impact = submission.score.impacts[n];
-    const double error =
-        worse(worse(impact.law_error, impact.impulse_error), worse(impact.velocity_error, impact.angular_error));
-    panel.rows.push_back({curve, static_cast<double>(n + 1), std::isfinite(error) ? std::fmax(error, least) : NAN});
+    panel.rows.push_back(
+        {curve, static_cast<double>(n + 1), std::clamp(submission.score.impacts[n].error, least, most)});
   }
   panel.plot.curves.push_back(
       {.x = "impact",
        .y = "error",
        .legend = fmt::format("{}: {}", std::filesystem::path(submission.path).filename().string(),
-                             verdict_name(submission.verdict)),
+                             verdict_name(submission.verdict)) +
+                 (std::isfinite(submission.score.error()) ? " by " + submission.score.decided_by() : ""),
        .style = FigureCurve::Style::line_points,
        .where = {{"curve", curve}}});
 }
 
-void add_classes(const std::vector<double>& tolerances, PicturePanel& panel) {
+void add_classes(const std::vector<double>& tolerances, const std::string& of_what, PicturePanel& panel) {
   for (std::size_t k = 0; k < tolerances.size(); ++k) {
     const double curve = -1 - static_cast<double>(k);
     for (const double x : {panel.plot.x.low, panel.plot.x.high}) panel.rows.push_back({curve, x, tolerances[k]});
     panel.plot.curves.push_back({.x = "impact",
                                  .y = "error",
-                                 .legend = k == 0 ? "from below up to: exact, sharp, good, coarse" : "",
+                                 .legend = k == 0 ? "from below up to: exact, sharp, good, coarse" + of_what : "",
                                  .style = FigureCurve::Style::dotted,
                                  .where = {{"curve", curve}},
                                  .colour = ink});
@@ -256,7 +271,7 @@ void add_classes(const std::vector<double>& tolerances, PicturePanel& panel) {
 Picture score_picture(const std::vector<Submission>& submissions) {
   PicturePanel panel{.columns = {{"curve", "1", "number of the file; below 0 of a class of tolerance"},
                                  {"impact", "1", "number of the impact"},
-                                 {"error", "1", "the largest of law, V, Omega and impulse"}},
+                                 {"error", "1", "the largest of all errors of the impact and the flight after it"}},
                      .rows = {},
                      .plot = {.x_label = "number of the impact",
                               .y_label = "largest error, relative",
@@ -270,9 +285,17 @@ Picture score_picture(const std::vector<Submission>& submissions) {
     add_answer(submissions[file], static_cast<double>(file), panel);
   }
   panel.plot.x = {0.5, static_cast<double>(most) + 0.5};
-  const std::string& problem = submissions.front().head.problem;
-  add_classes(problem_named("", problem).tolerances, panel);
-  return {.what = "Errors of answers, impact by impact", .scene = {"problem " + problem}, .panels = {panel}};
+  std::vector<std::string> problems;
+  bool have_one_scale = true;
+  const std::string& first = submissions.front().head.problem;
+  const std::vector<double>& tolerances = problem_named("", first).tolerances;
+  for (const Submission& one : submissions) {
+    const std::string name = "problem " + one.head.problem;
+    if (std::find(problems.begin(), problems.end(), name) == problems.end()) problems.push_back(name);
+    have_one_scale = have_one_scale && problem_named("", one.head.problem).tolerances == tolerances;
+  }
+  add_classes(tolerances, have_one_scale ? "" : " of " + first, panel);
+  return {.what = "Errors of answers, impact by impact", .scene = problems, .panels = {panel}};
 }
 
 Report against_report(const Scene& scene, const Reference& reference, const std::vector<Submission>& submissions) {

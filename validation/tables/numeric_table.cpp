@@ -265,6 +265,18 @@ NumericTable NumericTable::changed(const std::function<void(std::span<double>)>&
   return table;
 }
 
+NumericTable NumericTable::without(std::size_t first, std::size_t last) const {
+  NumericTable table = *this;
+  const auto erase = [&](auto& fields, std::size_t width) {
+    const auto at = [&](std::size_t row) { return fields.begin() + static_cast<std::ptrdiff_t>(row * width); };
+    fields.erase(at(first), at(last + 1));
+  };
+  erase(table.numbers_, columns_.size());
+  erase(table.texts_, words_.size());
+  erase(table.starts_, 1);
+  return table;
+}
+
 const std::string& NumericTable::word(std::size_t row, std::string_view column) const {
   const auto at = std::find(words_.begin(), words_.end(), column);
   return texts_.at(row * words_.size() + static_cast<std::size_t>(at - words_.begin()));

@@ -75,6 +75,8 @@ class NumericTable {
   }
   /// The same table with each row's numbers changed.
   [[nodiscard]] NumericTable changed(const std::function<void(std::span<double>)>& change) const;
+  /// The same table without rows.
+  [[nodiscard]] NumericTable without(std::size_t first, std::size_t last) const;
   /// A field of a column of words.  @pre the column was requested
   [[nodiscard]] const std::string& word(std::size_t row, std::string_view column) const;
   /// A field of a column that was read, as the file has it.
