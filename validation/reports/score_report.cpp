@@ -9,6 +9,7 @@
 #include <filesystem>
 
 #include "validation/benchmark/score.hpp"
+#include "validation/output/bad_input.hpp"
 #include "validation/output/number.hpp"
 #include "validation/reports/benchmark_report.hpp"
 #include "validation/scene/option_values.hpp"
@@ -232,7 +233,12 @@ Requirement read_requirement(const std::optional<std::string>& text) {
   }
   std::vector<std::string> names = verdict_names();
   names.pop_back();
-  return {.verdict = static_cast<Verdict>(read_name_option("--require", *text, names)), .error = {}};
+  const auto at = std::find(names.begin(), names.end(), *text);
+  if (at == names.end()) {
+    throw BadInput(fmt::format("--require '{}': must be one of {}, or a largest error such as 1e-3; did you mean {}?",
+                               *text, fmt::join(names, ", "), nearest_name(*text, names)));
+  }
+  return {.verdict = static_cast<Verdict>(at - names.begin()), .error = {}};
 }
 
 namespace {

@@ -5,7 +5,8 @@
 //     t,x,"z"                          header; the separator is the first of , ; tab in it
 //     0,1e-3,-.5                       a row is a line; fields may be quoted ("" is a quote)
 //
-// Line ends are LF or CRLF; a byte order mark, blank lines and lines that begin with # are skipped.
+// Line ends are LF, CRLF or, in a text without LF, CR; a byte order mark, blank lines and lines that begin with # are
+// skipped.
 #pragma once
 
 #include <functional>
@@ -48,7 +49,8 @@ class NumericTable {
   /// missing
   ///         or named twice, a row of another length than the header, or a field that is no finite decimal number.
   [[nodiscard]] static NumericTable read(const std::string& path, const TableRequest& request);
-  /// The bytes of a file.  @throws BadInput if it cannot be read or is a directory.
+  /// The bytes of a file, LF in place of CR where it has no LF.  @throws BadInput if it cannot be read or is a
+  /// directory.
   [[nodiscard]] static std::string text_of(const std::string& path);
   /// Names in a text's header, as the file has them; empty where there is none.
   [[nodiscard]] static std::vector<std::string> header_of(std::string_view text);

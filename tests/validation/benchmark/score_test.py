@@ -265,7 +265,9 @@ class Groups(Folder):
                                        ("sharp", [bad], 1), ("1e-2", [bad], 0), ("1e-5", [bad, good], 1)):
             self.assertEqual(run("benchmark", "score", *files, "--require", require).returncode, status, require)
         self.assertEqual(run("benchmark", "score", bad).returncode, 0)
-        self.assertEqual(run("benchmark", "score", bad, "--require", "fine").returncode, 2)
+        refused = run("benchmark", "score", bad, "--require", "fine")
+        self.assertEqual(refused.returncode, 2)
+        self.assertIn("coarse, incomplete, or a largest error such as 1e-3", refused.stderr)
 
 
 class Against(Folder):
@@ -380,6 +382,12 @@ class BadFiles(Folder):
         for path in (str(self.folder), str(self.folder / "none.csv"), self.put(b"\x7fELF\0\1\2", "binary")):
             done = run("benchmark", "score", path)
             self.assertEqual((done.returncode, done.stderr.count("\n")), (2, 1), done.stderr)
+
+    def test_lines_may_end_as_on_any_machine(self):
+        motion = Motion("rod-10", 1)
+        text = motion.text(motion.rows(1 / 100))
+        for end in ("\r", "\r\n"):
+            self.assertEqual(self.score(self.put(text.replace("\n", end).encode()))["files"][0]["verdict"], "exact")
 
     def test_damaged_files_are_scored_or_refused_and_never_crash(self):
         draw = random.Random(5)
