@@ -75,29 +75,54 @@ struct Misses {
   }
 };
 
+/// Height of the lowest point where an impact is.
+double height_of(const Reference& reference, const FoundImpact& impact) {
+  const std::vector<Vector3> arms = reference.arms(impact.before.attitude);
+  return impact.before.position.z() + arms[lowest_of(arms)].z();
+}
+
 /// All of the motion above or below its place by one height: the rows less that height are right.
-void add_margin(const Answer& answer, const Reference& reference, const Score& score, const Misses& misses,
-                std::vector<Cause>& causes) {
-  const std::vector<double>& heights = misses.heights;
-  if (heights.empty() || reference.is_compliant || !(std::fabs(heights.front()) > 1e-5 * reference.reach())) return;
-  if (!(Misses::spread(heights) <= explained)) return;
+void add_margin(const Answer& answer, const Reference& reference, const Score& score,
+                const std::vector<FoundImpact>& impacts, const Misses& misses, std::vector<Cause>& causes) {
+  if (impacts.empty() || reference.is_compliant) return;
+  // So high above the ground that no point explains the jump.
+  const bool is_far = impacts.front().points.empty();
+  const double height = is_far ? height_of(reference, impacts.front()) : misses.heights.front();
+  if (!(std::fabs(height) > 1e-5 * reference.reach())) return;
+  if (!is_far && !(Misses::spread(misses.heights) <= explained)) return;
   const std::size_t z = answer.table.column("z").value();
-  const NumericTable lower = answer.table.changed([&](std::span<double> row) { row[z] -= heights.front(); });
+  const NumericTable lower = answer.table.changed([&](std::span<double> row) { row[z] -= height; });
   const std::string law = score.law == "any" ? "" : score.law;
   const double left = score_motion(Motion(lower, reference), reference, law, answer.ending).error();
   if (!(left <= explained * std::fmin(score.error(), 1))) return;
-  causes.push_back({"margin", heights.front(), left,
+  causes.push_back({"margin", height, left,
                     fmt::format("the body strikes {} m {} the ground: less that height all is right {}",
-                                three_digits(std::fabs(heights.front())), heights.front() > 0 ? "above" : "below",
-                                misfit_words(left))});
+                                three_digits(std::fabs(height)), height > 0 ? "above" : "below", misfit_words(left))});
+}
+
+/// Whether the velocities change over several steps, from the touch on, and the middle is so late; half of the time
+/// that contacts take.
+bool contacts_last(const Motion& motion, std::span<const FoundImpact> impacts, double delay) {
+  return std::all_of(impacts.begin(), impacts.end(), [&](const FoundImpact& impact) {
+    const double lasts = motion.time(impact.last_row) - motion.time(impact.first_row);
+    const auto steps = static_cast<double>(impact.last_row - impact.first_row);
+    return steps >= 2 && std::fabs(lasts - 2 * delay) <= 2 * lasts / steps;
+  });
 }
 
 /// Impacts that come late by one time.
-void add_delay(const Reference& reference, const Misses& misses, std::vector<Cause>& causes) {
+void add_delay(const Motion& motion, const Reference& reference, std::span<const FoundImpact> impacts,
+               const Misses& misses, std::vector<Cause>& causes) {
   const std::vector<double>& delays = misses.delays;
   if (delays.size() < 2 || !(std::fabs(misses.heights.front()) > 1e-5 * reference.reach())) return;
   const double left = Misses::spread(delays);
   if (!(left <= explained) || !(delays.front() > 0)) return;
+  if (contacts_last(motion, impacts, delays.front())) {
+    causes.push_back({"contact-time", 2 * delays.front(), left,
+                      fmt::format("its contacts take {} s: an impact counts in the middle, {} s after the touch, {}",
+                                  three_digits(2 * delays.front()), three_digits(delays.front()), misfit_words(left))});
+    return;
+  }
   causes.push_back({"delay", delays.front(), left,
                     fmt::format("each impact comes {} s late, {}", three_digits(delays.front()), misfit_words(left))});
 }
@@ -216,7 +241,10 @@ std::vector<Cause> readings_of(const Answer& answer, const Motion& motion, const
   std::vector<Cause> causes;
   const bool is_strange =
       score.start_error > 1e-2 || score.flight_error > 1e-2 || score.law_error > 2e-2 || !(score.motion_error() <= 0.5);
-  if (is_strange && answer.table.rows() <= most_rows) causes = misreadings_of(answer, reference, score);
+  if (answer.table.rows() <= most_rows) {
+    causes = is_strange ? misreadings_of(answer, reference, score) : causes;
+    if (causes.empty()) causes = late_velocities_of(answer, reference, score);
+  }
   const auto is_sharp = [&](const Cause& cause) { return cause.misfit <= reference.tolerances[1]; };
   // A reading that leaves much may be right by chance, in a run that hardly moves.
   if (std::none_of(causes.begin(), causes.end(), is_sharp)) {
@@ -254,6 +282,11 @@ struct Diagnosed {
     if (asked.stays()) impacts.resize(std::min(impacts.size(), by.truth.size()));  // the rest is not asked for
   }
 
+  /// The impacts that the problem asks for.
+  [[nodiscard]] std::span<const FoundImpact> asked() const {
+    return std::span(impacts).first(std::min(impacts.size(), sequence.truth.size()));
+  }
+
   /// g × step of a code that does not resolve the instants of its impacts, otherwise 0 [m/s].
   [[nodiscard]] double gravity_of_step() const {
     const bool is_exact = !first_order && resolves_instants(impacts);
@@ -280,7 +313,7 @@ std::vector<Cause> causes_at_start(const Diagnosed& run) {
 /// Another place, size or start of the body, or rows that end too early.
 std::vector<Cause> causes_of_scene(const Diagnosed& run, const Misses& misses) {
   std::vector<Cause> causes;
-  add_margin(run.answer, run.reference, run.score, misses, causes);
+  add_margin(run.answer, run.reference, run.score, run.impacts, misses, causes);
   if (causes.empty() && !run.impacts.empty()) {
     causes = size_causes_of(run.motion, run.reference, run.sequence.law, run.impacts.front(), run.law_left());
   }
@@ -301,7 +334,7 @@ std::vector<Cause> causes_of_impacts(const Diagnosed& run, const Misses& misses)
   if (causes.empty() && !impacts.empty() && impacts.front().points.empty()) {
     causes = far_body_causes_of(run.answer, run.reference, run.sequence.law, impacts);
   }
-  if (causes.empty()) add_delay(run.reference, misses, causes);
+  if (causes.empty()) add_delay(run.motion, run.reference, run.asked(), misses, causes);
   if (causes.empty()) add_time_step(run.motion, run.reference, run.score, run.flight_left, impacts, causes);
   causes = chosen(std::move(causes));
   const bool is_alone = causes.empty();  // then it must be able to be all that is wrong
@@ -320,8 +353,13 @@ std::vector<Cause> causes_of(const Answer& answer, const Reference& reference, c
   if (sequence == reference.sequences.end()) return {};
   if (answer.is_list) return causes_of_list(answer, reference, *sequence, score);
   const Motion motion(answer.table, reference);
-  if (std::vector<Cause> stray = stray_rows_of(answer, motion, reference, score); !stray.empty()) return stray;
-  std::vector<Cause> causes = chosen(readings_of(answer, motion, reference, score));
+  std::vector<Cause> causes = stray_rows_of(answer, motion, reference, score);
+  if (!causes
+           .empty()) {  // about a single impact a row with the velocities of the one before is beside the flights, too
+    for (Cause& late : late_velocities_of(answer, reference, score)) causes.push_back(std::move(late));
+    return chosen(std::move(causes));
+  }
+  causes = chosen(readings_of(answer, motion, reference, score));
   const auto is_mirrored = [](const Cause& one) { return one.name == "phi-sign" || one.name == "left-right"; };
   if (!causes.empty() && !std::any_of(causes.begin(), causes.end(), is_mirrored)) return causes;
   const Diagnosed run(answer, motion, reference, *sequence, score);
@@ -333,7 +371,7 @@ std::vector<Cause> causes_of(const Answer& answer, const Reference& reference, c
   }
   // After one impact alone a wrong start and a wrong impact look alike.
   if (motion.begins_after_touch() && sequence->truth.size() == 1) return {};
-  const Misses misses(reference, std::span(run.impacts).first(std::min(run.impacts.size(), sequence->truth.size())));
+  const Misses misses(reference, run.asked());
   causes = causes_of_scene(run, misses);
   if (causes.empty()) causes = chosen(flight_causes_of(motion, reference));
   return !causes.empty() ? causes : causes_of_impacts(run, misses);

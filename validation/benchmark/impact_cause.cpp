@@ -93,6 +93,7 @@ class ImpactCauses {
     add_restitution();
     add_friction();
     add_body();
+    if (causes_.empty()) add_first_restitution();
     return std::move(causes_);
   }
 
@@ -186,6 +187,22 @@ class ImpactCauses {
     if (!(std::fabs(fit.value - asked) >= 0.1 * std::fmin(worst_, 1))) return;
     keep("restitution", fit,
          fmt::format("e = {} ({} is asked) explains {}", three_digits(fit.value), shortest(asked), which()));
+  }
+
+  /// By impacts before others follow in neighbouring steps, of which some are taken for one: by two of them at least.
+  void add_first_restitution() {
+    std::vector<std::size_t> first;
+    for (const std::size_t i : broken_) {
+      if (i + 1 < impacts_.size() && impacts_[i + 1].first_row <= impacts_[i].last_row) break;
+      first.push_back(i);
+    }
+    if (first.size() < 2 || first.size() == broken_.size()) return;
+    const Change change = [](Reference&, DeclaredLaw& law, double e) { law.law.law.restitution = e; };
+    const Fitted fit = least_of(0, 1, [&](double e) { return misfit(change, e, first); });
+    if (!(fit.misfit <= reference_.tolerances[1])) return;
+    keep("restitution", fit,
+         fmt::format("e = {} ({} is asked) explains {} impacts, before those that come in neighbouring rows,",
+                     three_digits(fit.value), shortest(law_.law.law.restitution), first.size()));
   }
 
   /// e > 1, which the law refuses: without friction the change is (1 + e)/2 times that of e = 1.

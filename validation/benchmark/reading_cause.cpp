@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <exception>
 #include <functional>
@@ -65,6 +66,16 @@ void from_y_up(const NumericTable& table, std::span<double> row) {
   at("q0") = turn.w(), at("q1") = turn.x(), at("q2") = turn.y(), at("q3") = turn.z();
 }
 
+/// The same of a body whose own axes are turned likewise.
+void from_y_up_throughout(const NumericTable& table, std::span<double> row) {
+  const auto at = [&](const char* name) -> double& { return row[table.column(name).value()]; };
+  for (const auto& [y, z] :
+       {std::pair{"y", "z"}, std::pair{"q2", "q3"}, std::pair{"vy", "vz"}, std::pair{"wy", "wz"}}) {
+    const double up = at(y);
+    at(y) = -at(z), at(z) = up;
+  }
+}
+
 /// From a point of the body, `place` in its axes, to the centre of mass.
 void from_point(const Vector3& place, const NumericTable& table, std::span<double> row) {
   const auto at = [&](const char* name) -> double& { return row[table.column(name).value()]; };
@@ -87,6 +98,7 @@ constexpr double foot = 0.3048;                                                 
 const std::vector<Reading>& planar_readings() {
   static const std::vector<Reading> readings{
       {"phi-sign", "phi and omega count the other turn as positive", scaled({"phi", "omega"}, -1)},
+      {"phi-alone", "phi counts the turn as positive that omega counts as negative", scaled({"phi"}, -1)},
       {"omega-sign", "omega has not the sign of phi's rate", scaled({"omega"}, -1)},
       {"left-right", "left and right are exchanged: x, phi, vx and omega have the other sign",
        scaled({"x", "phi", "vx", "omega"}, -1)},
@@ -111,6 +123,7 @@ const std::vector<Reading>& space_readings() {
       {"omega-sign", "the angular velocity has the other sign", scaled({"wx", "wy", "wz"}, -1)},
       {"up-down", "z points down", scaled({"z", "vz"}, -1)},
       {"y-up", "y points up, and z out of the page", from_y_up},
+      {"y-up", "y points up in the world and in the body, and z out of the page", from_y_up_throughout},
       {"mirrored", "the axes are left-handed: y points the other way", scaled({"y", "q1", "q3", "vy", "wx", "wz"}, -1)},
       {"degrees", "the angular velocity is in degrees per second", scaled({"wx", "wy", "wz"}, radian)},
       {"turns", "the angular velocity is in turns per second", scaled({"wx", "wy", "wz"}, full_turn)},
@@ -145,10 +158,26 @@ class ReadingCauses {
     if (causes_.empty()) of_other_points();
   }
 
+  /// Velocities of the row before.
+  void of_late_velocities() {
+    const std::size_t last = table_.rows() - 1;
+    std::size_t next = 0;
+    const NumericTable early = table_.changed([&](std::span<double> row) {
+      next = std::min(next + 1, last);
+      for (const char* name : {"vx", "vy", "vz", "omega", "wx", "wy", "wz"}) {
+        if (const auto at = table_.column(name)) row[*at] = table_.at(next, *at);
+      }
+    });
+    if (last < 2) return;
+    add({"velocity-lag", "velocities are those of the row before", {}},
+        [&] { return score_of(early.without(last, last)); });
+  }
+
   void of_list() {
     for (const Reading& reading : list_readings()) {
       add(reading, [&] { return score_list(impacts(changed(reading)), reference_, law_, answer_.ending); });
     }
+    of_velocities_before();
     if (!reference_.is_planar || reference_.points.size() != 2) return;
     add({"ends-exchanged", "the ends are exchanged", {}}, [&] {
       std::vector<FoundImpact> exchanged = impacts(table_);
@@ -176,9 +205,31 @@ class ReadingCauses {
     }
   }
 
-  /// @throws std::domain_error if the rows do not move by their velocities, read so
-  [[nodiscard]] Score score_as(const Reading& reading) const {
-    const Motion motion(changed(reading), reference_);
+  /// Velocities of a list that its impulses change to those after each impact.
+  void of_velocities_before() {
+    std::vector<FoundImpact> found = impacts(table_);
+    space::State state = reference_.start;
+    double time = 0, off = 0;
+    for (FoundImpact& impact : found) {
+      if (impact.points.size() != 1) return;
+      const space::State listed = impact.after;
+      impact.before = reference_.flight(state).at(impact.time - time);
+      off = worse(off, std::fabs(listed.velocity.z() - impact.before.velocity.z()));
+      off = worse(off, reference_.reach() * (listed.angular_velocity - impact.before.angular_velocity).norm());
+      impact.after = reference_.struck(impact.before, impact.points.front(), impact.impulse);
+      impact.bookings = {{impact.before, impact.after}};
+      state = impact.after, time = impact.time;
+    }
+    if (!(off <= reference_.tolerances[2] * reference_.speed())) return;
+    add({"velocities-before", "velocities are those before each impact", {}},
+        [&] { return score_list(found, reference_, law_, answer_.ending); });
+  }
+
+  [[nodiscard]] Score score_as(const Reading& reading) const { return score_of(changed(reading)); }
+
+  /// @throws std::domain_error if the rows do not move by their velocities
+  [[nodiscard]] Score score_of(const NumericTable& table) const {
+    const Motion motion(table, reference_);
     if (!moves_by_its_velocities(motion, reference_)) throw std::domain_error("rows that contradict each other");
     return score_motion(motion, reference_, law_, answer_.ending);
   }
@@ -220,6 +271,12 @@ std::vector<Cause> misreadings_of(const Answer& answer, const Reference& referen
   ReadingCauses readings(answer, reference, score);
   if (answer.is_list) readings.of_list();
   else readings.of_motion();
+  return readings.causes();
+}
+
+std::vector<Cause> late_velocities_of(const Answer& answer, const Reference& reference, const Score& score) {
+  ReadingCauses readings(answer, reference, score);
+  readings.of_late_velocities();
   return readings.causes();
 }
 

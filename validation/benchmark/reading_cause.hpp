@@ -11,5 +11,8 @@ namespace clatter::validation::inline benchmark {
 /// The ways to read an answer's rows by which all of it is right: other signs, axes, units and frames, and of a list
 /// other ends.
 [[nodiscard]] std::vector<Cause> misreadings_of(const Answer& answer, const Reference& reference, const Score& score);
+/// Velocities that are those of the row before, if all is right with those of the next.
+[[nodiscard]] std::vector<Cause> late_velocities_of(const Answer& answer, const Reference& reference,
+                                                    const Score& score);
 
 }  // namespace clatter::validation::inline benchmark

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Right codes of fixed steps and wrong scenes: what the judge says of each, and in which order."""
 import json
+import math
 import os
 import pathlib
 import tempfile
@@ -95,6 +96,53 @@ class Steps(unittest.TestCase):
             causes = judged(code.text())["causes"]
             self.assertEqual([cause["cause"] for cause in causes], ["restitution", "first-order-step"])
             self.assertAlmostEqual(causes[0]["value"], code.e, delta=1e-6)
+
+
+class SoftCode(Code):
+    """Ends on springs, by a step so short that the contact alone makes the error."""
+
+    def rows(self, stiffness, every=1e-3):
+        step, state, rows = 5e-6, self.state, []
+        for k in range(math.ceil(self.end() / step) + 1):
+            if k % round(every / step) == 0:
+                rows.append([k * step, *state[1:]])
+            for point in range(len(self.points)):
+                depth = -self.height(state, point)
+                if depth > 0:
+                    state = self.apply(state, point, stiffness * depth * step, 0.0)
+            state = self.fly(state, step)
+        return rows
+
+
+class Contacts(unittest.TestCase):
+    def test_a_contact_that_takes_time_is_not_said_to_be_late(self):
+        code = SoftCode("rod-10", 1)
+        found = judged(code.text(code.rows(1e5)))
+        self.assertEqual([cause["cause"] for cause in found["causes"]], ["contact-time"])
+        effective = 1 / (1 / code.mass + (0.5 * math.cos(math.radians(10)))**2 / code.moment)
+        self.assertAlmostEqual(found["causes"][0]["value"], math.pi * math.sqrt(effective / 1e5), delta=5e-5)
+        self.assertIn("its contacts take 0.0050", found["causes"][0]["words"])
+
+
+class Restitution(unittest.TestCase):
+    def test_little_restitution_is_named_by_the_impacts_before_they_come_too_fast_for_the_rows(self):
+        for e in (0.05, 0.1):
+            code = Code("rod-10", 1)
+            code.e = e
+            causes = judged(code.text(code.rows(1e-3)))["causes"]
+            self.assertEqual([cause["cause"] for cause in causes], ["restitution"])
+            self.assertAlmostEqual(causes[0]["value"], e, delta=1e-9)
+
+
+class Lists(unittest.TestCase):
+    def test_velocities_before_the_impacts_are_named(self):
+        for problem in ("rod-10", "friction-slip"):
+            truth = exact_motion.Motion(problem)
+            lines = [f"# problem: {problem}", "# Omega: clockwise", "# ended: nothing approaches", "t,place,Pn,Pt,V,Omega"]
+            for row, piece in zip(truth.truth["impacts"], truth.pieces):
+                before = piece.flown(truth.body, truth.gravity, truth.touch + row["t"])
+                lines.append(f"{row['t']!r},{row['place']},{row['Pn']!r},{row['Pt']!r},{before.velocity[2]!r},{before.omega[1]!r}")
+            self.assertEqual(told("\n".join(lines) + "\n"), ["velocities-before"], problem)
 
 
 def resized(code, along=1.0, across=1.0, raised=True):

@@ -201,6 +201,22 @@ def y_up(r):
              -r[12]])
 
 
+def y_up_throughout(r):
+    """The body's own axes, too."""
+    return [r[0], r[1], r[3], -r[2], r[4], r[5], r[7], -r[6], r[8], r[10], -r[9], r[11], r[13], -r[12]]
+
+
+def a_row_late(code, rows):
+    """Velocities of the row before."""
+    first = 4 if code.is_planar else 8
+    return [row[:first] + before[first:] for before, row in zip(rows[:1] + rows, rows)]
+
+
+def one_row_off(code, rows):
+    at = len(rows) // 2
+    return [[*row[:1], row[1] + 0.1, *row[2:]] if k == at else row for k, row in enumerate(rows)]
+
+
 def mirrored_in_space(r):
     """Left-handed axes: y the other way."""
     return [r[0], r[1], -r[2], r[3], r[4], -r[5], r[6], -r[7], r[8], -r[9], r[10], -r[11], r[12], -r[13]]
@@ -274,6 +290,7 @@ FAULTS = {
     "the last impact is missing": (None, missing, None),
     "a skin of 1 mm": ("margin", None, added("z", lambda t: 1e-3)),
     "2 mm in the ground": ("margin", None, added("z", lambda t: -2e-3)),
+    "z from elsewhere": ("margin", None, added("z", lambda t: 0.1)),
     "z drifts": (None, None, added("z", lambda t: 1e-3 * t)),
     "x drifts": (None, None, added("x", lambda t: 1e-2 * t)),
     "phi clockwise": ("phi-sign", None, times("phi omega", -1)),
@@ -283,6 +300,10 @@ FAULTS = {
     "z points down": ("up-down", None, times("z vz", -1)),
     "x and z exchanged": ("exchanged", None, rotated),
     "y points up": ("y-up", None, in_space_only(y_up)),
+    "y points up in the body too": ("y-up", None, in_space_only(y_up_throughout)),
+    "phi alone clockwise": ("phi-alone", None, times("phi", -1)),
+    "velocities a row late": ("velocity-lag", None, a_row_late),
+    "one row is off": ("stray-rows", None, one_row_off),
     "world to body": ("conjugate", None, times("q1 q2 q3", -1)),
     "scalar last": ("scalar-last", None, in_space_only(scalar_last)),
     "omega in body axes": ("body-frame", None, in_space_only(body_frame)),
