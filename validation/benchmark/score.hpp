@@ -57,10 +57,8 @@ struct Stray {
 ///   motion    V, Ω and t against the truth; t over the last impact's time, at least reach/speed
 ///   impulse   of a list against the truth
 ///   energy    after the impacts against the truth, and what is gained or lost between impacts
-///   flight    the farthest that a row lies off the free flight from the row after the impact before, over the reach;
-///   of
-///             rows in impacts and behind what is asked for, what they lie farther from the row before than their
-///             speeds allow
+///   flight    the farthest that a row lies off the free flight from the row after the impact before, over the reach
+///             in impacts and behind what is asked for: how much farther from the row before than their speeds allow
 ///   start     of the state at the first touch, as Motion::start_error()
 struct Score {
   static constexpr double unknown = std::numeric_limits<double>::infinity();
