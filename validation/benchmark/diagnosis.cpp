@@ -242,7 +242,7 @@ std::vector<Cause> readings_of(const Answer& answer, const Motion& motion, const
   const bool is_strange =
       score.start_error > 1e-2 || score.flight_error > 1e-2 || score.law_error > 2e-2 || !(score.motion_error() <= 0.5);
   if (answer.table.rows() <= most_rows) {
-    causes = is_strange ? misreadings_of(answer, reference, score) : causes;
+    if (is_strange) causes = misreadings_of(answer, reference, score);
     if (causes.empty()) causes = late_velocities_of(answer, reference, score);
   }
   const auto is_sharp = [&](const Cause& cause) { return cause.misfit <= reference.tolerances[1]; };
@@ -354,8 +354,8 @@ std::vector<Cause> causes_of(const Answer& answer, const Reference& reference, c
   if (answer.is_list) return causes_of_list(answer, reference, *sequence, score);
   const Motion motion(answer.table, reference);
   std::vector<Cause> causes = stray_rows_of(answer, motion, reference, score);
-  if (!causes
-           .empty()) {  // about a single impact a row with the velocities of the one before is beside the flights, too
+  if (!causes.empty()) {
+    // About a single impact a row with the velocities of the one before is beside the flights, too.
     for (Cause& late : late_velocities_of(answer, reference, score)) causes.push_back(std::move(late));
     return chosen(std::move(causes));
   }
