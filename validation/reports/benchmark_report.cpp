@@ -233,9 +233,11 @@ std::string benchmark_list_text() {
 /// Axes and the turns that count as positive, with a picture.
 std::vector<std::string> sign_lines(const Problem& problem) {
   if (!problem.scene.attitude.empty()) {
-    return {"signs: x to the right, y into the page, z up; q turns the body to the world, wx, wy, wz by the right hand",
-            "  z |  / y      wx > 0: what is at +y rises", "    | /         wy > 0: what is at +x falls",
-            "    +-----> x   wz > 0: counter-clockwise, seen from above"};
+    return {
+        "signs: x to the right, y into the page, z up; q turns the body to the world; wx, wy, wz in world axes, by the "
+        "right hand",
+        "  z |  / y      wx > 0: what is at +y rises", "    | /         wy > 0: what is at +x falls",
+        "    +-----> x   wz > 0: counter-clockwise, seen from above"};
   }
   return {
       "signs: phi and omega of motions are positive counter-clockwise on the page; Omega of the truth below is "
