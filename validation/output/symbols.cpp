@@ -13,7 +13,8 @@ namespace {
 
 /// Characters, and after each what stands for it: separated by blanks, or a text for each.
 constexpr const char* latex_words =
-    R"(ω_x $\omega_x$ ω_z $\omega_z$ V_y $V_y$ P_y $P_y$ \ \textbackslash{} % \% # \# _ \_ & \& ° $^\circ$ Ω $\Omega$ β $\beta$ γ $\gamma$ θ $\theta$ μ $\mu$ Σ
+    R"(ω_x $\omega_x$ ω_z $\omega_z$ V_y $V_y$ P_y $P_y$
+\ \textbackslash{} % \% # \# _ \_ & \& ° $^\circ$ Ω $\Omega$ β $\beta$ γ $\gamma$ θ $\theta$ μ $\mu$ Σ
 $\Sigma$ · $\cdot$ … \dots{} ∞ $\infty$ ± $\pm$ − $-$ ₁ $_1$ ₂ $_2$ ₃ $_3$ ² $^2$ ₙ $_n$ ₜ $_t$ ≤ $\le$ ₖ
 $_k$ ₛ $_s$ ³ $^3$ ⁴ $^4$ → $\to$ ≈ $\approx$ – -- π $\pi$ ω $\omega$ α $\alpha$ √ $\surd$ × $\times$ ✓
 $\surd$ ✗ $\times$)";
