@@ -52,8 +52,8 @@ std::optional<Tail> bouncing_tail(const Drop& drop, const ImpactRow& last) {
   if ((impact.angular_velocity_after != Vector3::Zero() && !is_ball) || !(drop.gravity > 0) || !(e < 1)) return {};
   const Vector3 arm = is_ball ? Vector3(Vector3::Zero()) : last.before.attitude * last.corners.front().place;
   if (!last.group && (arm.head<2>() != Vector2::Zero() || impact.impulse.head<2>() != Vector2::Zero())) return {};
-  const double w = impact.velocity_after.z(), mass = drop.body.mass;
-  if (!(w >= 0)) return {};
+  if (!(impact.velocity_after.z() >= 0)) return {};
+  const double w = e * last.approach_speed, mass = drop.body.mass;  // to the last digits, however small e is
   Tail tail;
   tail.end_time = last.start + 2 * w / (drop.gravity * (1 - e));
   tail.normal_impulse = mass * (1 + e) * w / (1 - e);

@@ -240,6 +240,21 @@ std::string difference_words(const Reference& reference, const State& a, const S
                      significant(2 * std::atan2(turn.vec().norm(), std::fabs(turn.w())), 2));
 }
 
+/// The largest speed at which two states move a point of the body apart, at most [m/s].
+double speed_between(const Reference& reference, const State& a, const State& b) {
+  return worse((a.velocity - b.velocity).norm(), reference.reach() * (a.angular_velocity - b.angular_velocity).norm());
+}
+
+/// "vz is 5.1 m/s" or "omega is 9 rad/s" of what the velocities of two states differ most in.
+std::string velocity_words(const Reference& reference, const State& a, const State& b) {
+  int axis = 0, turn = 0;
+  const double largest = (a.velocity - b.velocity).cwiseAbs().maxCoeff(&axis);
+  const double spin = (a.angular_velocity - b.angular_velocity).cwiseAbs().maxCoeff(&turn);
+  if (!(reference.reach() * spin > largest)) return fmt::format("v{} is {} m/s", "xyz"[axis], significant(largest, 2));
+  return fmt::format("{} is {} rad/s", reference.is_planar ? "omega" : fmt::format("w{}", "xyz"[turn]),
+                     significant(spin, 2));
+}
+
 /// Energy that is gained or lost in flight, and rows that free flight does not explain, up to the last impact asked
 /// for or Reference::until; of a problem of energy alone the energy at its end, too.
 class Flights {
@@ -283,17 +298,27 @@ class Flights {
       drift = worse(drift, std::fabs(motion_.energy(row) - start) / energy_);
     }
     note_drift(score, drift, n);
-    follow_places(from, to, score, n);
+    follow_rows(from, to, score, n);
   }
 
-  void follow_places(std::size_t from, std::size_t to, Score& score, std::size_t n) const {
+  /// How far a row's place is off the flight from another row, and how far its velocity leads off it in a step.
+  struct Away {
+    double place = 0, by_velocity = 0;  ///< [m]
+  };
+  [[nodiscard]] Away away(const space::FreeFlight& flight, std::size_t from, std::size_t row) const {
+    const double time = motion_.time(row) - motion_.time(from);
+    const State flown = flight.at(time), given = motion_.state(row);
+    return {worse((flown.position + time * creep_ - given.position).norm(),
+                  way_of_turn(reference_, flown.attitude, given.attitude)),
+            speed_between(reference_, flown, given) * (motion_.time(row) - motion_.time(row - 1))};
+  }
+
+  void follow_rows(std::size_t from, std::size_t to, Score& score, std::size_t n) const {
     const space::FreeFlight flight = reference_.flight(motion_.state(from));
     std::vector<double> away(to - from + 1);  // of each row
     for (std::size_t row = from + 1; row <= to; ++row) {
-      const double time = motion_.time(row) - motion_.time(from);
-      const State flown = flight.at(time), given = motion_.state(row);
-      away[row - from] = worse((flown.position + time * creep_ - given.position).norm(),
-                               way_of_turn(reference_, flown.attitude, given.attitude));
+      const Away off = this->away(flight, from, row);
+      away[row - from] = worse(off.place, off.by_velocity);
     }
     const auto worst = std::max_element(away.begin(), away.end());
     if (!is_worst(*worst / reference_.reach(), score, n)) return;
@@ -302,8 +327,10 @@ class Flights {
     const std::size_t at = from + first;
     while (first > 0 && away[first - 1] > nearly_on * *worst) --first;
     while (last + 1 < away.size() && away[last + 1] > nearly_on * *worst) ++last;
-    const std::string size =
-        difference_words(reference_, flight.at(motion_.time(at) - motion_.time(from)), motion_.state(at));
+    const State flown = flight.at(motion_.time(at) - motion_.time(from)), given = motion_.state(at);
+    const Away off = this->away(flight, from, at);
+    const std::string size = off.by_velocity > off.place ? velocity_words(reference_, flown, given)
+                                                         : difference_words(reference_, flown, given);
     const bool has_end = last + 1 < away.size();
     score.stray = Stray{
         .alone = {},

@@ -5,10 +5,10 @@
 
 #include <toml++/toml.h>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <sstream>
 
 #include "validation/output/bad_input.hpp"
@@ -44,15 +44,26 @@ toml::table parse(const std::string& path, std::string_view text) {
   }
 }
 
+/// Of a pipe, too, which has no length and may not end.
+std::string text_of(const std::string& path) {
+  constexpr std::size_t longest = 16 << 20;
+  std::ifstream file(path, std::ios::binary);
+  std::string text;
+  std::array<char, 1 << 16> block;
+  while (file.read(block.data(), block.size()), file.gcount() > 0) {
+    text.append(block.data(), static_cast<std::size_t>(file.gcount()));
+    if (text.size() > longest) throw BadInput(fmt::format("{}: longer than any scene, 16 MB", path));
+  }
+  if (!file.is_open() || file.bad()) throw BadInput(fmt::format("{}: cannot be read", path));
+  return text;
+}
+
 toml::table parse(const std::string& path) {
   if (std::error_code error; !std::filesystem::is_regular_file(path, error) && !std::filesystem::is_fifo(path, error)) {
     throw BadInput(fmt::format("{}: {}", path, std::filesystem::exists(path, error) ? "not a file" : "cannot be read"));
   }
   note_read(path);
-  std::ifstream file(path, std::ios::binary);
-  const std::string text{std::istreambuf_iterator<char>(file), {}};  // of a pipe, too, which has no length
-  if (!file.is_open() || file.bad()) throw BadInput(fmt::format("{}: cannot be read", path));
-  return parse(path, text);
+  return parse(path, text_of(path));
 }
 
 }  // namespace

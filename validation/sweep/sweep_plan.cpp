@@ -7,6 +7,7 @@
 #include <array>
 #include <limits>
 #include <numbers>
+#include <set>
 
 #include "validation/output/bad_input.hpp"
 #include "validation/output/digest.hpp"
@@ -365,6 +366,11 @@ void choose_probes(const SweepRequest& request, const SceneValues& values, Sweep
   }
   if (have_columns)
     layout.probes = request.probes.empty() ? read_probes(values) : read_probes("--probe", request.probes);
+  std::set<std::string> names;
+  for (const Column& column : sweep_columns(layout)) {
+    if (names.insert(column.name).second) continue;
+    throw BadInput(fmt::format("--probe: column {} would be there twice; name the points otherwise", column.name));
+  }
   for (const Probe& probe : layout.probes) {
     plan.words.push_back(fmt::format("probe: {} at ({}, {}, {}) m, body frame", probe.name, shortest(probe.place.x()),
                                      shortest(probe.place.y()), shortest(probe.place.z())));

@@ -72,6 +72,22 @@ class Rows(Folder):
                     self.assertEqual([cause["cause"] for cause in found["causes"]], ["stray-rows"])
                     self.assertIn(f"lines {begin + 5} to {last + 3}: {name} is 0.30 m off", found["causes"][0]["words"])
 
+    def test_a_velocity_in_flight_that_would_lead_off_it_is_not_exact(self):
+        for problem, name in (("rod-10", "omega"), ("rod-10", "vz"), ("box", "vx"), ("tumble", "wx")):
+            motion = Motion(problem, 1)
+            rows = motion.rows(1e-2)
+            k = sum(row[0] < motion.pieces[2].time for row in rows) - 2
+            at = motion.header().split(",").index(name)
+            for wrong in (-rows[k][at] + 3, 1e9, 1e308):
+                out = [list(row) for row in rows]
+                out[k][at] = wrong
+                found, = self.score(motion.text(out))
+                with self.subTest(problem=problem, name=name, wrong=wrong):
+                    self.assertIn(found["verdict"], ("coarse", "fails"))
+                    if not found["order_right"]:  # counted as an impact
+                        continue
+                    self.assertTrue(any(f"line {k + 3}" in words for words in found["findings"] + [c["words"] for c in found["causes"]]), found)
+
     def test_a_body_that_leaps_at_an_impact_did_not_fly_there(self):
         for problem, name in (("rod-10", "x"), ("corner", "y")):
             motion = Motion(problem, 1)

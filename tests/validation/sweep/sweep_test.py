@@ -82,6 +82,7 @@ BAD_OPTIONS = {
     "--model discreet": "did you mean discrete?",
     "--rows impact --probe tip:0,0,0": "is for rows of scenes of the discrete model",
     "--probe tip:0,0": "--probe",
+    "--probe tip:0,0,0 --probe tip_impact:0,0,0": "delta_v_tip_impact would be there twice",
     "--probe tip:0,0,0 --probe tip:1,0,0": "--probe",
     "--rows impacts": "did you mean impact?",
     "--rows scene --rows scene": "twice",
