@@ -24,7 +24,12 @@ function canonical(body: Request["body"]): string {
 
 export function sequenceRequest(parameters: Parameters): Request {
   const body = { ...drop(parameters), ...shape(parameters) };
-  return { path: "sequence", body: { ...body, ...law(parameters), ...parameters.extra } };
+  return { path: "sequence", body: { ...body, ...law(parameters), ...extraOfDiscrete(parameters) } };
+}
+
+/** Beside an impact's own restitution and friction no ground is named, and so none of its frictions. */
+function extraOfDiscrete({ ofGround, extra }: Parameters): Request["body"] {
+  return Object.fromEntries(Object.entries(extra).filter(([name]) => ofGround || !name.endsWith("_friction")));
 }
 
 /** Fewer digits in the equations than the program's six: they are to be read. */
