@@ -58,7 +58,7 @@ constexpr double direction_rounding = 1e-14;  ///< of its unit length
 
 /// Slip slower than this part, times √tolerance, of the contact's speed keeps its direction: across it friction is a
 /// damper that stiffens like 1/|v|, which explicit steps could not follow.
-constexpr double slow_part = 0.1;
+constexpr double slow_part = 0.01;
 constexpr double digits_beyond_tolerance = 3;  ///< of friction over a patch: steps see nothing of its error
 constexpr double least_spin = 1;               ///< times tolerance and the contact's speed: slip from spin that counts
 constexpr double fading_per_contact = 50;      ///< rate at which stick ends a remaining slip, times the contact time
