@@ -57,8 +57,9 @@ using Kind = FrictionPhase::Kind;
 constexpr double direction_rounding = 1e-14;  ///< of its unit length
 
 /// Slip slower than this part, times √tolerance, of the contact's speed keeps its direction: across it friction is a
-/// damper that stiffens like 1/|v|, which explicit steps could not follow.
-constexpr double slow_part = 0.01;
+/// damper that stiffens like 1/|v|, which explicit steps could not follow.  Slip that begins at the touch keeps it less
+/// long: how it turns then decides whether it stops.
+constexpr double slow_part = 0.1, slow_part_at_onset = 0.01;
 constexpr double digits_beyond_tolerance = 3;  ///< of friction over a patch: steps see nothing of its error
 constexpr double least_spin = 1;               ///< times tolerance and the contact's speed: slip from spin that counts
 constexpr double fading_per_contact = 50;      ///< rate at which stick ends a remaining slip, times the contact time
@@ -89,7 +90,8 @@ void FrictionPhases::begin(const MotionState& touch, const Vector3& point, const
   const Vector3 moving = touch.velocity + touch.attitude * touch.angular_velocity.cross(point);
   const AlongGround slip{moving.x(), system_.planar() ? 0.0 : moving.y()};
   const double speed = slip.norm();
-  if (speed > 1e-12 * std::max(scales_.speed, touch.velocity.norm())) {
+  from_rest_ = !(speed > 1e-12 * std::max(scales_.speed, touch.velocity.norm()));
+  if (!from_rest_) {
     return start(Kind::slip, direction_of(slip, 1), now);
   }
   const AlongGround ratio = system_.sticking_ratio(point);
@@ -110,7 +112,9 @@ void FrictionPhases::start(Kind kind, const AlongGround& direction, const Contac
   system_.set_phase(phase);
 }
 
-double FrictionPhases::slow_slip() const { return slow_part * std::sqrt(settings_.tolerance) * scales_.speed; }
+double FrictionPhases::slow_slip() const {
+  return (from_rest_ ? slow_part_at_onset : slow_part) * std::sqrt(settings_.tolerance) * scales_.speed;
+}
 
 /// Whether the patch spins noticeably; returns how fast its farthest point might.  The faster, the less slip needs a
 /// direction from the phase: over the patch it has all of them, and a lean would count as slip.  A lean that ended at
@@ -157,6 +161,7 @@ bool FrictionPhases::is_over(const ContactInstant& at) const {
 void FrictionPhases::change(const ContactInstant& at, ContactInstant& now) {
   assert(can_end());
   const Kind kind = system_.phase().kind;
+  from_rest_ = from_rest_ && kind == Kind::slip;
   log_.close(system_.phase(), sums(now));
   const AlongGround hold = kind == Kind::stick ? at.diagnosis.hold : system_.sticking_force(at.state);
   const double normal = at.diagnosis.load.force;
