@@ -95,7 +95,7 @@ class FrictionPhases {
   Settings settings_;
   ContactScales scales_;
   FrictionLog log_;
-  bool from_rest_ = false;     ///< whether this phase is the first and began without slip
+  bool from_rest_ = false;     ///< whether the contact began without slip and has not stuck since
   double stopping_speed_ = 0;  ///< slip at which the slip phase ends [m/s]
 };
 

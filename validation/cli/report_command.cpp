@@ -103,7 +103,8 @@ std::string worst_html(const ReportInput& input, const Attitudes& attitudes, con
       [&](long long place) { return plan.attitude_name(place); });
   // Of the commands that show extremes those of the hardest blows; without a file none could name the scene.
   std::erase_if(report.commands, [&](const NamedCommand& one) {
-    const bool of_probe = one.what.starts_with("largest delta_v_") && !one.what.ends_with("_impact");
+    const bool of_probe =
+        one.what.starts_with(fmt::format("largest {}", shock_column)) && !one.what.ends_with("_impact");
     return request.file.empty() || (one.what != "largest hardest_impulse_normal" && !of_probe);
   });
   if (!request.file.empty()) commands.push_back(sweep_command_of(request));

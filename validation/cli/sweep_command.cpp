@@ -182,7 +182,7 @@ class SweepOutput {
         view.quantities.push_back(asked.column.name);
     }
     for (const Probe& probe : plan_.layout.probes) {
-      if (view.quantities.size() < most_panels) view.quantities.push_back("delta_v_" + probe.name);
+      if (view.quantities.size() < most_panels) view.quantities.push_back(std::string(shock_column) + probe.name);
     }
     if (view.quantities.empty()) view.quantities = {"impacts", "total_normal_impulse", "energy_loss"};
     plot_.write(sweep_rows_picture(rows, view), {rows.title});

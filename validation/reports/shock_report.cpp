@@ -404,8 +404,7 @@ void add_severity(double severity, PicturePanel& panel) {
 std::string probe_words(const std::vector<Probe>& probes) {
   std::string words;
   for (const Probe& probe : probes) {
-    words += fmt::format("{}{} at ({}, {}, {}) m", words.empty() ? "probes: " : "; ", probe.name,
-                         shortest(probe.place.x()), shortest(probe.place.y()), shortest(probe.place.z()));
+    words += (words.empty() ? "probes: " : "; ") + place_words(probe);
   }
   return words + ", body frame";
 }

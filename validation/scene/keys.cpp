@@ -298,8 +298,7 @@ void append_run(std::vector<Key>& keys) {
            WholeNumber{[](Scene& s) -> int& { return s.request.impacts; }, 1, 1'000'000}},
           {"run.until_rest", Use::discrete, "--until-rest", "", "",
            "discrete model: go on until the body rests, no impact follows or, in the plane, an end stays on the "
-           "ground, "
-           "for 100000 impacts at most; exit status 3 if that is not enough",
+           "ground, for 100000 impacts at most; exit status 3 if that is not enough",
            TruthValue{[](Scene& s) -> bool& { return s.until_rest; }},
            [](const Scene& s, Model) { return s.until_rest ? Echo::value : Echo::absent; }},
           {"run.digits", Use::both, "--digits", "N", "", "significant digits asked for",

@@ -72,6 +72,17 @@ std::vector<Probe> read_probes(const std::string& flag, const std::vector<std::s
   return probes;
 }
 
+std::string place_words(const Probe& probe) {
+  return fmt::format("{} at ({}, {}, {}) m", probe.name, shortest(probe.place.x()), shortest(probe.place.y()),
+                     shortest(probe.place.z()));
+}
+
+std::vector<numeric::Vector3> places_from(const numeric::Vector3& centre, const std::vector<Probe>& probes) {
+  std::vector<numeric::Vector3> places;
+  for (const Probe& probe : probes) places.push_back(probe.place - centre);
+  return places;
+}
+
 Value probe_fields(const std::vector<Probe>& probes) {
   Value::List list;
   for (const Probe& probe : probes) {

@@ -28,6 +28,13 @@ struct Probe {
 /// Those of flags "NAME:X,Y,Z".  @throws BadInput naming the flag.
 [[nodiscard]] std::vector<Probe> read_probes(const std::string& flag, const std::vector<std::string>& texts);
 
+/// "camera at (0.05, 0.02, 0.009) m".
+[[nodiscard]] std::string place_words(const Probe& probe);
+
+/// The places of probes from the centre of mass, body frame [m].
+[[nodiscard]] std::vector<numeric::Vector3> places_from(const numeric::Vector3& centre,
+                                                        const std::vector<Probe>& probes);
+
 /// As the JSON echo has them.
 [[nodiscard]] Value probe_fields(const std::vector<Probe>& probes);
 

@@ -11,10 +11,7 @@ namespace {
 
 /// Of the probes, from the centre of mass of the body that a model drops [m].
 std::vector<Vector3> places_of(const Scene& scene, const std::vector<Probe>& probes, Model model) {
-  const Vector3 centre = body_properties(scene, model).centre;
-  std::vector<Vector3> places;
-  for (const Probe& probe : probes) places.push_back(probe.place - centre);
-  return places;
+  return places_from(body_properties(scene, model).centre, probes);
 }
 
 /// Impacts from the first on that can be predicted.

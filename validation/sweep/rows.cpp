@@ -82,7 +82,7 @@ std::vector<Column> scene_columns(const RowLayout& layout) {
     else columns.push_back(asked.column);
   }
   for (const Probe& probe : layout.probes) {
-    const std::string name = "delta_v_" + probe.name;
+    const std::string name = std::string(shock_column) + probe.name;
     add({name, name, "m/s", "largest change of velocity of the point " + probe.name + " over an impact"});
     columns.push_back({name + "_impact", name + "_impact", "", "number of that impact"});
   }

@@ -59,6 +59,9 @@ struct RowLayout {
 /// What all rows of a scene begin with.
 [[nodiscard]] std::string row_prefix(long long index, const std::vector<double>& values, bool packed);
 
+/// Of the column of a probe's largest |ΔV|, before the probe's name.
+inline constexpr std::string_view shock_column = "delta_v_";
+
 /// The largest |ΔV| of a point of the body over an impact.
 struct LargestShock {
   Estimated delta_v;  ///< [m/s]

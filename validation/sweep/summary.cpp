@@ -12,6 +12,7 @@
 #include <stdexcept>
 
 #include "validation/output/number.hpp"
+#include "validation/sweep/rows.hpp"
 
 namespace clatter::validation::inline sweep {
 namespace {
@@ -122,7 +123,7 @@ void Summary::add_attitudes(Report& report, const std::function<std::string(long
         columns_.begin());
   };
   // By which blows are hard: for the first of the probes, if there are any.
-  const auto is_of_probe = [](const Column& one) { return one.name.starts_with("delta_v_"); };
+  const auto is_of_probe = [](const Column& one) { return one.name.starts_with(shock_column); };
   auto by = static_cast<std::size_t>(std::find_if(columns_.begin(), columns_.end(), is_of_probe) - columns_.begin());
   for (const char* const wanted : {"largest_peak_force", "hardest_impulse_normal", "total_normal_impulse"}) {
     if (by == columns_.size()) by = column_named(wanted);

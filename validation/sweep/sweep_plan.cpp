@@ -372,8 +372,7 @@ void choose_probes(const SweepRequest& request, const SceneValues& values, Sweep
     throw BadInput(fmt::format("--probe: column {} would be there twice; name the points otherwise", column.name));
   }
   for (const Probe& probe : layout.probes) {
-    plan.words.push_back(fmt::format("probe: {} at ({}, {}, {}) m, body frame", probe.name, shortest(probe.place.x()),
-                                     shortest(probe.place.y()), shortest(probe.place.z())));
+    plan.words.push_back(fmt::format("probe: {}, body frame", place_words(probe)));
   }
 }
 

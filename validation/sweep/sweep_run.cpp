@@ -170,10 +170,9 @@ bool SweptBody::renew(const Scene& scene, const std::vector<double>& values) {
 
 /// Of each probe, the first of equal ones.
 std::vector<LargestShock> SceneRunner::largest_shocks(const DiscreteDrop& drop, const DiscreteSequence& found) {
-  std::vector<numeric::Vector3> places;
-  for (const Probe& probe : plan_.layout.probes) places.push_back(probe.place - body_->discrete->centre());
-  std::vector<LargestShock> largest(places.size());
-  if (places.empty()) return largest;
+  std::vector<LargestShock> largest(plan_.layout.probes.size());
+  if (largest.empty()) return largest;
+  const std::vector<numeric::Vector3> places = places_from(body_->discrete->centre(), plan_.layout.probes);
   for (const ShockRow& row : discrete_shock(drop, found, places)) {
     LargestShock& so_far = largest[row.probe];
     const Estimated delta_v{row.value.delta_v_size, row.error.delta_v_size};

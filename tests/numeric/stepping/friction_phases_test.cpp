@@ -217,6 +217,8 @@ BOOST_AUTO_TEST_CASE(slip_that_has_hardly_begun_is_free_to_turn_at_the_usual_tol
   };
   const double fine = spin({.method = Method::rk8pd, .tolerance = 1e-12});
   for (const double tolerance : {1e-7, 1e-8, 1e-10}) {
-    BOOST_TEST(std::fabs(spin({.method = Method::rkck, .tolerance = tolerance}) - fine) <= 1e-4 * std::fabs(fine));
+    // Slip that begins errs by a hundredth of the root of the tolerance; one that sticks has more than twice the spin.
+    const double bound = 0.03 * std::sqrt(tolerance) * std::fabs(fine);
+    BOOST_TEST(std::fabs(spin({.method = Method::rkck, .tolerance = tolerance}) - fine) <= bound);
   }
 }
