@@ -143,7 +143,7 @@ def verification(result):
 
 def faults_that_turn_red(checks):
     """For each check the faults that make it fail, as tests/seeded_faults/run --verify sees them do."""
-    faults = tomllib.loads(FAULTS.read_text(encoding="utf-8"))["fault"]
+    faults = tomllib.loads(FAULTS.read_text(encoding="utf-8")).values()
     lines = ["", "## Faults that turn each check red", "",
              "`tests/seeded_faults/run --verify` puts each of these faults into the program and sees the checks fail.", "",
              "| | what is wrong then |", "|---|---|"]

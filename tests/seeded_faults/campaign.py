@@ -4,7 +4,6 @@
 import collections
 import concurrent.futures
 import contextlib
-import enum
 import functools
 import itertools
 import json
@@ -24,8 +23,6 @@ ROOT = Path(__file__).resolve().parent.parent.parent
 # Two build the project themselves, the third starts a browser that asks for more memory than faults may have, and the
 # fourth fails with any fault.
 LEFT_OUT = {"launcher_test", "install.packages_test", "validation.verify.page_test", "seeded_faults.places"}
-# Endings of files that neither the program nor a test of it reads.
-READ_BY_NO_PROGRAM = (".ts", ".html", ".mjs", ".md", ".reuse/dep5")
 TEST_SECONDS = 60  # or four times what the slowest of the tests takes without a fault, if that is known
 FIRST_SECONDS = 2400
 VERIFY_SECONDS = 600
@@ -185,26 +182,17 @@ class Test:
         return self.name if status else ""
 
 
-class Place(enum.Enum):
-    """Where a fault is judged."""
-
-    APART = "with objects and executables of its own"
-    BESIDE = "in the copy of the source, where nothing else reads its file"
-    COPY = "in the copy, where nothing else is judged meanwhile"
-
-
 class Campaign:
-    """A build without faults, and what the tests in it are made of; `quick` builds the libraries alone.  `built`: a build
-    of the source itself, which is not changed, so that all faults must be judged apart; else one of a copy is made."""
+    """A build without faults, and what the tests in it are made of.  `built`: a build of the source itself, which is not
+    changed, so that all faults must be judged apart; else one of a copy is made."""
 
-    def __init__(self, work, jobs, quick, built=None):
+    def __init__(self, work, jobs, built=None):
         self.of_a_copy = built is None
         self.source = work / "source" if self.of_a_copy else ROOT
         self.build_folder = work / "build" if self.of_a_copy else built.resolve()
         self.apart = work / "apart"
         self.logs = work / "logs"
         self.jobs = jobs
-        self.options = ["-DCLATTER_PROGRAM=OFF"] if quick else []
         self.tests = {}
         self.read_by = {}  # of each object: the files of the source that it is made of
         self.commands = {}  # of each object: the command that makes it, and its source
@@ -226,13 +214,13 @@ class Campaign:
         if status:
             raise Refused(f"the build failed without a fault:\n{output}")
         self.read_objects({test.executable for test in likely} - {""})
-        others = [fault.id for fault in faults if self.place(fault) != Place.APART or not self.is_said_apart(fault)]
+        others = [fault.id for fault in faults if not self.is_judged_apart(fault) or not self.is_said_apart(fault)]
         if others and not self.of_a_copy:  # a fault must not come into the source itself
             raise Refused(f"in a copy alone can be judged {', '.join(others)}")
 
     def configure(self):
         say("building without a fault ...")
-        output, status = run(["cmake", "-S", self.source, "-B", self.build_folder, *CONFIGURE, *self.options])
+        output, status = run(["cmake", "-S", self.source, "-B", self.build_folder, *CONFIGURE])
         if status:
             raise Refused(f"cmake failed:\n{output}")
 
@@ -323,10 +311,9 @@ class Campaign:
                 self.seconds[test.name] = test.measure()
         return max(TEST_SECONDS, 4 * self.seconds[test.name])
 
-    def place(self, fault):
-        if fault.file.endswith((".cpp", ".hpp")) and any(self.containing(fault)):
-            return Place.APART
-        return Place.BESIDE if fault.file.endswith(READ_BY_NO_PROGRAM) else Place.COPY
+    def is_judged_apart(self, fault):
+        """With objects and executables of its own; the others come into the copy, where nothing else is judged meanwhile."""
+        return fault.file.endswith((".cpp", ".hpp")) and any(self.containing(fault))
 
     def containing(self, fault):
         return (test for test in self.likely(fault) if test.executable in self.linked and self.objects(test.executable, fault.file))
