@@ -14,7 +14,7 @@ ROOT = Path(__file__).resolve().parent.parent
 ORDERS = {
     "analytic": ("base", "law", "near_flat", "plane", "space", "batch"),
     "numeric": ("base", "mesh", "surface", "files", "body", "motion", "contact", "stepping", "drop", "."),
-    "validation": ("embedded", "output", "record", "tables", "scene", "benchmark", "compare",
+    "validation": ("embedded", "oracles", "output", "record", "tables", "scene", "benchmark", "compare",
                    "figures", "plan", "shock", "sweep", "map", "tradeoff", "measured", "verify", "extremes", "explain",
                    "reports", "demo", "cli"),
 }
@@ -105,17 +105,22 @@ class Folders(unittest.TestCase):
                 rooms = {of for _, of, _ in INCLUDE.findall(path.read_text(encoding="utf-8"))}
                 self.assertFalse(rooms & {other, "validation", "tests"}, path)
 
+    def test_the_program_includes_nothing_of_its_tests(self):
+        for path in sorted((ROOT / "validation").rglob("*.[ch]pp")):
+            self.assertNotIn("tests", {of for _, of, _ in INCLUDE.findall(path.read_text(encoding="utf-8"))}, path)
+
     def test_the_tests_of_a_model_need_nothing_of_what_compares_both(self):
+        """But for oracles, which are of neither model."""
         for room, others in (("analytic", {"numeric", "validation"}), ("numeric", {"analytic", "validation"})):
             for path in sorted((ROOT / "tests" / room).rglob("*.[ch]pp")):
-                rooms = {of for _, of, _ in INCLUDE.findall(path.read_text(encoding="utf-8"))}
-                self.assertFalse(rooms & others, path)
+                includes = INCLUDE.findall(path.read_text(encoding="utf-8"))
+                self.assertFalse(others & {of for header, of, _ in includes if not header.startswith("validation/oracles/")}, path)
 
     def test_oracles_include_no_formula_of_a_model(self):
         """Only the states and rows that a model takes and gives."""
         allowed = {"analytic/space/body.hpp", "analytic/space/impulse_path.hpp", "analytic/space/sequence.hpp"}
-        for path in sorted((ROOT / "tests" / "oracles").glob("*.hpp")):
-            headers = {header for header, of, _ in INCLUDE.findall(path.read_text(encoding="utf-8")) if of != "tests"}
+        for path in sorted((ROOT / "validation" / "oracles").glob("*.hpp")):
+            headers = {header for header, _, folder in INCLUDE.findall(path.read_text(encoding="utf-8")) if folder != "oracles"}
             self.assertLessEqual(headers, allowed, path)
 
     def test_the_includes_of_every_folder_are_seen(self):

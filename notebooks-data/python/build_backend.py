@@ -23,7 +23,7 @@ from typing import Any
 
 ROOT = Path(__file__).resolve().parents[2]
 SOURCES = ("CMakeLists.txt", "CMakePresets.json", "LICENSE", "README.md", "pyproject.toml", "analytic", "numeric", "validation",
-           "notebooks-data", "tests/packages.bash", "tests/oracles", "tests/analytic/reference")
+           "notebooks-data", "tests/packages.bash")
 DATA_LICENCE = ROOT / "validation" / "measured" / "data-licence.txt"  # of the measured drops, which the module carries
 LEFT_OUT = {"__pycache__", "node_modules"}
 EARLIEST = (1980, 1, 1, 0, 0, 0)  # of a zip file, so that equal files make an equal wheel

@@ -9,10 +9,10 @@
 #include <limits>
 #include <numbers>
 
-#include "tests/oracles/digits.hpp"
-#include "tests/oracles/impulse_path.hpp"
-#include "tests/oracles/rod.hpp"
 #include "validation/extremes/cell.hpp"
+#include "validation/oracles/digits.hpp"
+#include "validation/oracles/impulse_path.hpp"
+#include "validation/oracles/rod.hpp"
 
 namespace clatter::validation::inline extremes {
 namespace {

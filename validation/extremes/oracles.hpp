@@ -9,7 +9,7 @@
 #include "analytic/plane/contact_angles.hpp"
 #include "analytic/plane/sequence.hpp"
 #include "numeric/motion/motion_state.hpp"
-#include "tests/oracles/free_top.hpp"
+#include "validation/oracles/free_top.hpp"
 
 namespace clatter::validation::inline extremes {
 

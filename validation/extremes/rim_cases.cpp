@@ -7,8 +7,8 @@
 
 #include "analytic/base/errors.hpp"
 #include "analytic/space/sequence.hpp"
-#include "tests/oracles/free_top.hpp"
 #include "validation/extremes/extreme_cases.hpp"
+#include "validation/oracles/free_top.hpp"
 #include "validation/record/names.hpp"
 
 namespace clatter::validation::inline extremes {

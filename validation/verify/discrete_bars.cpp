@@ -9,8 +9,8 @@
 #include <stdexcept>
 
 #include "analytic/base/errors.hpp"
-#include "tests/oracles/digits.hpp"
-#include "tests/oracles/event_oracle.hpp"
+#include "validation/oracles/digits.hpp"
+#include "validation/oracles/event_oracle.hpp"
 
 namespace clatter::validation::inline verify {
 namespace {

@@ -11,7 +11,7 @@
 #include "analytic/plane/impact.hpp"
 #include "numeric/motion/equations_of_motion.hpp"
 #include "numeric/motion/free_flight.hpp"
-#include "tests/oracles/event_oracle.hpp"
+#include "validation/oracles/event_oracle.hpp"
 #include "validation/output/number.hpp"
 #include "validation/verify/check.hpp"
 #include "validation/verify/reference.hpp"

@@ -45,7 +45,7 @@ long double fold() {
 }  // namespace
 
 std::vector<oracle::ReferenceRow> reference_words(const std::string& name) {
-  std::istringstream text{std::string(embedded_text("tests/analytic/reference/" + name))};
+  std::istringstream text{std::string(embedded_text("validation/oracles/reference/" + name))};
   return oracle::reference_rows(text);
 }
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "analytic/plane/contact_angles.hpp"
-#include "tests/oracles/reference_table.hpp"
+#include "validation/oracles/reference_table.hpp"
 
 namespace clatter::validation::inline verify {
 
@@ -17,7 +17,7 @@ namespace clatter::validation::inline verify {
 /// contact angle up to 90°).
 using ReferenceRow = std::map<std::string, double>;
 
-/// The rows of tests/analytic/reference/NAME, if the program carries that.
+/// The rows of validation/oracles/reference/NAME, if the program carries that.
 [[nodiscard]] std::vector<oracle::ReferenceRow> reference_words(const std::string& name);
 
 enum class ReferenceTable { no_gravity, gravity };

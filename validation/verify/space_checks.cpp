@@ -7,9 +7,9 @@
 #include <cmath>
 
 #include "analytic/space/body.hpp"
-#include "tests/oracles/reference_scene.hpp"
-#include "tests/oracles/stepped_impact.hpp"
 #include "validation/compare/uniform.hpp"
+#include "validation/oracles/reference_scene.hpp"
+#include "validation/oracles/stepped_impact.hpp"
 #include "validation/verify/check.hpp"
 #include "validation/verify/reference.hpp"
 

@@ -6,8 +6,8 @@
 #include <limits>
 #include <stdexcept>
 
-#include "tests/oracles/digits.hpp"
-#include "tests/oracles/impulse_path.hpp"
+#include "validation/oracles/digits.hpp"
+#include "validation/oracles/impulse_path.hpp"
 
 namespace {
 

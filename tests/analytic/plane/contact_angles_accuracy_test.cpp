@@ -26,8 +26,8 @@
 #include <vector>
 
 #include "analytic/plane/contact_angles.hpp"
-#include "tests/oracles/reference_table.hpp"
-#include "tests/oracles/rod_oracle.hpp"
+#include "validation/oracles/reference_table.hpp"
+#include "validation/oracles/rod_oracle.hpp"
 
 namespace analytic = clatter::analytic;
 namespace oracle = clatter::oracle;

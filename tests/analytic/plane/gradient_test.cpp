@@ -8,8 +8,8 @@
 #include <random>
 
 #include "analytic/base/angle.hpp"
-#include "tests/oracles/digits.hpp"
-#include "tests/oracles/event_oracle.hpp"
+#include "validation/oracles/digits.hpp"
+#include "validation/oracles/event_oracle.hpp"
 
 namespace {
 

@@ -16,7 +16,7 @@
 #include <vector>
 
 #include "analytic/plane/sequence.hpp"
-#include "tests/oracles/event_oracle.hpp"
+#include "validation/oracles/event_oracle.hpp"
 
 namespace analytic = clatter::analytic;
 namespace oracle = clatter::oracle;

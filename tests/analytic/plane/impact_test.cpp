@@ -8,7 +8,7 @@
 
 #include "analytic/base/errors.hpp"
 #include "analytic/plane/rod_impact.hpp"
-#include "tests/oracles/viscoelastic_bounce.hpp"
+#include "validation/oracles/viscoelastic_bounce.hpp"
 
 namespace {
 

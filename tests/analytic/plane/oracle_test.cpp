@@ -11,9 +11,9 @@
 #include <utility>
 #include <vector>
 
-#include "tests/oracles/event_oracle.hpp"
-#include "tests/oracles/reference_table.hpp"
-#include "tests/oracles/rod_oracle.hpp"
+#include "validation/oracles/event_oracle.hpp"
+#include "validation/oracles/reference_table.hpp"
+#include "validation/oracles/rod_oracle.hpp"
 
 namespace oracle = clatter::oracle;
 using oracle::Digits150;

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "analytic/plane/contact_angles.hpp"
-#include "tests/oracles/rod_oracle.hpp"
+#include "validation/oracles/rod_oracle.hpp"
 
 namespace {
 

@@ -41,7 +41,7 @@ bool same_bits(double a, double b) { return std::memcmp(&a, &b, sizeof a) == 0; 
 BOOST_AUTO_TEST_CASE(the_rod_dropped_at_10_degrees_has_the_three_impacts_of_the_reference_table) {
   const Sequence s = impact_sequence(rod_drop(10), {});
   BOOST_REQUIRE(s.rows.size() == 3);
-  // 30-digit values of an independent computation (tests/analytic/reference).
+  // 30-digit values of an independent computation (validation/oracles/reference).
   const double angles[] = {10, 5.08198288305537323797553338956, 10.5479772399858399151981804425};
   const double impulses[] = {0.51156927586776329289718902056, 1.00284246496985494090956210113,
                              0.485090774171696977183309561393};

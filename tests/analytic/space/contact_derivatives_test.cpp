@@ -11,8 +11,8 @@
 #include "analytic/space/slip_field.hpp"
 #include "analytic/space/strike_derivatives.hpp"
 #include "tests/analytic/space/random_contact.hpp"
-#include "tests/oracles/digits.hpp"
-#include "tests/oracles/stepped_impact.hpp"
+#include "validation/oracles/digits.hpp"
+#include "validation/oracles/stepped_impact.hpp"
 
 namespace {
 

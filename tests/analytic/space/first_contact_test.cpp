@@ -11,7 +11,7 @@
 #include <random>
 
 #include "analytic/space/body.hpp"
-#include "tests/oracles/free_top.hpp"
+#include "validation/oracles/free_top.hpp"
 
 namespace {
 

@@ -6,7 +6,7 @@
 #include <numbers>
 #include <random>
 
-#include "tests/oracles/free_top.hpp"
+#include "validation/oracles/free_top.hpp"
 
 namespace {
 

@@ -8,9 +8,9 @@
 
 #include "analytic/base/angle.hpp"
 #include "tests/analytic/space/random_contact.hpp"
-#include "tests/oracles/digits.hpp"
-#include "tests/oracles/free_top.hpp"
-#include "tests/oracles/stepped_impact.hpp"
+#include "validation/oracles/digits.hpp"
+#include "validation/oracles/free_top.hpp"
+#include "validation/oracles/stepped_impact.hpp"
 
 namespace {
 

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "tests/analytic/space/random_contact.hpp"
-#include "tests/oracles/stepped_impact.hpp"
+#include "validation/oracles/stepped_impact.hpp"
 
 namespace {
 

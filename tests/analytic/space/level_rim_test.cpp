@@ -9,7 +9,7 @@
 #include "analytic/space/sequence.hpp"
 #include "analytic/space/tilted_outcomes.hpp"
 #include "tests/analytic/space/random_contact.hpp"
-#include "tests/oracles/viscoelastic_bounce.hpp"
+#include "validation/oracles/viscoelastic_bounce.hpp"
 
 namespace {
 

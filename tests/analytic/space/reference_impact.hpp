@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The impacts of tests/analytic/reference/space_impacts.csv.
+// The impacts of validation/oracles/reference/space_impacts.csv.
 #pragma once
 
 #include <Eigen/LU>
@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "analytic/space/impulse_path.hpp"
-#include "tests/oracles/reference_scene.hpp"
+#include "validation/oracles/reference_scene.hpp"
 
 namespace clatter::oracle {
 

@@ -8,7 +8,7 @@
 #include "analytic/base/errors.hpp"
 #include "analytic/space/sequence.hpp"
 #include "tests/analytic/space/random_contact.hpp"
-#include "tests/oracles/free_top.hpp"
+#include "validation/oracles/free_top.hpp"
 
 namespace {
 

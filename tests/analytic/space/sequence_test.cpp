@@ -6,7 +6,7 @@
 #include <string>
 
 #include "analytic/space/body.hpp"
-#include "tests/oracles/reference_scene.hpp"
+#include "validation/oracles/reference_scene.hpp"
 
 namespace {
 

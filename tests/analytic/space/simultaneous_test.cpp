@@ -7,8 +7,8 @@
 #include "tests/analytic/space/flat_landing.hpp"
 #include "tests/analytic/space/random_contact.hpp"
 #include "tests/analytic/space/reference_impact.hpp"
-#include "tests/oracles/reference_table.hpp"
-#include "tests/oracles/viscoelastic_bounce.hpp"
+#include "validation/oracles/reference_table.hpp"
+#include "validation/oracles/viscoelastic_bounce.hpp"
 
 namespace {
 

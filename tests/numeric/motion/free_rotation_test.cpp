@@ -10,7 +10,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "tests/oracles/free_top.hpp"
+#include "validation/oracles/free_top.hpp"
 
 namespace {
 

@@ -177,7 +177,7 @@ class Output(unittest.TestCase):
 
     def test_the_angles_of_the_json_are_degrees(self):
         impacts = json.loads(run("sequence", "--angle", "10", "--format", "json").stdout)["impacts"]
-        # 30-digit values of an independent computation (tests/analytic/reference).
+        # 30-digit values of an independent computation (validation/oracles/reference).
         for impact, angle in zip(impacts, [10, 5.08198288305537, 10.5479772399858]):
             self.assertAlmostEqual(impact["contact_angle_deg"], angle, delta=1e-13)  # their last digit
             self.assertAlmostEqual(abs(impact["inclination_deg"]), angle, delta=1e-13)
@@ -252,7 +252,7 @@ class Output(unittest.TestCase):
                 self.assertLessEqual(len(field.replace("-", "").replace(".", "").split("e")[0].strip("0")), digits)
 
     def test_the_errors_of_angles_cover_those_against_30_digit_references_and_are_small(self):
-        folder = os.path.join(ROOT, "tests", "analytic", "reference")
+        folder = os.path.join(ROOT, "validation", "oracles", "reference")
         compared = 0
         for name in ("rod_sequence_no_gravity.csv", "rod_sequence_gravity.csv"):
             with open(os.path.join(folder, name), encoding="utf-8") as file:

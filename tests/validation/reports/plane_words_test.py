@@ -12,7 +12,7 @@ import unittest
 
 from run_folder import PROGRAM, ROOT, EmptyFolder, run
 
-REFERENCE = os.path.join(ROOT, "tests", "analytic", "reference", "rod_sequence_no_gravity.csv")
+REFERENCE = os.path.join(ROOT, "validation", "oracles", "reference", "rod_sequence_no_gravity.csv")
 
 
 def symbols(*arguments):

@@ -13,7 +13,7 @@
 #include <iostream>
 #include <random>
 
-#include "tests/oracles/impulse_path.hpp"
+#include "validation/oracles/impulse_path.hpp"
 
 namespace {
 

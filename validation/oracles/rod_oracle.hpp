@@ -15,8 +15,8 @@
 #include <optional>
 #include <stdexcept>
 
-#include "tests/oracles/digits.hpp"
-#include "tests/oracles/rod.hpp"
+#include "validation/oracles/digits.hpp"
+#include "validation/oracles/rod.hpp"
 
 namespace clatter::oracle {
 

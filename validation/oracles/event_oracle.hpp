@@ -20,7 +20,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include "tests/oracles/impulse_path.hpp"
+#include "validation/oracles/impulse_path.hpp"
 
 namespace clatter::oracle {
 

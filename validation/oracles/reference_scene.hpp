@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The drops of tests/analytic/reference/space_scenes.csv with the impacts of space_sequences.csv.
+// The drops of validation/oracles/reference/space_scenes.csv with the impacts of space_sequences.csv.
 #pragma once
 
 #include <limits>
@@ -9,7 +9,7 @@
 
 #include "analytic/space/body.hpp"
 #include "analytic/space/sequence.hpp"
-#include "tests/oracles/reference_table.hpp"
+#include "validation/oracles/reference_table.hpp"
 
 namespace clatter::oracle {
 
