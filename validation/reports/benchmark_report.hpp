@@ -2,6 +2,7 @@
 // Reports of `clatter benchmark list`, `show` and `truth`.
 #pragma once
 
+#include "analytic/space/body.hpp"
 #include "validation/benchmark/problem.hpp"
 #include "validation/output/report.hpp"
 
