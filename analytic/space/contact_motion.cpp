@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+#include <Eigen/LU>
+#include <array>
+#include <utility>
 
 #include "analytic/base/errors.hpp"
 #include "analytic/base/limits.hpp"
@@ -13,6 +15,12 @@ namespace clatter::analytic::space {
 using detail::epsilon;
 using detail::infinite;
 namespace {
+
+/// The attitude of a motion, the velocities of another.
+Eigen::Matrix<double, 9, 1> with_velocities(Eigen::Matrix<double, 9, 1> y, const Eigen::Matrix<double, 9, 1>& other) {
+  y.tail<5>() = other.tail<5>();
+  return y;
+}
 
 constexpr const char* slip_is_open = "how friction lets its corners slip is open";
 
@@ -31,7 +39,7 @@ ContactMotion::ContactMotion(const Drop& drop, const State& now, const std::vect
 ContactMotion::ContactMotion(const ContactMotion& base, const State& now)
     : drop_(base.drop_), law_(base.law_), reach_(base.reach_), falling_(base.falling_),
       given_(mechanical_energy(drop_, now)), corners_(base.corners_), points_(base.began_with_) {
-  hold(now);
+  take(now);
   start_ = state();
 }
 
@@ -39,13 +47,21 @@ bool ContactMotion::touches(int vertex) const {
   return std::ranges::any_of(points_, [&](const GroundPoint& p) { return p.index == vertex; });
 }
 
-/// Levels the corners, and takes away their normal velocity, and the slip of those that stick.
-void ContactMotion::hold(State s) {
+/// With its corners at one height.
+State ContactMotion::levelled(State s) const {
   s.attitude.normalize();
+  if (points_.size() < 2) return s;
+  const Vector3 edge = s.attitude * (points_[1].place - points_[0].place);
+  s.attitude = (turn_between(edge, horizontal(edge)) * s.attitude).normalized();
+  return s;
+}
+
+/// Takes from the state what its corners cannot do, and leaves slip and turning as they are otherwise.
+void ContactMotion::take(State s) {
+  s = levelled(s);
   if (points_.size() == 2) {
-    const Vector3 edge = s.attitude * (points_[1].place - points_[0].place), along = horizontal(edge);
-    s.attitude = (turn_between(edge, along) * s.attitude).normalized();
-    const Vector3 across = Vector3::UnitZ().cross(along.normalized());  // a turn about it lifts one of the two
+    const Vector3 edge = s.attitude * (points_[1].place - points_[0].place);
+    const Vector3 across = Vector3::UnitZ().cross(edge.normalized());  // a turn about it lifts one of the two
     s.angular_velocity -= s.angular_velocity.dot(across) * across;
   }
   const Vector3 u = slip_of(s, points_[0]);
@@ -55,6 +71,10 @@ void ContactMotion::hold(State s) {
   const Vector3 edge = (s.attitude * (points_[1].place - points_[0].place)).normalized();  // a hinge
   motion_.segment<3>(4) = s.angular_velocity.dot(edge) * edge;
 }
+
+/// What is left of the corners' normal velocity, and of the slip of those that stick, impulses of the ground stop, which
+/// cannot create energy.
+void ContactMotion::hold(const State& s) { take(law_.stopped(levelled(s), points_)); }
 
 void ContactMotion::stick_where_slow() {
   for (GroundPoint& p : points_) {
@@ -87,30 +107,12 @@ double ContactMotion::least_slip() const {
   return least;
 }
 
-GroundForces ContactMotion::forces(const Motion& y) const {
-  if (turning_points(points_).empty()) return law_.forces(state_of(y), points_);
-  return law_.forces(state_of(y), directed(points_, begun(y, 2)));
-}
-
-/// Directions in which slip begins, by (2) of this order; NaN where there are none near.
-SlipAngles ContactMotion::begun(const Motion& y, int order) const {
-  const State s = state_of(y);
-  const auto turning = turning_points(points_);
-  SlipAngles target = SlipAngles::Zero(static_cast<Eigen::Index>(turning.size()));
-  if (order == 0) return slip_angles(law_, s, points_, target);
-  const SlipAngles before = begun(y, order - 1);
-  const auto points = directed(points_, before);
-  const Motion change = 1e-4 * falling_ * rate(y, law_.forces(s, points));
-  const SlipAngles turns = (begun(y + change, order - 1) - begun(y - change, order - 1)) / (2e-4 * falling_);
-  for (Eigen::Index k = 0; k < target.size(); ++k) {
-    target[k] = slip_of(s, points[turning[static_cast<std::size_t>(k)]]).dot(slip_at(before[k])) * turns[k];
-  }
-  return slip_angles(law_, s, points, target);
-}
+GroundForces ContactMotion::forces(const Motion& y) const { return law_.forces(state_of(y), points_); }
 
 /// Friction no longer holds what sticks: slip begins.
 bool ContactMotion::give_way() {
-  auto begins = space::give_way(law_, state(), points_, slow_slip * speed_scale());
+  hold(state());  // of the second corner's slip rounding is left
+  auto begins = space::give_way(law_, state(), points_, no_slip * speed_scale());
   if (!begins) return false;
   points_ = std::move(*begins);
   length_ = 1e-3 * longest_step * falling_;
@@ -128,21 +130,15 @@ bool ContactMotion::turns_back() const {
   return false;
 }
 
-/// Whether slip still begins after a step, or (1) has become precise enough; nothing where the step did not keep to
-/// (2), or went on until slip has turned back.
-std::optional<bool> ContactMotion::still_begins(const State& start) const {
+/// Whether slip still begins after a step: it grows, and explicit steps of this length would not be stable.  Nothing
+/// where the step went on until slip has turned back.
+std::optional<bool> ContactMotion::still_begins(const State& start, double length) const {
+  constexpr double stable = 3;  // for the explicit method
   const auto turning = turning_points(points_);
   if (turning.empty()) return turns_back() ? std::optional<bool>() : true;
-  const SlipAngles now = begun(motion_, 0), lag = begun(motion_, 1) - now;
-  bool goes_on = true;
-  for (std::size_t k = 0; k < turning.size(); ++k) {
-    const GroundPoint& p = points_[turning[k]];
-    const auto at = static_cast<Eigen::Index>(k);
-    const double slip = slip_of(state(), p).dot(slip_at(now[at]));
-    if (!(std::fabs(lag[at]) <= 2 * most_lag) || !(slip > 0)) return {};
-    goes_on = goes_on && std::fabs(lag[at]) < most_lag && slip > slip_of(start, p).norm();
-  }
-  return goes_on;
+  return stiffness_ * length > stable && std::ranges::all_of(turning, [&](std::size_t i) {
+           return slip(motion_, points_[i]).norm() > slip_of(start, points_[i]).norm();
+         });
 }
 
 /// Directions of slip after a step from `start`.
@@ -152,7 +148,6 @@ void ContactMotion::note_directions(const State& start, bool begins) {
   constexpr double rounding = 1e-9, not_stiff = 1e-3;
   const State s = state();
   const auto turning = turning_points(points_);
-  if (!turning.empty()) points_ = directed(points_, begun(motion_, 0));
   for (const std::size_t i : turning) points_[i].begins = begins;
   const bool some_turn = !turning_points(points_).empty();
   for (GroundPoint& p : points_) {
@@ -185,9 +180,179 @@ int ContactMotion::derivative(double, const double y[], double rate[], void* mot
 }
 
 void ContactMotion::apply(Motion& y, double length, Motion& error) {
-  gsl_odeiv2_step_reset(step_.get());
-  gsl_odeiv2_step_apply(step_.get(), 0, length, y.data(), error.data(), nullptr, nullptr, &system_);
+  if (!turning_points(points_).empty()) {
+    collocate(y, length, error);
+  } else {
+    gsl_odeiv2_step_reset(step_.get());
+    gsl_odeiv2_step_apply(step_.get(), 0, length, y.data(), error.data(), nullptr, nullptr, &system_);
+  }
   y.head<4>().normalize();
+}
+
+/// Velocity of a corner along the ground: that of the first to its last digit, however small.
+Vector3 ContactMotion::slip(const Motion& y, const GroundPoint& point) const {
+  const Vector3 from_first = Quaternion(y[0], y[1], y[2], y[3]) * (point.place - points_[0].place);
+  return Vector3(y[7], y[8], 0) + horizontal(Vector3(y.segment<3>(4)).cross(from_first));
+}
+
+/// Of attitude and velocities, each on its own scale.
+double ContactMotion::largest(const Motion& change) const {
+  const double velocities = std::fmax(change.segment<3>(4).norm() * reach_, change.tail<2>().norm());
+  return std::fmax(change.head<4>().norm(), velocities / speed_scale());
+}
+
+/// A step that is implicit in the directions of slip: what Newton's method has of it so far.
+struct ContactMotion::Collocation {
+  static constexpr int stages = RadauRule::points;
+  using Stages = Eigen::Matrix<double, 9, stages>;
+  Motion from;
+  double length = 0;
+  std::vector<GroundPoint> points;   ///< every corner that slips has an angle of its own
+  std::vector<std::size_t> turning;  ///< those
+  Eigen::Matrix<double, 2, stages> angles;
+  Stages states, rates;
+  std::array<Stages, 2> by_angle;          ///< of the rates
+  Eigen::Matrix<double, 2, stages> speed;  ///< along the angles
+  bool begins = false;                     ///< from directions that could be found
+
+  static const RadauRule& rule() {
+    static const RadauRule the_rule;
+    return the_rule;
+  }
+  [[nodiscard]] std::vector<GroundPoint> directed(int stage) const {
+    auto all = points;
+    for (std::size_t k = 0; k < turning.size(); ++k) all[turning[k]].angle = angles(static_cast<int>(k), stage);
+    return all;
+  }
+  [[nodiscard]] Stages reached(const Stages& with) const {
+    return from.replicate<1, stages>() + length * with * rule().weight.transpose();
+  }
+};
+
+/// Begins with directions in which slip would not turn.
+ContactMotion::Collocation ContactMotion::begin_collocation(const Motion& y, double length) const {
+  Collocation c;
+  c.from = y;
+  c.length = length;
+  c.points = points_;
+  for (GroundPoint& p : c.points) {
+    if (p.begins || p.across) continue;
+    const Vector3 v = slip(y, p);
+    p.angle = std::atan2(v.y(), v.x());
+    p.begins = true;
+  }
+  c.turning = turning_points(c.points);
+  const Motion first = rate(y, law_.forces(state_of(y), c.points));
+  for (int l = 0; l < Collocation::stages; ++l) {
+    const Motion at = y + Collocation::rule().at[l] * length * first;
+    const State s = state_of(at);
+    const auto turning = turning_points(points_);
+    const SlipAngles angles =
+        slip_angles(law_, s, points_, SlipAngles::Zero(static_cast<Eigen::Index>(turning.size())));
+    if (!angles.allFinite()) return c;
+    auto now = c.points;
+    for (std::size_t k = 0; k < turning.size(); ++k) now[turning[k]].angle = angles[static_cast<Eigen::Index>(k)];
+    for (std::size_t k = 0; k < c.turning.size(); ++k) c.angles(static_cast<int>(k), l) = now[c.turning[k]].angle;
+    c.rates.col(l) = rate(at, law_.forces(s, now));
+  }
+  c.states = c.reached(c.rates);
+  c.begins = true;
+  return c;
+}
+
+/// A step of Newton's method for the directions, in which the corners move at the stages; the rest of the state follows
+/// by iteration.  Returns the change of the state.
+double ContactMotion::improve(Collocation& c) const {
+  constexpr double step = 1e-5;
+  constexpr int stages = Collocation::stages;
+  const RadauRule& rule = Collocation::rule();
+  const auto corners = static_cast<int>(c.turning.size());
+  for (int l = 0; l < stages; ++l) {
+    const Motion y = c.states.col(l);
+    const State s = state_of(y);
+    auto points = c.directed(l);
+    c.rates.col(l) = rate(y, law_.forces(s, points));
+    for (int k = 0; k < corners; ++k) {
+      double& angle = points[c.turning[static_cast<std::size_t>(k)]].angle;
+      const double middle = angle;
+      angle = middle + step;
+      const Motion up = rate(y, law_.forces(s, points));
+      angle = middle - step;
+      const Motion down = rate(y, law_.forces(s, points));
+      angle = middle;
+      c.by_angle[static_cast<std::size_t>(k)].col(l) = (up - down) / (2 * step);
+    }
+  }
+  Collocation::Stages next = c.reached(c.rates);
+  using Equations = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, 2 * stages, 2 * stages>;
+  Equations equations(corners * stages, corners * stages);
+  Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, 2 * stages, 1> off(corners * stages);
+  for (int l = 0; l < stages; ++l) {
+    const Motion y = next.col(l);
+    for (int k = 0; k < corners; ++k) {
+      const GroundPoint& point = c.points[c.turning[static_cast<std::size_t>(k)]];
+      const Vector3 along = slip_at(c.angles(k, l)), aside = Vector3::UnitZ().cross(along), v = slip(y, point);
+      const Vector3 from_first = Quaternion(y[0], y[1], y[2], y[3]) * (point.place - points_[0].place);
+      Motion by_state = Motion::Zero();  // of the slip aside
+      by_state.segment<3>(4) = from_first.cross(aside);
+      by_state.tail<2>() = aside.head<2>();
+      const int row = corners * l + k;
+      off[row] = aside.dot(v);
+      for (int m = 0; m < stages; ++m) {
+        for (int j = 0; j < corners; ++j) {
+          const double turned = by_state.dot(c.by_angle[static_cast<std::size_t>(j)].col(m));
+          equations(row, corners * m + j) = c.length * rule.weight(l, m) * turned;
+        }
+      }
+      c.speed(k, l) = along.dot(v);
+      equations(row, row) -= c.speed(k, l);
+    }
+  }
+  const auto turned = (-equations.partialPivLu().solve(off)).eval();
+  Collocation::Stages turning = Collocation::Stages::Zero();
+  for (int l = 0; l < stages; ++l) {
+    for (int k = 0; k < corners; ++k) {
+      const double angle = turned[corners * l + k];
+      c.angles(k, l) += angle;
+      turning.col(l) += angle * c.by_angle[static_cast<std::size_t>(k)].col(l);
+    }
+  }
+  next += c.length * turning * rule.weight.transpose();
+  double change = 0;
+  for (int l = 0; l < stages; ++l) change = std::fmax(change, largest(next.col(l) - c.states.col(l)));
+  c.states = next;
+  return next.allFinite() ? change : infinite;
+}
+
+/// By (1) of radau_rule.hpp; an infinite error where there is no such step.
+void ContactMotion::collocate(Motion& y, double length, Motion& error) {
+  constexpr int last = Collocation::stages - 1, most = 30;
+  error.setConstant(infinite);
+  Collocation c = begin_collocation(y, length);
+  double change = infinite;
+  for (int i = 0; i < most && c.begins && !(change <= 4 * epsilon); ++i) {
+    const double before = std::exchange(change, improve(c));
+    if (change <= 1e-13 && !(change < before)) break;
+  }
+  if (!(change <= 1e-13)) return;
+  stiffness_ = 0;
+  for (std::size_t k = 0; k < c.turning.size(); ++k) {
+    const GroundPoint& point = points_[c.turning[k]];
+    const auto row = static_cast<int>(k);
+    if (!(c.speed.row(row).minCoeff() > -no_slip * speed_scale())) return;
+    double across = 0;  // at most, by all angles
+    for (std::size_t j = 0; j < c.turning.size(); ++j) {
+      const Motion by = c.by_angle[j].col(last);
+      across += slip(with_velocities(y, by), point).norm();
+    }
+    stiffness_ = std::fmax(stiffness_, across / c.speed(row, last));
+  }
+  const auto directions = c.directed(last);
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    if (points_[i].begins) points_[i].angle = directions[i].angle;
+  }
+  error = length * c.rates * Collocation::rule().highest;
+  y = c.states.col(last);
 }
 
 /// Height of a vertex above the first corner.
@@ -300,21 +465,29 @@ void ContactMotion::locate_first(const Motion& from) {
   if (std::ranges::any_of(points_, &GroundPoint::sticks)) locate(from, length_, Event::gives_way, 0);
 }
 
+/// Whether slip lets the ground push without bound.
+bool ContactMotion::digs_in() const {
+  constexpr double without_bound = 1e6;  // of what weight and turning ask for
+  double push = 0;
+  for (const Vector3& force : forces(motion_).of_points) push = std::fmax(push, force.z());
+  return push > without_bound * drop_.body.mass * speed_scale() * speed_scale() / reach_;
+}
+
 /// One step, or part of one up to the first event in it.
 void ContactMotion::step() {
   const Motion from = motion_;
   const State start = state();
   const double shortest = 1e-10 * falling_;
   double length = longest(start, forces(from));
+  const double order = turning_points(points_).empty() ? 8 : RadauRule::points;
   for (;;) {
     Motion error;
     motion_ = from;
     apply(motion_, length, error);
-    const double turning = std::fmax(error.head<4>().norm(), error.segment<3>(4).norm() * reach_ / speed_scale());
-    const double share = std::fmax(turning, error.tail<2>().norm() / speed_scale()) / step_error;
-    const std::optional<bool> begins = share <= 1 ? still_begins(start) : true;
+    const double share = largest(error) / step_error;
+    const std::optional<bool> begins = share <= 1 ? still_begins(start, length) : true;
     const bool clear = begins && (length <= shortest || is_free() || is_clear(start, state(), length));
-    const double better = 0.9 * std::pow(std::fmax(share, 1e-8), -0.125);
+    const double better = 0.9 * std::pow(std::fmax(share, 1e-8), -1.0 / order);
     if (share <= 1 && clear) {
       length_ = length;
       locate_first(from);
@@ -324,7 +497,11 @@ void ContactMotion::step() {
       return;
     }
     length *= clear ? std::fmin(std::fmax(better, 0.1), 0.9) : 0.5;
-    if (!(length > epsilon * shortest)) throw NumericalError("a step of a body that stays on the ground fails");
+    if (length > epsilon * shortest) continue;
+    motion_ = from;
+    if (!digs_in()) throw NumericalError("a step of a body that stays on the ground fails");
+    event_ = Event::digs_in;
+    return;
   }
 }
 
@@ -381,7 +558,7 @@ std::optional<SustainedContact> ContactMotion::pass_event() {
     return ended(ContactEnd::joining, "");
   }
   const GroundForces f = forces(motion_);
-  if (!f.is_unique) return open("slip digs in (Painlevé)");
+  if (!f.is_unique || event_ == Event::digs_in) return open("slip digs in (Painlevé)");
   const auto pulled = std::ranges::find_if(f.of_points, [](const Vector3& force) { return !(force.z() > 0); });
   if (event_ == Event::lifts || pulled != f.of_points.end()) {
     if (points_.size() > 1) {
@@ -451,7 +628,16 @@ ContactMotion::Rates ContactMotion::rates(ContactEnd end, int vertex) const {
     return result;
   }
   const Motion change = 1e-5 * falling_ * rate(motion_, f);
-  const auto push = [&](const Motion& y) { return forces(y).of_points[0].z(); };
+  const auto turning = turning_points(points_);
+  SlipAngles turns(static_cast<Eigen::Index>(turning.size()));  // g stays nearly the same
+  for (std::size_t k = 0; k < turning.size(); ++k) {
+    turns[static_cast<Eigen::Index>(k)] = slip_at(points_[turning[k]].angle).cross(f.accelerations[turning[k]]).z();
+  }
+  const auto push = [&](const Motion& y) {
+    const State at = state_of(y);
+    if (turning.empty()) return law_.forces(at, points_).of_points[0].z();
+    return law_.forces(at, directed(points_, slip_angles(law_, at, points_, turns))).of_points[0].z();
+  };
   result.margin = (push(motion_ + change) - push(motion_ - change)) / (2e-5 * falling_);
   return result;
 }

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The equations of motion of a body one or two corners of which stay on the ground, solved from event to event.
 //
-// Where slip begins, its direction is φ₂ of slip_onset.hpp's (2) up to 1e-4 rad of φ₁ − φ₀, then that of the velocity.
+// Steps are explicit, but for those in which slip begins: they are implicit in its direction (radau_rule.hpp), until
+// explicit ones are stable.
 #pragma once
 
 #include <gsl/gsl_odeiv2.h>
@@ -13,6 +14,7 @@
 #include <vector>
 
 #include "analytic/base/limits.hpp"
+#include "analytic/space/radau_rule.hpp"
 #include "analytic/space/slip_onset.hpp"
 
 namespace clatter::analytic::space {
@@ -51,7 +53,7 @@ class ContactMotion {
  private:
   /// Attitude (w, x, y, z), ω, horizontal velocity of the first corner.
   using Motion = Eigen::Matrix<double, 9, 1>;
-  enum class Event { none, arrival, lifts, gives_way };
+  enum class Event { none, arrival, lifts, gives_way, digs_in };
 
   /// Local error of a step, relative to the sizes of attitude and velocities.
   static constexpr double step_error = 1e-14;
@@ -61,9 +63,6 @@ class ContactMotion {
   static constexpr double left_slip = 1e-7;
   static constexpr double longest_step = 0.1;  ///< [rad], and of √(reach/g)
   static constexpr int most_steps = 5'000;
-  static constexpr double most_lag = 1e-4;  ///< of φ₁ − φ₀ [rad]
-  /// Slip slower than this part of the body's speeds begins anew where that of another corner does.
-  static constexpr double slow_slip = 1e-6;
 
   [[nodiscard]] State state_of(const Motion& y) const;
   [[nodiscard]] GroundForces forces(const Motion& y) const;
@@ -73,10 +72,11 @@ class ContactMotion {
   [[nodiscard]] double room(const Motion& y, Event event, std::size_t number) const;
   static int derivative(double, const double y[], double rate[], void* motion);
   [[nodiscard]] Motion rate(const Motion& y, const GroundForces& f) const;
-  [[nodiscard]] SlipAngles begun(const Motion& y, int order) const;
+  [[nodiscard]] Vector3 slip(const Motion& y, const GroundPoint& point) const;
+  [[nodiscard]] double largest(const Motion& change) const;
   bool give_way();
   [[nodiscard]] bool turns_back() const;
-  [[nodiscard]] std::optional<bool> still_begins(const State& start) const;
+  [[nodiscard]] std::optional<bool> still_begins(const State& start, double length) const;
   void note_directions(const State& start, bool begins);
   bool keep_or_begin_slip();
   [[nodiscard]] bool begin_slip();
@@ -84,12 +84,19 @@ class ContactMotion {
   [[nodiscard]] double longest(const State& start, const GroundForces& f) const;
   [[nodiscard]] bool is_clear(const State& start, const State& end, double length) const;
   void locate_first(const Motion& from);
+  [[nodiscard]] bool digs_in() const;
   void step();
   [[nodiscard]] double least_between(const State& from, const State& to, double length, int vertex) const;
   bool locate(const Motion& from, double length, Event event, std::size_t number);
   void apply(Motion& y, double length, Motion& error);
+  struct Collocation;
+  [[nodiscard]] Collocation begin_collocation(const Motion& y, double length) const;
+  [[nodiscard]] double improve(Collocation& c) const;
+  void collocate(Motion& y, double length, Motion& error);
   [[nodiscard]] std::vector<int> arriving() const;
-  void hold(State s);
+  [[nodiscard]] State levelled(State s) const;
+  void take(State s);
+  void hold(const State& s);
   void stick_where_slow();
   void leave(std::size_t number);
   [[nodiscard]] std::optional<SustainedContact> pass_event();
@@ -114,6 +121,7 @@ class ContactMotion {
   bool slips_ = false, sticks_ = false;
   Event event_ = Event::none;
   std::size_t number_ = 0;
+  double stiffness_ = 0;  ///< rate at which the direction of slip that begins is driven back [1/s]
   gsl_odeiv2_system system_{derivative, nullptr, 9, this};
   std::unique_ptr<gsl_odeiv2_step, StepDeleter> step_{gsl_odeiv2_step_alloc(gsl_odeiv2_step_rk8pd, 9)};
 };

@@ -80,29 +80,39 @@ Vector3 slip_of(const State& s, const GroundPoint& point) { return horizontal(ve
 GroundLaw::GroundLaw(const Drop& drop)
     : drop_(drop), friction_(drop.law.law.most_friction()), inverse_inertia_(drop.body.inertia.inverse()) {}
 
+struct GroundLaw::Arms {
+  Matrix3 inverse;            ///< I⁻¹, world frame
+  std::vector<Vector3> arms;  ///< r_i
+  Small effect = Small::Zero(6, 6);
+  Vector3 edge = Vector3::Zero();  ///< its direction
+};
+
+GroundLaw::Arms GroundLaw::arms(const State& s, std::span<const GroundPoint> points) const {
+  const Matrix3 axes = s.attitude.toRotationMatrix();
+  Arms a{.inverse = axes * inverse_inertia_ * axes.transpose(), .arms = {}};
+  for (const GroundPoint& p : points) a.arms.emplace_back(axes * p.place);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    for (std::size_t j = 0; j < points.size(); ++j) {
+      a.effect.block<3, 3>(static_cast<Eigen::Index>(3 * i), static_cast<Eigen::Index>(3 * j)) =
+          Matrix3::Identity() / drop_.body.mass - cross_matrix(a.arms[i]) * a.inverse * cross_matrix(a.arms[j]);
+    }
+  }
+  if (points.size() == 2) a.edge = (a.arms[1] - a.arms[0]).normalized();
+  return a;
+}
+
 GroundForces GroundLaw::forces(const State& s, std::span<const GroundPoint> points) const {
   const Matrix3 axes = s.attitude.toRotationMatrix();
   const Matrix3 inertia = axes * drop_.body.inertia * axes.transpose();
-  const Matrix3 inverse = axes * inverse_inertia_ * axes.transpose();
+  const auto [inverse, arms, effect, edge] = this->arms(s, points);
   const Vector3& w = s.angular_velocity;
   const Vector3 free_turning = inverse * (inertia * w).cross(w), weight(0, 0, -drop_.gravity);
-  Small effect = Small::Zero(6, 6);  // W
   SmallVector free = SmallVector::Zero(6);
-  std::vector<Vector3> arms;
-  for (const GroundPoint& p : points) {
-    const Vector3 arm = axes * p.place;
-    free.segment<3>(static_cast<Eigen::Index>(3 * arms.size())) =
-        weight + free_turning.cross(arm) + w.cross(w.cross(arm));
-    arms.push_back(arm);
-  }
   for (std::size_t i = 0; i < arms.size(); ++i) {
-    for (std::size_t j = 0; j < arms.size(); ++j) {
-      effect.block<3, 3>(static_cast<Eigen::Index>(3 * i), static_cast<Eigen::Index>(3 * j)) =
-          Matrix3::Identity() / drop_.body.mass - cross_matrix(arms[i]) * inverse * cross_matrix(arms[j]);
-    }
+    free.segment<3>(static_cast<Eigen::Index>(3 * i)) =
+        weight + free_turning.cross(arms[i]) + w.cross(w.cross(arms[i]));
   }
   GroundForces f;
-  const Vector3 edge = points.size() == 2 ? Vector3((arms[1] - arms[0]).normalized()) : Vector3(Vector3::Zero());
   const SmallVector all = solved(unknowns(s, points, friction_), effect, free, edge, drop_.body.mass, f.is_unique);
   f.turning = free_turning;
   for (std::size_t i = 0; i < arms.size(); ++i) {
@@ -114,6 +124,22 @@ GroundForces GroundLaw::forces(const State& s, std::span<const GroundPoint> poin
     f.accelerations.emplace_back(gained.segment<3>(static_cast<Eigen::Index>(3 * i)));
   }
   return f;
+}
+
+State GroundLaw::stopped(State s, std::span<const GroundPoint> points) const {
+  const auto [inverse, arms, effect, edge] = this->arms(s, points);
+  SmallVector moving = SmallVector::Zero(6);
+  for (std::size_t i = 0; i < arms.size(); ++i) {
+    moving.segment<3>(static_cast<Eigen::Index>(3 * i)) = s.velocity + s.angular_velocity.cross(arms[i]);
+  }
+  bool is_unique = true;
+  const SmallVector all = solved(unknowns(s, points, 0), effect, moving, edge, drop_.body.mass, is_unique);
+  for (std::size_t i = 0; i < arms.size(); ++i) {
+    const Vector3 impulse = all.segment<3>(static_cast<Eigen::Index>(3 * i));
+    s.velocity += impulse / drop_.body.mass;
+    s.angular_velocity += inverse * arms[i].cross(impulse);
+  }
+  return s;
 }
 
 std::array<GroundLaw::EdgeLoad, 2> GroundLaw::edge_loads(const State& s, std::span<const GroundPoint> points,

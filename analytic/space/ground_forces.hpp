@@ -45,6 +45,9 @@ class GroundLaw {
   [[nodiscard]] double friction() const { return friction_; }
   /// By (1).
   [[nodiscard]] GroundForces forces(const State& s, std::span<const GroundPoint> points) const;
+  /// The state after impulses that stop the corners' normal velocity, without friction, and all of that of corners that
+  /// stick: of the velocities possible thereafter those nearest in the metric of the kinetic energy.
+  [[nodiscard]] State stopped(State s, std::span<const GroundPoint> points) const;
   /// μN − |f_t| of a corner that sticks; of an edge both corners of which do, what friction along it has left [N].
   [[nodiscard]] double friction_left(const State& s, std::span<const GroundPoint> points, const GroundForces& f) const;
 
@@ -57,6 +60,10 @@ class GroundLaw {
                                                    const GroundForces& f) const;
 
  private:
+  /// The corners of a body and what forces on them do, W.
+  struct Arms;
+  [[nodiscard]] Arms arms(const State& s, std::span<const GroundPoint> points) const;
+
   const Drop& drop_;
   double friction_;
   Matrix3 inverse_inertia_;
