@@ -213,10 +213,21 @@ bool ContactArea::contains(const Vector2& point) const {
   return corners.size() > 2;
 }
 
-PressedArea::PressedArea(const ContactArea& area) : centre_(Vector2::Zero()), unit_(area.radius) {
-  for (const Vector2& corner : area.corners) centre_ += corner / static_cast<double>(area.corners.size());
+Vector2 ContactArea::middle() const {
+  Vector2 mean = Vector2::Zero();
+  for (const Vector2& corner : corners) mean += corner / static_cast<double>(corners.size());
+  return mean;
+}
+
+double ContactArea::extent() const {
+  const Vector2 mean = middle();
+  double most = radius;
+  for (const Vector2& corner : corners) most = std::fmax(most, (corner - mean).norm());
+  return most;
+}
+
+PressedArea::PressedArea(const ContactArea& area) : centre_(area.middle()), unit_(area.extent()) {
   if (!(area.radius > 0)) {
-    for (const Vector2& corner : area.corners) unit_ = std::fmax(unit_, (corner - centre_).norm());
     for (const Vector2& corner : area.corners) corners_.emplace_back((corner - centre_) / unit_);
   }
   press(Vector3::UnitX());
@@ -225,6 +236,8 @@ PressedArea::PressedArea(const ContactArea& area) : centre_(Vector2::Zero()), un
 bool PressedArea::press(const Vector3& pressure) {
   sides_.clear();
   arc_ = {};
+  origin_.setZero();
+  extent_ = 1;
   if (corners_.empty()) {
     press_disc(pressure);
     return sides_.empty() && !arc_.is_empty();
@@ -246,7 +259,18 @@ bool PressedArea::press(const Vector3& pressure) {
     else sides_.push_back({cut, to}), returns = cut;
   }
   if (!whole && !sides_.empty() && leaves != returns) sides_.push_back({leaves, returns});
+  if (!whole) see_from_within();
   return whole;
+}
+
+/// From a middle of what is pushed the integrals over a narrow part do not cancel.
+void PressedArea::see_from_within() {
+  for (const auto& [from, to] : sides_) origin_ += from / static_cast<double>(sides_.size());
+  extent_ = 0;
+  for (auto& [from, to] : sides_) {
+    from -= origin_, to -= origin_;
+    extent_ = std::fmax(extent_, from.norm());
+  }
 }
 
 void PressedArea::press_disc(const Vector3& pressure) {
@@ -261,7 +285,7 @@ void PressedArea::press_disc(const Vector3& pressure) {
   sides_.push_back({on_circle(middle + half), on_circle(middle - half)});
 }
 
-Matrix3 PressedArea::moments() const {
+Matrix3 PressedArea::moments_within() const {
   Matrix3 m = Matrix3::Zero();
   const auto add = [&](double area, const Vector2& first, const Matrix2& second) {
     m(0, 0) += area;
@@ -285,12 +309,28 @@ Matrix3 PressedArea::moments() const {
   return m;
 }
 
+Matrix3 PressedArea::moments() const {
+  const Matrix3 m = moments_within();
+  if (origin_ == Vector2::Zero()) return m;
+  Matrix3 shift = Matrix3::Identity();
+  shift.block<2, 1>(1, 0) = origin_;
+  return shift * m * shift.transpose();
+}
+
 Matrix3 PressedArea::slip_moments(const Vector2& slip, double spin) const {
+  if (origin_ == Vector2::Zero()) return slip_moments_within(slip, spin);
+  Matrix3 m = slip_moments_within(slip + spin * quarter_turn(origin_), spin);
+  m.row(2) += origin_.x() * m.row(1) - origin_.y() * m.row(0);
+  m.rightCols<2>() += m.col(0) * origin_.transpose();
+  return m;
+}
+
+Matrix3 PressedArea::slip_moments_within(const Vector2& slip, double spin) const {
   Matrix3 result;
   const double speed = slip.norm();
-  if (speed > near_pole * std::fabs(spin)) {
+  if (speed > near_pole * extent_ * std::fabs(spin)) {
     const Vector2 u = slip / speed;
-    const Matrix3 m = moments();
+    const Matrix3 m = moments_within();
     result.topRows<2>() = u * m.row(0);
     result.row(2) = u.y() * m.row(1) - u.x() * m.row(2);
     const auto add = [&](auto far) {
@@ -299,7 +339,7 @@ Matrix3 PressedArea::slip_moments(const Vector2& slip, double spin) const {
       return Matrix3(result + far.sum);
     };
     if (spin == 0) return result;
-    return speed > distant_pole * std::fabs(spin) ? add(FarIntegrals<4, 6>(u, spin / speed))
+    return speed > distant_pole * extent_ * std::fabs(spin) ? add(FarIntegrals<4, 6>(u, spin / speed))
                                                   : add(FarIntegrals<8, 10>(u, spin / speed));
   }
   const Vector2 pole = quarter_turn(slip / spin);

@@ -24,6 +24,8 @@ struct ContactArea {
 
   /// Whether a force at `point` can be the resultant of pushes on the area [m].
   [[nodiscard]] bool contains(const Vector2& point) const;
+  [[nodiscard]] Vector2 middle() const;   ///< mean of the corners [m]
+  [[nodiscard]] double extent() const;    ///< largest distance from it [m]
 };
 
 /// The part of a contact area that a linear pressure pushes.  Lengths are in units of `unit` from `centre`.
@@ -53,12 +55,17 @@ class PressedArea {
     [[nodiscard]] bool is_empty() const { return !(from < to); }
   };
   void press_disc(const Vector3& pressure);
+  void see_from_within();
+  [[nodiscard]] Matrix3 moments_within() const;
+  [[nodiscard]] Matrix3 slip_moments_within(const Vector2& slip, double spin) const;
 
   std::vector<Vector2> corners_;  ///< none: a disc
   Vector2 centre_;
   double unit_;
-  std::vector<Side> sides_;
+  std::vector<Side> sides_;  ///< from origin_
   Arc arc_;
+  Vector2 origin_ = Vector2::Zero();  ///< of what is pushed, if that is a part of a polygon
+  double extent_ = 1;                 ///< its size
 };
 
 }  // namespace clatter::analytic::space

@@ -56,11 +56,13 @@ class FacePath final : SlipMotion {
   Values rate(const Values& y) override;
   double impulse_left(const Values&) override { return face_.normal_impulse - spent_; }
   bool end_stage() override { return true; }
-  End slide_from_rest();
-  bool sticks();
+  std::optional<bool> is_held(Vector3& direction);
   /// Of y.
   [[nodiscard]] double rounding() const { return 16 * detail::epsilon * root_mass_ * face_.velocity_scale; }
-  [[nodiscard]] bool solve(const Vector2& slip, double spin);
+  [[nodiscard]] bool solve(const Vector2& slip, double spin) {
+    return solve(turning_.point, slip + spin * Vector2(-pushed_.centre().y(), pushed_.centre().x()), spin);
+  }
+  [[nodiscard]] bool solve(const Vector2& point, const Vector2& u, std::optional<double> spin);
   void go_on_to(const Vector3& direction);
 
   const SlidingFace& face_;
@@ -79,13 +81,13 @@ class FacePath final : SlipMotion {
   Eigen::Matrix<double, 2, 3> shift_;  ///< of the pressure point by (F, K)
 };
 
-/// Finds a, b, c and with them F, K: linear equations on the area that is pushed, which is that of the solution.
-bool FacePath::solve(const Vector2& slip, double spin) {
+/// Finds a, b, c and with them F, K for the slip u at the centre: linear equations on the area that is pushed, which is
+/// that of the solution.  Without a spin: a, b, c that have `point` for their pressure point.
+bool FacePath::solve(const Vector2& point, const Vector2& u, std::optional<double> spin) {
   constexpr int most_turns = 40;
   constexpr double settled = 1e-7;  // where the error of Newton's method is its square
   const Vector2& centre = pushed_.centre();
-  const Vector3 wanted = (Vector3() << 1, (turning_.point - centre) / pushed_.unit()).finished();
-  const Vector2 u = slip + spin * Vector2(-centre.y(), centre.x());
+  const Vector3 wanted = (Vector3() << 1, (point - centre) / pushed_.unit()).finished();
   Vector3 before = pressure_;
   double least = std::numeric_limits<double>::infinity();
   for (int i = 0; i < most_turns; ++i) {
@@ -95,9 +97,11 @@ bool FacePath::solve(const Vector2& slip, double spin) {
       pressure_ = (before + pressure_) / 2;
       continue;
     }
-    const Matrix3 rubs = rubbing_ * pushed_.slip_moments(u, spin * pushed_.unit());
-    Matrix3 equations = moments;
-    equations.bottomRows<2>() -= shift_ * rubs / pushed_.unit();
+    Matrix3 rubs = Matrix3::Zero(), equations = moments;
+    if (spin) {
+      rubs = rubbing_ * pushed_.slip_moments(u, *spin * pushed_.unit());
+      equations.bottomRows<2>() -= shift_ * rubs / pushed_.unit();
+    }
     const double residual = (equations * pressure_ - wanted).norm();
     if (residual > least) {  // beyond the solution
       pressure_ = (before + pressure_) / 2;
@@ -137,33 +141,26 @@ FacePath::Values FacePath::rate(const Values& y) {
   return load_ + Vector3(force_.x() / root_mass_, force_.y() / root_mass_, force_.z() / root_inertia_);
 }
 
-/// Whether slip of rounding's size along what drives it dies out.  Friction that is not all needed to hold the face may
-/// be more than the pressure of a face that slips can have: where a part of it holds the face, the face sticks.
-FacePath::End FacePath::slide_from_rest() {
-  constexpr double least_share = 1e-15;
-  const Matrix3 rubbing = rubbing_;
-  const double spent = spent_;
-  End end = End::no_pressure;
-  for (double share = 1; end == End::no_pressure && share >= least_share; share /= 2) {
-    rubbing_ = share * rubbing;
-    spent_ = spent;
-    y_ = first_slip * face_.normal_impulse * load_;
-    if (share < 1) pressure_ << 1 / whole_moments_(0, 0), 0, 0;
-    end = slide(true);
-    if (share < 1 && end == End::impulse_spent) {  // the part that has a pressure does not hold it
-      end = End::no_pressure;
-      break;
-    }
-  }
-  rubbing_ = rubbing;
-  return end;
-}
-
-/// Whether a face that holds still has a pressure; friction is what it takes.
-bool FacePath::sticks() {
+/// Whether friction can hold the face under the pressure that it then has; nothing if it has none.
+std::optional<bool> FacePath::is_held(Vector3& direction) {
   const Vector2 force = -root_mass_ * load_.head<2>();
   const double couple = -root_inertia_ * load_.z();
-  return area_.contains(turning_.point + shift_ * Vector3(force.x(), force.y(), couple));
+  const Vector2 point = turning_.point + shift_ * Vector3(force.x(), force.y(), couple);
+  if (!area_.contains(point)) return {};
+  if (load_ == Vector3::Zero()) return true;
+  pressure_ << 1 / whole_moments_(0, 0), 0, 0;
+  if (!solve(point, Vector2::Zero(), {})) return {};
+  pushed_.press(pressure_);
+  SlipLetGo slip(load_, [&](const Vector3& y) -> Vector3 {
+    const Vector2& centre = pushed_.centre();
+    const double spin = y.z() / root_inertia_;
+    const Vector2 u = y.head<2>() / root_mass_ + spin * Vector2(-centre.y(), centre.x());
+    const Vector3 rub = rubbing_ * (pushed_.slip_moments(u, spin * pushed_.unit()) * pressure_);
+    return {rub.x() / root_mass_, rub.y() / root_mass_, rub.z() / root_inertia_};
+  });
+  const bool held = slip.is_held();
+  direction = slip.direction();
+  return held;
 }
 
 std::optional<FaceFriction> FacePath::follow() {
@@ -172,12 +169,16 @@ std::optional<FaceFriction> FacePath::follow() {
   const bool slips = before.norm() > rounding();
   End end = slips ? slide() : End::stopped;
   if (end == End::stopped) {
-    result.path = slips ? PathKind::slip_stick : PathKind::stick;
-    if (load_ != Vector3::Zero()) end = slide_from_rest();
-    if (end == End::impulse_spent) result.path = slips ? PathKind::slip_reslip : PathKind::slip;
-    if (end == End::stopped) {
-      y_.setZero();
-      if (!sticks()) end = End::no_pressure;
+    Vector3 direction;
+    const auto held = is_held(direction);
+    if (!held) return {};
+    result.path = slips ? (*held ? PathKind::slip_stick : PathKind::slip_reslip)
+                        : (*held ? PathKind::stick : PathKind::slip);
+    y_.setZero();
+    if (!*held) {
+      y_ = first_slip * face_.normal_impulse * load_.norm() * direction;
+      end = slide(true);
+      if (end == End::stopped) return {};
     }
   }
   if (end == End::no_pressure) return {};

@@ -11,8 +11,7 @@
 //     ∫q x dA = (−M_y, M_x) − h F,   M = E (τ − (I⁻¹)_hz K),                                          (2)
 // the moment that turns the body so; q is positive on a part of the area alone where (2) lies outside its kernel.
 // F and K depend on the direction of (U, w) alone, and slide and spin end together.  Thereafter the face sticks if
-// friction can hold it, or slip goes on: a slip of rounding's size along what drives it dies out, or grows.  Where no
-// pressure lets it slip against all of the friction, it sticks if a half, a quarter, … of the friction holds it.
+// friction can hold it under the pressure that it then has, or slip goes on.
 #pragma once
 
 #include <optional>
@@ -47,8 +46,8 @@ struct FaceFriction {
 /// then has no couple, and all of it may as well act below the centre of mass.
 [[nodiscard]] bool slides_straight(const SlidingFace& face);
 
-/// Friction of a face; nothing where (2) asks at any moment for a point that pushes on the area cannot have, or comes
-/// so near to its edge, pushes on less than 1e-4 of the area, that rounding keeps 1000 steps from following the path.
+/// Friction of a face; nothing where (2) asks at any moment for a point that pushes on the area cannot have, or one so
+/// near to its edge that less than 1e-4 of the area is pushed (level_contact.hpp then).
 /// Accuracy: 1e-12 of μN and of what (U, w) does to m, J.
 [[nodiscard]] std::optional<FaceFriction> face_friction(const SlidingFace& face, const ContactArea& area);
 

@@ -10,16 +10,16 @@ namespace clatter::analytic::space {
 
 namespace {
 
-/// Local error of a step, relative to the largest slip so far, and of what goes along with it.
-constexpr double slip_step_error = 4e-15;
 /// Forecasts of a stop this near to one another, relative to the impulse of the slip, differ by the errors of steps;
 constexpr double stop_agreement = 16 * detail::epsilon;
 /// those of a slip that began at first_slip and is below `little` times that need only say that it dies out.
 constexpr double little = 1e6, little_agreement = 1e-6;
 /// A stop forecast within this part of the impulse that is left will come, whatever turn slip takes.
 constexpr double sure_stop = 1e-4;
-/// A step that may change no more of the slip than this and still fails leads out of what pressure can do.
+/// A step that may change no more of the slip than this is taken whatever its error: the rate has a kink there.
 constexpr double shortest_step = 1e-13;
+/// Slip that has fallen to this part of the largest, turning or not, has stopped: its direction is rounding.
+constexpr double stopped_part = 1e-13, little_stopped_part = 1e-6;
 
 /// Where slip will stop, by its size and growth now and as it was when it was at least twice as large.
 struct StopForecast {
@@ -37,8 +37,8 @@ struct StopForecast {
 
 }  // namespace
 
-SlipMotion::SlipMotion(Eigen::Index size)
-    : y_(Values::Zero(size)), size_(static_cast<std::size_t>(size)), system_{derivative, nullptr, size_, this},
+SlipMotion::SlipMotion(Eigen::Index size, double step_error)
+    : y_(Values::Zero(size)), size_(static_cast<std::size_t>(size)), step_error_(step_error), system_{derivative, nullptr, size_, this},
       step_(gsl_odeiv2_step_alloc(gsl_odeiv2_step_rk8pd, size_)) {}
 
 int SlipMotion::derivative(double, const double y[], double change[], void* motion) {
@@ -65,7 +65,7 @@ void SlipMotion::go_straight_to(double stop) {
     const double taken = is_last ? stop - spent_ : length;
     Values next = y_, error = y_;
     gsl_odeiv2_step_apply(step_.get(), 0, taken, next.data(), error.data(), nullptr, nullptr, &system_);
-    if (!(error_along(next, error) <= slip_step_error) && taken > shortest * whole) {
+    if (!(error_along(next, error) <= step_error_) && taken > shortest * whole) {
       length = taken / 2;
       continue;
     }
@@ -77,7 +77,7 @@ void SlipMotion::go_straight_to(double stop) {
 }
 
 SlipMotion::End SlipMotion::slide(bool from_rest) {
-  constexpr int most_steps = 1000;
+  constexpr int most_steps = 5000;
   double scale = y_.head<3>().norm(), length = std::numeric_limits<double>::infinity();
   const double most_little = from_rest ? little * scale : 0;
   StopForecast forecast{.begin = spent_, .size_then = scale, .agreement = little_agreement};
@@ -94,7 +94,8 @@ SlipMotion::End SlipMotion::slide(bool from_rest) {
     scale = std::fmax(scale, size);
     if (scale > most_little) forecast.agreement = stop_agreement;
     const double stop = spent_ - size / growth;
-    if (growth < 0 && forecast.agrees(spent_, left, size, stop, only_friction_)) {
+    const bool is_rounding = size <= (scale > most_little ? stopped_part : little_stopped_part) * scale;
+    if (growth < 0 && (is_rounding || forecast.agrees(spent_, left, size, stop, only_friction_))) {
       go_straight_to(stop);
       return End::stopped;
     }
@@ -102,16 +103,15 @@ SlipMotion::End SlipMotion::slide(bool from_rest) {
     const double taken = std::fmin(length, left);
     Values next = y_, error = y_;
     gsl_odeiv2_step_apply(step_.get(), 0, taken, next.data(), error.data(), now.data(), nullptr, &system_);
-    const double wrong = (error.head<3>().norm() / scale + error_along(next, error)) / slip_step_error;
-    if (wrong <= 1) {
+    if (!next.allFinite()) return End::no_pressure;
+    const double wrong = (error.head<3>().norm() / scale + error_along(next, error)) / step_error_;
+    if (wrong <= 1 || std::fabs(taken) * now.head<3>().norm() <= shortest_step * size) {
       y_ = next;
       spent_ += taken;
-    } else if (std::fabs(taken) * now.head<3>().norm() <= shortest_step * size) {
-      return End::no_pressure;
     }
     length = std::fabs(taken) * (wrong >= 0 ? std::fmin(std::fmax(0.9 * std::pow(wrong, -0.125), 0.1), 4) : 0.1);
   }
-  return End::no_pressure;  // along the edge of what pressure can do, where it cannot be told from none
+  return End::no_pressure;
 }
 
 }  // namespace clatter::analytic::space

@@ -5,7 +5,9 @@
 #include <gsl/gsl_odeiv2.h>
 
 #include <Eigen/Core>
+#include <functional>
 #include <memory>
+#include <utility>
 
 namespace clatter::analytic::space {
 
@@ -13,14 +15,15 @@ namespace clatter::analytic::space {
 /// the normal impulse P.  F, K and so the rates depend on the direction of slip alone; slide and spin end together.
 class SlipMotion {
  public:
-  using Values = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, 6, 1>;
+  using Values = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, 9, 1>;
   SlipMotion(const SlipMotion&) = delete;
   SlipMotion& operator=(const SlipMotion&) = delete;
 
  protected:
-  enum class End { impulse_spent, stopped, no_pressure };
+  enum class End { impulse_spent, stopped, no_pressure };  ///< the last: no rate, or too many steps
 
-  explicit SlipMotion(Eigen::Index size);
+  /// @param step_error  of a step, relative to the largest slip so far, and of what goes along with it
+  explicit SlipMotion(Eigen::Index size, double step_error = 4e-15);
   ~SlipMotion() = default;
 
   /// dy/dP at y; NaN where no pressure does it.
@@ -49,6 +52,7 @@ class SlipMotion {
   void go_straight_to(double stop);
 
   std::size_t size_;
+  double step_error_;
   bool holds_direction_ = false;
   gsl_odeiv2_system system_;
   std::unique_ptr<gsl_odeiv2_step, StepDeleter> step_;
@@ -56,5 +60,30 @@ class SlipMotion {
 
 /// Slip, relative to what all of the impulse could do, with which a contact that is let go begins to slip.
 inline constexpr double first_slip = 1e-15;
+
+/// Slip of a contact that is let go, under the pressure that it has while it is held: it falls down a convex function,
+/// the bottom of which is no slip if friction can hold the contact.
+class SlipLetGo final : SlipMotion {
+ public:
+  using Slip = Eigen::Vector3d;
+  /// @param load      dy/dP without friction
+  /// @param friction  what friction adds, by the direction of slip
+  SlipLetGo(const Slip& load, std::function<Slip(const Slip&)> friction)
+      : SlipMotion(3), load_(load), friction_(std::move(friction)) {
+    y_ = first_slip * load_;
+  }
+  bool is_held() { return load_ == Slip::Zero() || slide(true) == End::stopped; }
+  /// After is_held().
+  [[nodiscard]] Slip direction() const { return y_.head<3>().normalized(); }
+
+ private:
+  Values rate(const Values& y) override { return load_ + friction_(y.head<3>()); }
+  double impulse_left(const Values&) override { return trial - spent_; }
+  bool end_stage() override { return true; }
+
+  static constexpr double trial = 1e-6;  ///< of the impulse
+  Slip load_;
+  std::function<Slip(const Slip&)> friction_;
+};
 
 }  // namespace clatter::analytic::space
