@@ -20,7 +20,15 @@ void check_surface(const Facets& facets, double radius) {
 
 }  // namespace
 
-Body::Body(const MassProperties& properties, const Surface& surface, bool merge) { set_up(properties, surface, merge); }
+Body::Body(const MassProperties& properties, const Surface& surface, bool merge,
+           const std::optional<SmoothShape>& smooth)
+    : smooth_(smooth) {
+  set_up(properties, surface, merge);
+  if (!smooth_) return;
+  smooth_->centre -= properties.centre;
+  radius_ = smooth_->reach();
+  half_length_ = std::fabs(smooth_->centre.x()) + smooth_->straight / 2 + smooth_->semiaxes.x();
+}
 
 Body::Body(const Mesh& mesh, bool merge) { set_up(mass_properties(mesh), boundary_surface(mesh), merge); }
 

@@ -11,25 +11,6 @@ namespace {
 constexpr std::size_t most_kept = 64;    ///< polygons that press for which room is made at the start
 constexpr double clip_rounding = 1e-15;  ///< of the largest depth: how far above the ground clipping may put a corner
 
-/// Slip velocity of the body's points: `value` at the origin, and its rates of change over the body, per metre.
-struct BodySlip {
-  double east = 0, north = 0;
-  Vector3 east_slope, north_slope;
-};
-
-BodySlip body_slip(const Vector3& origin, const GroundView& view, const SlipField& field) {
-  if (field.kind == SlipField::Kind::turning) {
-    const Vector3 away = origin - field.centre;
-    const Vector3 east_slope = -field.spin * view.north, north_slope = field.spin * view.east;
-    return {field.east + east_slope.dot(away), field.north + north_slope.dot(away), east_slope, north_slope};
-  }
-  // a·(ω × u) = (a × ω)·u
-  const Vector3 east_slope = view.east.cross(view.angular_velocity),
-                north_slope = view.north.cross(view.angular_velocity);
-  return {view.east_speed + field.east + east_slope.dot(origin),
-          view.north_speed + field.north + north_slope.dot(origin), east_slope, north_slope};
-}
-
 void add_force(double east, const Vector3& east_moment, double weight, const Vector3& direction, double& sum,
                SlipLoad& load) {
   sum -= weight * east;
@@ -71,6 +52,19 @@ double friction_weight(double weight, const SlipField& slip) {
 }
 
 }  // namespace
+
+BodySlip body_slip(const Vector3& origin, const GroundView& view, const SlipField& field) {
+  if (field.kind == SlipField::Kind::turning) {
+    const Vector3 away = origin - field.centre;
+    const Vector3 east_slope = -field.spin * view.north, north_slope = field.spin * view.east;
+    return {field.east + east_slope.dot(away), field.north + north_slope.dot(away), east_slope, north_slope};
+  }
+  // a·(ω × u) = (a × ω)·u
+  const Vector3 east_slope = view.east.cross(view.angular_velocity),
+                north_slope = view.north.cross(view.angular_velocity);
+  return {view.east_speed + field.east + east_slope.dot(origin),
+          view.north_speed + field.north + north_slope.dot(origin), east_slope, north_slope};
+}
 
 void SlipRange::add(double east, double north) {
   low_east = std::min(low_east, east);

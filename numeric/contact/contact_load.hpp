@@ -68,7 +68,8 @@ struct ContactLoad {
   double energy = 0;                       ///< ½ k_G ∫δ² over all that is below the ground [J]
   double damping_power = 0;                ///< c_G ∫δδ̇² where the ground presses [W]
   double release_power = 0;                ///< −k_G ∫δδ̇ where the clamp lets go [W]
-  double deepest = 0;       ///< largest δ of a vertex near the ground [m]; not positive: nothing touches
+  /// Largest δ of a vertex near the ground, or of a smooth shape's lowest point [m]; not positive: nothing touches.
+  double deepest = 0;
   double deepest_rate = 0;  ///< its δ̇ [m/s]
 
   [[nodiscard]] Vector3 pressure_centre() const { return first_moment / force; }
@@ -89,20 +90,42 @@ struct SlipLoad {
   Vector3 moment = Vector3::Zero();  ///< ∫f_n u × s, body frame [N·m]
 };
 
+/// What presses on the ground: a body's surface with its scratch memory, one per thread.  Asked once per evaluation; no
+/// allocation.
+class ContactSurface {
+ public:
+  virtual ~ContactSurface() = default;
+  /// @param rates  filled if not null.
+  /// @param submerged  gets the indices of vertices, or ends of a smooth shape, below the ground, with repetitions, if
+  /// not
+  ///                   null.
+  [[nodiscard]] virtual ContactLoad load(const GroundView& view, LoadRates* rates, std::vector<int>* submerged) = 0;
+  [[nodiscard]] ContactLoad load(const GroundView& view, LoadRates* rates = nullptr) {
+    return load(view, rates, nullptr);
+  }
+  /// Friction of a field of `points` or `turning` over the patch of the last load, which had the same view.
+  [[nodiscard]] virtual SlipLoad slip_load(const GroundView& view, const SlipField& field) = 0;
+  /// The slip velocities that a field of `points` has over that patch.
+  [[nodiscard]] virtual SlipRange slip_range(const GroundView& view, const SlipField& field) const = 0;
+};
+
+/// Slip velocity of the body's points: `value` at an origin, and its rates of change over the body, per metre.
+struct BodySlip {
+  double east = 0, north = 0;
+  Vector3 east_slope, north_slope;
+};
+[[nodiscard]] BodySlip body_slip(const Vector3& origin, const GroundView& view, const SlipField& field);
+
 /// Sums the load over the facets near the ground, and keeps the polygons that press, so that friction of any number of
-/// slip fields needs no other clipping.  Holds the scratch memory; one per thread.
-class ContactLoader {
+/// slip fields needs no other clipping.
+class ContactLoader final : public ContactSurface {
  public:
   ContactLoader(const Body& body, const Ground& ground);
 
-  /// @param rates  filled if not null.
-  /// @param submerged  gets the indices of vertices below the ground, with repetitions, if not null.
-  [[nodiscard]] ContactLoad load(const GroundView& view, LoadRates* rates = nullptr,
-                                 std::vector<int>* submerged = nullptr);
-  /// Friction of a field of `points` or `turning` over the patch of the last load, which had the same view.
-  [[nodiscard]] SlipLoad slip_load(const GroundView& view, const SlipField& field);
-  /// The slip velocities that a field of `points` has over that patch.
-  [[nodiscard]] SlipRange slip_range(const GroundView& view, const SlipField& field) const;
+  using ContactSurface::load;
+  [[nodiscard]] ContactLoad load(const GroundView& view, LoadRates* rates, std::vector<int>* submerged) override;
+  [[nodiscard]] SlipLoad slip_load(const GroundView& view, const SlipField& field) override;
+  [[nodiscard]] SlipRange slip_range(const GroundView& view, const SlipField& field) const override;
 
  private:
   struct Sums;

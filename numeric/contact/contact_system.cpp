@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "numeric/contact/smooth_contact.hpp"
 #include "numeric/motion/equations_of_motion.hpp"
 
 namespace clatter::numeric::inline contact {
@@ -111,7 +112,7 @@ double AlongGround::norm() const { return std::hypot(east, north); }
 
 ContactSystem::ContactSystem(const Body& body, const Ground& ground, const Gravity& gravity, bool planar)
     : body_(body), ground_(ground), gravity_(gravity), planar_(planar), equations_(body.mass(), body.inertia()),
-      loader_(body, ground) {}
+      loader_(contact_surface(body, ground)) {}
 
 void ContactSystem::begin(const MotionState& touch) {
   assert(std::fabs(touch.attitude.squaredNorm() - 1) <= unit_rounding);
@@ -184,7 +185,7 @@ void ContactSystem::evaluate(const ContactState& y, const FrictionPhase& phase, 
   const GroundView view = this->view(y);
   LoadRates rates;
   const bool wants_rates = diagnosis || phase.kind == FrictionPhase::Kind::stick;
-  const ContactLoad load = loader_.load(view, wants_rates ? &rates : nullptr, submerged);
+  const ContactLoad load = loader_->load(view, wants_rates ? &rates : nullptr, submerged);
   const bool presses = load.force > 0;
   Instant at{phase,
              view,
@@ -226,7 +227,7 @@ AlongGround ContactSystem::sticking_force(const ContactState& y) {
 }
 
 SlipRange ContactSystem::slip_range(const ContactPatch& patch) const {
-  return loader_.slip_range(patch.view, {.kind = SlipField::Kind::points, .planar = planar_});
+  return loader_->slip_range(patch.view, {.kind = SlipField::Kind::points, .planar = planar_});
 }
 
 AlongGround ContactSystem::slip_per_depth(const ContactState& y) const {
@@ -237,13 +238,13 @@ AlongGround ContactSystem::slip_per_depth(const ContactState& y) const {
 ContactPatch ContactSystem::patch(const ContactState& y) {
   ++evaluations_;
   const GroundView view = this->view(y);
-  const ContactLoad load = loader_.load(view);
+  const ContactLoad load = loader_->load(view);
   return {view, load.force > 0 ? load.pressure_centre() : Vector3::Zero()};
 }
 
 LocalFriction ContactSystem::local_friction(const ContactPatch& patch, const AlongGround& shift) {
   ++evaluations_;
-  const SlipLoad load = loader_.slip_load(
+  const SlipLoad load = loader_->slip_load(
       patch.view,
       {.kind = SlipField::Kind::points, .planar = planar_, .rough = true, .east = shift.east, .north = shift.north});
   const double mu = ground_.sliding_friction;
@@ -287,12 +288,16 @@ ContactLoad ContactSystem::pressed(double depth) {
   view.vertical_speed = 0;
   view.angular_velocity.setZero();
   ++evaluations_;
-  return loader_.load(view);
+  return loader_->load(view);
 }
 
 bool ContactSystem::is_submerged(const ContactState& y) const {
   if (!(plane_.offset + displacement(y).z() < 0)) return false;  // the centre of mass lies within the body
   const GroundView at = view(y);
+  if (const auto& smooth = body_.smooth()) {
+    const auto is_below = [&](int end) { return at.height(smooth->lowest(end, -at.normal())) < 0; };
+    return is_below(0) && is_below(smooth->ends() - 1);
+  }
   const std::vector<Vector3>& vertices = body_.facets().vertices;
   return std::all_of(vertices.begin(), vertices.end(), [&](const Vector3& u) { return at.height(u) < 0; });
 }
@@ -335,7 +340,7 @@ ContactSystem::Friction ContactSystem::in_stick(const Instant& at) const {
 /// Only the resultant at the pressure centre and the moment about the vertical are real of a patch taken as flat; so
 /// their power, −∫f·v over the flat patch, is never negative.
 ContactSystem::Friction ContactSystem::over_patch(const Instant& at, const SlipField& field) {
-  const SlipLoad load = loader_.slip_load(at.view, field);
+  const SlipLoad load = loader_->slip_load(at.view, field);
   const double mu = ground_.sliding_friction;
   const AlongGround force{mu * load.east, planar_ ? 0 : mu * load.north};
   Friction friction{force, mu * load.moment, 0, {}};

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <memory>
 
 #include "numeric/contact/contact_load.hpp"
 #include "numeric/motion/equations_of_motion.hpp"
@@ -149,7 +150,7 @@ class ContactSystem {
   /// Static energy and force at a depth below the touch-down pose, for the scales of time and depth.
   [[nodiscard]] ContactLoad pressed(double depth);
 
-  /// Whether no vertex is at or above the ground.
+  /// Whether no point is at or above the ground.
   [[nodiscard]] bool is_submerged(const ContactState& y) const;
 
   [[nodiscard]] long evaluations() const { return evaluations_; }
@@ -184,7 +185,7 @@ class ContactSystem {
   Gravity gravity_;
   bool planar_;
   NewtonEuler equations_;
-  ContactLoader loader_;
+  std::unique_ptr<ContactSurface> loader_;
   MotionState touch_;
   GroundPlane plane_;
   Vector3 east_ = Vector3::UnitX(), north_ = Vector3::UnitY();  ///< world axes in the body frame at touch-down

@@ -54,7 +54,27 @@ struct Search {
   bool touches = false;
 };
 
+/// The earliest time at which an end may touch: of a ball by its centre, of an ellipsoid by
+///     |S(n + τ ṅ)| <= |S n| + τ (S n·S ṅ)/|S n| + τ²/2 |S ṅ|²/|S n|,
+/// with which its lowest point stays above the height that its present one leads to by a bounded acceleration.
+Search search_ends(const SmoothShape& shape, const FreeFlight& flight, const View& view, double resolution) {
+  Search result;
+  const double turning = flight.turning_acceleration();
+  for (int end = 0; end < shape.ends(); ++end) {
+    const Vector3 centre = shape.end_centre(end), stretched = shape.semiaxes.cwiseProduct(view.plane.normal);
+    const double size = stretched.norm(), lean = shape.semiaxes.cwiseProduct(view.rate_slope).squaredNorm() / size;
+    const Vector3 lowest = shape.lowest(end, view.plane.normal);
+    Approach at{view.plane.height(centre) - size, view.vertical_speed + view.rate_slope.dot(lowest),
+                flight.gravity() + turning * shape.reach() + lean};
+    if (shape.is_ball()) at.acceleration = flight.gravity() + turning * centre.norm();
+    if (at.height <= resolution && !(at.rate > 0)) result.touches = true;
+    result.time = std::min(result.time, safe_time(at));
+  }
+  return result;
+}
+
 Search search(const Body& body, const FreeFlight& flight, const View& view, double resolution) {
+  if (body.smooth()) return search_ends(*body.smooth(), flight, view, resolution);
   Search result;
   const double turning = flight.turning_acceleration();
   const auto box_may_matter = [&](const Vector3& centre, const Vector3& half) {
@@ -136,6 +156,10 @@ TouchDown next_touch_down(const Body& body, const FreeFlight& flight, long evalu
 
 Vector3 lowest_vertex(const Body& body, const MotionState& state) {
   const View view(state);
+  if (const auto& smooth = body.smooth()) {
+    const Vector3& up = view.plane.normal;
+    return smooth->lowest(up.dot(smooth->end_centre(0)) <= up.dot(smooth->end_centre(smooth->ends() - 1)) ? 0 : 1, up);
+  }
   double lowest = std::numeric_limits<double>::infinity();
   Vector3 found = Vector3::Zero();
   body.hierarchy().visit_if(
@@ -159,13 +183,21 @@ double lowest_height(const Body& body, const MotionState& state) {
 
 namespace {
 
-/// The lowest vertices, each once.
-std::vector<int> touching_vertices(const Body& body, const MotionState& state) {
+/// The lowest vertices, or lowest points of a smooth shape's ends, each once.
+std::vector<Vector3> touching_points(const Body& body, const MotionState& state) {
   // Heights over the centre of mass: over the ground those of a high flight would lose the body's size.
   MotionState level_with_centre = state;
   level_with_centre.centre.setZero();
   const double level = lowest_height(body, level_with_centre) + 1e-11 * body.radius();
   const GroundPlane plane{state.attitude.conjugate() * Vector3::UnitZ(), 0};
+  std::vector<Vector3> points;
+  if (const auto& smooth = body.smooth()) {
+    for (int end = 0; end < smooth->ends(); ++end) {
+      const Vector3 lowest = smooth->lowest(end, plane.normal);
+      if (plane.height(lowest) <= level) points.push_back(lowest);
+    }
+    return points;
+  }
   const Facets& facets = body.facets();
   std::vector<int> touching;
   body.hierarchy().visit_below(plane, level, [&](int facet) {
@@ -175,24 +207,24 @@ std::vector<int> touching_vertices(const Body& body, const MotionState& state) {
   });
   std::sort(touching.begin(), touching.end());
   touching.erase(std::unique(touching.begin(), touching.end()), touching.end());
-  return touching;
+  for (const int vertex : touching) points.push_back(facets.vertices[static_cast<std::size_t>(vertex)]);
+  return points;
 }
 
 }  // namespace
 
 Vector3 touch_point(const Body& body, const MotionState& state) {
-  const std::vector<int> touching = touching_vertices(body, state);
+  const std::vector<Vector3> touching = touching_points(body, state);
   assert(!touching.empty());
   Vector3 sum = Vector3::Zero();
-  for (const int vertex : touching) sum += body.facets().vertices[static_cast<std::size_t>(vertex)];
+  for (const Vector3& point : touching) sum += point;
   return sum / static_cast<double>(touching.size());
 }
 
 FirstTouch first_touch(const Body& body, const MotionState& state) {
   FirstTouch touch{.approach_speed = -std::numeric_limits<double>::infinity()};
   bool a = false, b = false;
-  for (const int vertex : touching_vertices(body, state)) {
-    const Vector3& u = body.facets().vertices[static_cast<std::size_t>(vertex)];
+  for (const Vector3& u : touching_points(body, state)) {
     a = a || u.x() < -1e-9 * body.half_length();
     b = b || u.x() > 1e-9 * body.half_length();
     touch.approach_speed = std::max(touch.approach_speed, -point_velocity(state, u).z());

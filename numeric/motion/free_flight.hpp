@@ -42,10 +42,11 @@ struct TouchDown {
 /// Each step of the search is as long as the lower bound
 ///     height(t + τ) ≥ height(t) + τ d/dt height(t) − τ²/2 (g + (|ω|²max + |ω̇|max) |u|)
 /// proves every vertex to stay above the ground, so no earlier contact is missed; near the root the steps
-/// converge quadratically.  Vertices within 4 ulp of the body's size above the ground touch.
+/// converge quadratically.  Vertices within 4 ulp of the body's size above the ground touch.  Of a smooth shape the
+/// same holds for the lowest point of each end, wherever that moves to on it.
 [[nodiscard]] TouchDown next_touch_down(const Body& body, const FreeFlight& flight, long evaluation_limit = 300'000);
 
-/// The lowest vertex, body frame; any of several.
+/// The lowest vertex, or point of a smooth shape, body frame; any of several.
 [[nodiscard]] Vector3 lowest_vertex(const Body& body, const MotionState& state);
 /// Its height above the ground [m].
 [[nodiscard]] double lowest_height(const Body& body, const MotionState& state);

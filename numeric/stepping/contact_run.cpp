@@ -139,7 +139,7 @@ void ContactRun::begin(const MotionState& touch, const Vector3& point) {
   events_.begin(scales, control_->steps.tolerance);
   peak_.begin();
   local_slip_.begin(control_->least_local_slip * scales.energy / scales.depth);
-  touches_.begin();
+  touches_.begin(point);
   switches_ = 0;
   now_.time = 0;
   now_.state = system_.initial();

@@ -8,7 +8,8 @@
 namespace clatter::numeric::inline stepping {
 
 TouchCounter::TouchCounter(const Body& body) : body_(body) {
-  const std::size_t vertices = body.facets().vertices.size();
+  const std::size_t vertices =
+      body.smooth() ? static_cast<std::size_t>(body.smooth()->ends()) : body.facets().vertices.size();
   const std::vector<Edge> all = edges();
   neighbour_begin_.assign(vertices + 1, 0);
   for (const Edge& edge : all) {
@@ -25,6 +26,10 @@ TouchCounter::TouchCounter(const Body& body) : body_(body) {
 
 /// All links in both directions, sorted by where they begin.
 std::vector<TouchCounter::Edge> TouchCounter::edges() const {
+  if (const auto& smooth = body_.smooth()) {
+    if (smooth->ends() == 1) return {};
+    return {{0, {1, Link::far, -1}}, {1, {0, Link::far, -1}}};
+  }
   const Facets& facets = body_.outline();
   std::vector<Edge> edges;
   edges.reserve(2 * facets.corners.size());
@@ -57,21 +62,21 @@ void TouchCounter::add_loop(const Loop& loop, std::vector<Edge>& edges) const {
   }
 }
 
-void TouchCounter::begin() {
+void TouchCounter::begin(const Vector3& point) {
   now_ += 2;  // what was below at the end of an earlier contact is not below now
   touches_ = 0;
   any_before_ = touched_a_ = touched_b_ = false;
+  if (body_.smooth() && body_.smooth()->ends() == 1) note_end(point.x());
 }
 
 bool TouchCounter::all_new(const std::vector<int>& submerged) const {
   return any_before_ && !submerged.empty() && std::none_of(submerged.begin(), submerged.end(), [&](int vertex) {
-           const int corner = body_.outline_vertex(vertex);
+           const int corner = corner_of(vertex);
            return corner >= 0 && stamp_of(corner) == now_;
          });
 }
 
-void TouchCounter::note_end(int vertex) {
-  const double x = body_.outline().vertices[static_cast<std::size_t>(vertex)].x();
+void TouchCounter::note_end(double x) {
   const double middle = 1e-9 * body_.half_length();
   touched_a_ = touched_a_ || x < -middle;
   touched_b_ = touched_b_ || x > middle;
@@ -82,7 +87,7 @@ void TouchCounter::update(const std::vector<int>& submerged) {
   bool grown = false;
   corners_.clear();
   for (const int facet_vertex : submerged) {
-    const int vertex = body_.outline_vertex(facet_vertex);
+    const int vertex = corner_of(facet_vertex);
     if (vertex < 0) continue;
     corners_.push_back(vertex);
     int& stamp = stamps_[static_cast<std::size_t>(vertex)];
@@ -91,7 +96,8 @@ void TouchCounter::update(const std::vector<int>& submerged) {
     before_[static_cast<std::size_t>(vertex)] = stamp;
     if (stamp != previous) {
       grown = true;
-      note_end(vertex);
+      if (!body_.smooth()) note_end(body_.outline().vertices[static_cast<std::size_t>(vertex)].x());
+      else if (body_.smooth()->ends() == 2) note_end(body_.smooth()->end_centre(vertex).x());
     }
     stamp = now_;
   }

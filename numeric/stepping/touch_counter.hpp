@@ -13,12 +13,14 @@ namespace clatter::numeric::inline stepping {
 /// body's radius. (Along a longer edge the contact spreads as well, but what arrives at its far end is another blow.)
 /// Between two updates vertices go below at once; longer edges, and facets that then lie below wholly, connect them
 /// too: a face or an edge that lands flat is one place, two feet are two.  Vertices within a face or a straight edge do
-/// not count, so that nothing depends on how a face is meshed.  No allocation after construction.
+/// not count, so that nothing depends on how a face is meshed.  The ends of a smooth shape count as the vertices of a
+/// long edge.  No allocation after construction.
 class TouchCounter {
  public:
   explicit TouchCounter(const Body& body);
 
-  void begin();
+  /// At a touch-down at `point` (body frame), which says what end it is of a shape that has but one.
+  void begin(const Vector3& point);
   /// Takes the vertices that are below the ground now, repetitions allowed.
   void update(const std::vector<int>& submerged);
   /// Whether none of `submerged` was below the ground at the last update, though others were.
@@ -42,11 +44,13 @@ class TouchCounter {
 
   [[nodiscard]] std::vector<Edge> edges() const;
   void add_loop(const Loop& loop, std::vector<Edge>& edges) const;
+  /// Of a vertex of the facets; −1: it does not count.
+  [[nodiscard]] int corner_of(int vertex) const { return body_.smooth() ? vertex : body_.outline_vertex(vertex); }
   [[nodiscard]] int stamp_of(int vertex) const { return stamps_[static_cast<std::size_t>(vertex)]; }
   [[nodiscard]] bool is_new(int vertex) const;
   [[nodiscard]] bool connects(int from, const Neighbour& to) const;
   [[nodiscard]] bool joins_old(int seed);
-  void note_end(int vertex);
+  void note_end(double x);
 
   const Body& body_;
   std::vector<int> neighbour_begin_;

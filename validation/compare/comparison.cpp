@@ -9,6 +9,7 @@
 #include <set>
 
 #include "analytic/law/viscoelastic.hpp"
+#include "validation/compare/stiff_runs.hpp"
 #include "validation/output/number.hpp"
 #include "validation/record/names.hpp"
 #include "validation/scene/shortfall.hpp"
@@ -42,9 +43,10 @@ bool stops_in_one_model(const SequenceImpact& discrete, numeric::FrictionMode co
 }
 
 /// Whether both models touch down with the same end, or in space with the same corners.
-bool same_contact(const SequenceImpact& discrete, numeric::ContactEnd end, const Vector3& place, double radius) {
+bool same_contact(const SequenceImpact& discrete, numeric::ContactEnd end, const Vector3& place,
+                  const numeric::Body& body) {
   if (!discrete.place) return discrete.end == end_name(end);
-  return (*discrete.place - place).norm() <= 1e-6 * radius;
+  return is_same_place(body, *discrete.place, place);
 }
 
 /// Whether a face turns in the discrete model, while the continuous one, whose friction holds the pressure centre
@@ -54,13 +56,14 @@ bool only_spins(const SequenceImpact& discrete, numeric::FrictionMode continuous
 }
 
 /// What reports call the contact of the continuous model.
-std::string contact_name(const DiscreteSide& side, numeric::ContactEnd end, const Vector3& place, double radius) {
+std::string contact_name(const DiscreteSide& side, numeric::ContactEnd end, const Vector3& place,
+                         const numeric::Body& body) {
   if (!side.in_space) return end_name(end);
   for (const SequenceImpact& impact : side.impacts) {
-    if (same_contact(impact, end, place, radius)) return impact.end;
+    if (same_contact(impact, end, place, body)) return impact.end;
   }
   for (const NamedCorner& corner : side.corners) {
-    if ((corner.place - place).norm() <= 1e-6 * radius) return corner.name;
+    if (is_same_place(body, corner.place, place)) return corner.name;
   }
   return "several";
 }
@@ -87,7 +90,7 @@ std::string unpredictable_words(const ImpactRecord& record, bool in_space) {
 }
 
 /// Why impact i cannot be compared at the scene's stiffness; empty if it can.
-std::string reason_against(const Comparison& comparison, const Scene& scene, double radius, std::size_t i) {
+std::string reason_against(const Comparison& comparison, const Scene& scene, const numeric::Body& body, std::size_t i) {
   const DiscreteSide& side = comparison.discrete;
   const auto& records = comparison.run.impacts;
   if (i >= side.impacts.size()) return "the discrete sequence has ended: " + side.message;
@@ -99,7 +102,7 @@ std::string reason_against(const Comparison& comparison, const Scene& scene, dou
   if (!impact.predictable) return "beyond the predictable: an error of the start has grown too far";
   if (record.touches > 1 && impact.end != "both") return "another place touches before the first contact has ended";
   if (impact.jams) return "jamming: friction beyond Painlevé's limit drives the contact into the ground";
-  if (!same_contact(impact, record.end, record.place, radius)) {
+  if (!same_contact(impact, record.end, record.place, body)) {
     return contacts_differ(side, impact.end, comparison.impacts[i].continuous_end);
   }
   if (sticks_in_one_model(scene.world.ground, impact, record.mode)) {
@@ -129,7 +132,7 @@ MotionNumbers error_of(const ImpactRecord& record) {
   return error;
 }
 
-void add_impact(Comparison& comparison, double radius, std::size_t i) {
+void add_impact(Comparison& comparison, const numeric::Body& body, std::size_t i) {
   const DiscreteSide& side = comparison.discrete;
   const auto& records = comparison.run.impacts;
   ComparedImpact& impact = comparison.impacts.emplace_back();
@@ -147,12 +150,12 @@ void add_impact(Comparison& comparison, double radius, std::size_t i) {
   if (i < records.size()) {
     impact.continuous = motion_numbers(impact_of(records[i]).value);
     impact.continuous_error = error_of(records[i]);
-    impact.continuous_end = contact_name(side, records[i].end, records[i].place, radius);
+    impact.continuous_end = contact_name(side, records[i].end, records[i].place, body);
     impact.contact_time = records[i].value.duration;
   }
   const auto& limits = comparison.limit.rows;
   if (i < limits.size() && i < side.impacts.size() && has_limit(side.impacts[i]) &&
-      same_contact(side.impacts[i], limits[i].end, limits[i].place, radius)) {
+      same_contact(side.impacts[i], limits[i].end, limits[i].place, body)) {
     impact.limit = limits[i];
     impact.has_same_limit = reason_in_principle(side.impacts[i]).empty();
     impact.allowance = allowance(limits[i], side.impacts[i], side.scales);
@@ -201,7 +204,7 @@ std::string limit_miss_words(const ComparedImpact& impact, const SequenceImpact&
 }
 
 /// Why the impact has no limit, or its limit lies outside its error bar; empty: it lies within.
-std::string explanation_of(const Comparison& comparison, const Scene& scene, double radius, std::size_t i) {
+std::string explanation_of(const Comparison& comparison, const Scene& scene, const numeric::Body& body, std::size_t i) {
   const DiscreteSide& side = comparison.discrete;
   const ComparedImpact& impact = comparison.impacts[i];
   if (impact.has_landing()) return limit_miss_words(impact, side.impacts[i]);
@@ -215,8 +218,8 @@ std::string explanation_of(const Comparison& comparison, const Scene& scene, dou
   }
   const auto& limits = comparison.limit.rows;
   if (i >= limits.size()) return comparison.limit.ended.empty() ? "not asked for" : comparison.limit.ended;
-  if (!same_contact(discrete, limits[i].end, limits[i].place, radius)) {
-    return contacts_differ(side, discrete.end, contact_name(side, limits[i].end, limits[i].place, radius)) +
+  if (!same_contact(discrete, limits[i].end, limits[i].place, body)) {
+    return contacts_differ(side, discrete.end, contact_name(side, limits[i].end, limits[i].place, body)) +
            ", however stiff the ground";
   }
   if (sticks_in_one_model(scene.world.ground, discrete, limits[i].mode)) {
@@ -275,7 +278,8 @@ void find_discrete_sides(Comparison& comparison, const Scene& scene, const numer
   const DiscreteDrop drop = given.drop(scene);
   comparison.approach_speed = first_approach_speed(drop);
   comparison.discrete = discrete_side(scene, given);
-  if (scene.body.shape == BodyScene::Shape::mesh || !has_other_corners(drop, mesh.drop(scene))) return;
+  const bool is_same = scene.body.shape == BodyScene::Shape::mesh || body.smooth();
+  if (is_same || !has_other_corners(drop, mesh.drop(scene))) return;
   comparison.as_given = std::move(comparison.discrete);
   comparison.discrete = discrete_side(scene, mesh);
 }
@@ -347,23 +351,22 @@ Comparison compare_models(const Scene& scene, const numeric::Body& body) {
   std::vector<double> contact_times;
   for (const ImpactRecord& record : comparison.run.impacts) contact_times.push_back(record.value.duration);
   const std::vector<PredictedSize> predicted = side.predict(contact_times);
-  const double radius = body.radius();
   const std::size_t count = std::max(side.impacts.size(), comparison.run.impacts.size());
   std::string first_reason;
   for (std::size_t i = 0; i < count; ++i) {
-    add_impact(comparison, radius, i);
+    add_impact(comparison, body, i);
     ComparedImpact& impact = comparison.impacts.back();
     if (i < predicted.size()) {
       impact.predicted = predicted[i];
       impact.predicted.tipping = side.impacts[i].tipping;
     }
-    impact.reason = first_reason.empty() ? reason_against(comparison, scene, radius, i)
-                                         : "follows an impact that cannot be compared";
+    impact.reason =
+        first_reason.empty() ? reason_against(comparison, scene, body, i) : "follows an impact that cannot be compared";
     if (first_reason.empty()) first_reason = impact.reason;
   }
   drop_unlike_limits(comparison, scene);
   for (std::size_t i = 0; side.in_space && i < count; ++i) {
-    comparison.impacts[i].explanation = explanation_of(comparison, scene, radius, i);
+    comparison.impacts[i].explanation = explanation_of(comparison, scene, body, i);
   }
   comparison.shortfall = shortfall_of(comparison, scene);
   comparison.other_law = other_law_words(scene, comparison.approach_speed);

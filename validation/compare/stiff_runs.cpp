@@ -28,18 +28,30 @@ double feature_of(const Scene& scene, const numeric::Body& body) {
     case BodyScene::Shape::mesh: break;
     case BodyScene::Shape::sphere:
     case BodyScene::Shape::ellipsoid:
-    case BodyScene::Shape::capsule:
-      return scene.body.extents(scene.body.radius).minCoeff() / 2 *
-             (1 - std::cos(std::numbers::pi / std::max(scene.body.meshed_sectors(), 4 * scene.body.rings)));
+    case BodyScene::Shape::capsule: {
+      const double half = scene.body.extents(scene.body.radius).minCoeff() / 2;
+      if (scene.body.is_smooth()) return half;
+      return half *
+             (1 - std::cos(std::numbers::pi / std::max(scene.body.meshed_sectors(), 4 * scene.body.meshed_rings())));
+    }
   }
   return body.radius() / 100;
 }
 
-/// Height at touch-down of the lowest vertex that does not touch.
+/// Height at touch-down of the lowest vertex that does not touch; of a smooth shape that of its other end, or its least
+/// half axis.
 double next_height(const ImpactRecord& row, const numeric::Body& body) {
   const Vector3 up = row.attitude.conjugate() * Vector3::UnitZ();
   const double ground = up.dot(row.place), touching = 1e-9 * body.radius();
   double next = std::numeric_limits<double>::infinity();
+  if (const auto& smooth = body.smooth()) {
+    next = smooth->semiaxes.minCoeff();
+    for (int end = 0; end < smooth->ends(); ++end) {
+      const double height = up.dot(smooth->lowest(end, up)) - ground;
+      if (height > touching) next = std::min(next, height);
+    }
+    return next;
+  }
   for (const Vector3& vertex : body.facets().vertices) {
     const double height = up.dot(vertex) - ground;
     if (height > touching) next = std::min(next, height);
@@ -96,7 +108,7 @@ CommonRows clean_rows(const Simulation& run, const ContactSizes& sizes) {
 /// What tells two runs' impacts apart; empty: nothing.
 std::string difference(const ImpactRecord& one, const ImpactRecord& other, const ContactSizes& sizes) {
   if (one.end != other.end) return "another end of the body strikes from run to run";
-  if (!sizes.planar && !((one.place - other.place).norm() <= 1e-6 * sizes.body.radius())) {
+  if (!sizes.planar && !is_same_place(sizes.body, one.place, other.place)) {
     return "another corner strikes from run to run";
   }
   if (one.mode != other.mode) {
@@ -107,6 +119,18 @@ std::string difference(const ImpactRecord& one, const ImpactRecord& other, const
 }
 
 }  // namespace
+
+bool is_same_place(const numeric::Body& body, const Vector3& one, const Vector3& other) {
+  const double near = 1e-6 * body.radius();
+  const auto& smooth = body.smooth();
+  if (!smooth) return (one - other).norm() <= near;
+  if (smooth->ends() == 1) return true;
+  const auto half = [&](const Vector3& place) {
+    const double off = place.x() - smooth->centre.x();
+    return off < -near ? -1 : off > near ? 1 : 0;
+  };
+  return half(one) == half(other);
+}
 
 ContactSizes ContactSizes::of(const Scene& scene, const numeric::Body& body, bool planar) {
   return {.body = body,

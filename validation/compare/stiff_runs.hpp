@@ -32,4 +32,8 @@ struct CommonRows {
 /// short in the softest of them.
 [[nodiscard]] CommonRows common_rows(const std::vector<numeric::Simulation>& ladder, const ContactSizes& sizes);
 
+/// Whether two places of touch-down (body frame) are the same corner, or end of a smooth shape, on which the place
+/// moves with the attitude.
+[[nodiscard]] bool is_same_place(const numeric::Body& body, const numeric::Vector3& one, const numeric::Vector3& other);
+
 }  // namespace clatter::validation::inline compare

@@ -53,6 +53,14 @@ bool moves_in_plane(const numeric::MotionState& state) {
          std::hypot(rate.x(), rate.z()) <= turn_rounding * rate.norm();
 }
 
+/// Whether the plane through the centre of mass with this normal (body frame) is one of symmetry of the shape.
+bool is_mirrored(const numeric::SmoothShape& shape, const Vector3& normal) {
+  const Vector3 squares = shape.semiaxes.cwiseProduct(shape.semiaxes).cwiseProduct(normal);
+  const double size = shape.reach(), along = std::fabs(normal.x());
+  return squares.cross(normal).norm() <= same * size * size && std::fabs(shape.centre.dot(normal)) <= same * size &&
+         (shape.straight == 0 || along <= same || along >= 1 - same);
+}
+
 }  // namespace
 
 bool is_mirror_image(const numeric::Body& body, const numeric::MotionState& state) {
@@ -61,6 +69,7 @@ bool is_mirror_image(const numeric::Body& body, const numeric::MotionState& stat
   const Matrix3 turn = state.attitude.toRotationMatrix();
   const Matrix3 inertia = turn * body.inertia() * turn.transpose();
   if (!(std::hypot(inertia(0, 1), inertia(1, 2)) <= same * body.mass() * size * size)) return false;
+  if (body.smooth()) return is_mirrored(*body.smooth(), turn.transpose() * Vector3::UnitY());
   std::vector<Vector3> vertices;
   for (const Vector3& vertex : body.facets().vertices) vertices.emplace_back(turn * vertex / size);
   const VertexGrid grid(vertices);

@@ -122,10 +122,16 @@ numeric::Mesh gmsh_mesh(const BodyScene& body) {
 SolidBody read_solid(const BodyScene& body) {
   if (body.is_stl()) {
     const numeric::Surface surface = numeric::read_stl(body.file, body.unit);
-    return {stl_properties(body, surface), surface};
+    return {stl_properties(body, surface), surface, {}};
   }
   const numeric::Mesh mesh = gmsh_mesh(body);
-  return {numeric::mass_properties(mesh), numeric::boundary_surface(mesh)};
+  return {numeric::mass_properties(mesh), numeric::boundary_surface(mesh), {}};
+}
+
+/// Of a sphere, an ellipsoid or a capsule.
+numeric::SmoothShape round_shape(const BodyScene& body) {
+  return {.semiaxes = body.has_size() ? Vector3(body.size / 2) : Vector3(Vector3::Constant(body.radius)),
+          .straight = body.has_length() ? body.length - 2 * body.radius : 0};
 }
 
 numeric::Mesh own_mesh(const BodyScene& body) {
@@ -133,19 +139,18 @@ numeric::Mesh own_mesh(const BodyScene& body) {
     return numeric::box_mesh({.size = body.size, .mass = body.mass, .nx = body.nx, .ny = body.ny, .nz = body.nz});
   }
   if (body.is_round()) {
-    const double straight = body.has_length() ? body.length - 2 * body.radius : 0;
-    const Vector3 ball = Vector3::Constant(body.radius);
-    return numeric::round_mesh({.semiaxes = body.has_size() ? Vector3(body.size / 2) : ball,
-                                .straight = straight,
+    const numeric::SmoothShape shape = round_shape(body);
+    return numeric::round_mesh({.semiaxes = shape.semiaxes,
+                                .straight = shape.straight,
                                 .mass = body.mass,
                                 .sectors = body.meshed_sectors(),
-                                .rings = body.rings});
+                                .rings = body.meshed_rings()});
   }
   return numeric::rod_mesh({.length = body.length,
                             .radius = body.meshed_radius(),
                             .mass = body.mass,
                             .sectors = body.meshed_sectors(),
-                            .rings = body.rings,
+                            .rings = body.meshed_rings(),
                             .layers = body.layers});
 }
 
@@ -244,7 +249,8 @@ SolidBody solid_body(const Scene& scene) {
   if (body.shape != BodyScene::Shape::mesh) {
     const BodyProperties given = shape_properties(scene, body.meshed_radius());
     return {{.mass = given.mass, .centre = given.centre, .inertia = given.mass * given.gyration_square},
-            numeric::boundary_surface(own_mesh(body))};
+            numeric::boundary_surface(own_mesh(body)),
+            body.is_smooth() ? std::optional(round_shape(body)) : std::nullopt};
   }
   SolidBody solid = body.mesh_file ? body.mesh_file->read(body) : read_solid(body);
   MassProperties& properties = solid.properties;

@@ -2,11 +2,13 @@
 // Mass, size, centre and inertia of a scene's body, and whether a body can have those that the scene gives.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "analytic/space/body.hpp"
 #include "numeric/body/mass_properties.hpp"
+#include "numeric/surface/smooth_shape.hpp"
 #include "validation/output/value.hpp"
 #include "validation/scene/scene.hpp"
 
@@ -26,11 +28,12 @@ struct BodyProperties {
   [[nodiscard]] numeric::Vector3 principal_inertia() const;
 };
 
-/// A body with its mesh.  Mass, centre and inertia are those of the shape as given, of a file's mesh its own where the
-/// scene gives none; the mesh is the surface only.
+/// A body with its mesh, of a smooth shape for pictures alone.  Mass, centre and inertia are those of the shape as
+/// given, of a file's mesh its own where the scene gives none; the mesh is the surface only.
 struct SolidBody {
   numeric::MassProperties properties;
   numeric::Surface surface;
+  std::optional<numeric::SmoothShape> smooth;
 };
 /// @throws MeshError for a file that cannot be used; BadInput naming body.inertia or body.centre if no body of this
 ///         hull can have them: principal moments not positive, larger than the sum of the other two or than m R² (R the

@@ -46,7 +46,10 @@ void put_given(const SceneValues& values, const Key& key, Scene& scene, Model mo
 
 /// Puts in what the models take without being told.
 void settle_defaults(Scene& scene) {
-  scene.body.sectors = scene.body.meshed_sectors();
+  if (!scene.body.is_smooth()) {
+    scene.body.sectors = scene.body.meshed_sectors();
+    scene.body.rings = scene.body.meshed_rings();
+  }
   scene.impact.law = restitution_law(scene);
   if (!scene.impact.restitution) scene.impact.restitution = 1;
 }

@@ -54,7 +54,9 @@ Echo of_rod(const Scene& scene, Model) { return only_if(scene.body.shape == Body
 Echo of_length(const Scene& scene, Model) { return only_if(scene.body.has_length()); }
 Echo of_radius(const Scene& scene, Model) { return only_if(scene.body.has_radius()); }
 Echo of_size(const Scene& scene, Model) { return only_if(scene.body.has_size()); }
-Echo of_sectors(const Scene& scene, Model) { return only_if(scene.body.has_radius() || scene.body.is_round()); }
+Echo of_sectors(const Scene& scene, Model) {
+  return only_if(scene.body.shape == BodyScene::Shape::rod || (scene.body.is_round() && !scene.body.is_smooth()));
+}
 Echo of_box(const Scene& scene, Model) { return only_if(scene.body.shape == BodyScene::Shape::box); }
 Echo of_mesh(const Scene& scene, Model) { return only_if(scene.body.shape == BodyScene::Shape::mesh); }
 
@@ -204,11 +206,11 @@ void append_mesh(std::vector<Key>& keys) {
       keys.end(),
       {
           {"body.mesh.sectors", Use::continuous, "", "N", "",
-           "elements around the x axis of what is round; without it 16, or 64 for a rod whose radius is above a "
-           "twentieth of its length",
+           "elements around the x axis of what is round; a rod has 16 without it, or 64 where its radius is above a "
+           "twentieth of its length; a sphere, ellipsoid or capsule is a mesh, and no more smooth, where it is given",
            WholeNumber{[](Scene& s) -> int& { return s.body.sectors; }, 3, most}, of_sectors},
           {"body.mesh.rings", Use::continuous, "", "N", "",
-           "from a rod's axis outward; else from each pole to the equator",
+           "from a rod's axis outward, 4 without it; else from each pole to the equator, as with the sectors",
            WholeNumber{[](Scene& s) -> int& { return s.body.rings; }, 1, most}, of_sectors},
           {"body.mesh.layers", Use::continuous, "", "N", "", "along it",
            WholeNumber{[](Scene& s) -> int& { return s.body.layers; }, 1, most}, of_rod},

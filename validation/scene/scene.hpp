@@ -37,7 +37,8 @@ struct BodyScene {
   double length = 1, radius = 0;        ///< of a rod, radius 0: a thin one; of a capsule, over all [m]
   numeric::Vector3 size{0, 0, 0};       ///< of a box, or the axes of an ellipsoid [m]
   int sectors = 0;                      ///< around the mesh of what is round; 0: as meshed_sectors() says
-  int rings = 4, layers = 30;           ///< of a rod's mesh; rings from pole to equator of another round one's
+  int rings = 0;                        ///< of that mesh, from a rod's axis outward, else from pole to equator; 0: 4
+  int layers = 30;                      ///< of a rod's mesh
   int nx = 1, ny = 1, nz = 1;           ///< of a box's mesh
   std::string file;                     ///< Gmsh (.msh, .geo) or STL, resolved
   std::shared_ptr<MeshFile> mesh_file;  ///< shared by copies of the scene
@@ -66,6 +67,9 @@ struct BodyScene {
   /// Of a mesh around an axis: the paper's 16, but 64 where a rod's rim is so wide beside the length that its corners
   /// turn the body noticeably otherwise than the rim does.
   [[nodiscard]] int meshed_sectors() const;
+  [[nodiscard]] int meshed_rings() const { return rings > 0 ? rings : 4; }
+  /// Whether the continuous model takes the round shape itself: where no mesh is given for it.
+  [[nodiscard]] bool is_smooth() const { return is_round() && sectors == 0 && rings == 0; }
 };
 
 /// Values of one quantity for which the drop is repeated: a list, or those from `from` to `to` by equal steps, equal

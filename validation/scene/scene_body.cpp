@@ -40,7 +40,7 @@ numeric::Vector3 BodyScene::extents(double of_radius) const {
 
 numeric::Body Scene::make_body() const {
   const SolidBody solid = solid_body(*this);
-  return {solid.properties, solid.surface, body.merge};
+  return {solid.properties, solid.surface, body.merge, solid.smooth};
 }
 
 Eigen::Quaterniond Scene::touch_attitude() const {

@@ -71,13 +71,16 @@ std::string body_words(const BodyScene& body, const KeyNames& unsettled) {
   if (body.shape == BodyScene::Shape::rod) {
     const int sectors = body.meshed_sectors();
     mesh.add(fmt::format("{} elements ({} sectors, {} rings, {} layers)",
-                         static_cast<long long>(sectors) * body.rings * body.layers, sectors, body.rings, body.layers),
+                         static_cast<long long>(sectors) * body.meshed_rings() * body.layers, sectors,
+                         body.meshed_rings(), body.layers),
              {"body.mesh.sectors", "body.mesh.rings", "body.mesh.layers"});
   } else if (body.shape == BodyScene::Shape::box) {
     mesh.add(fmt::format("{} × {} × {} elements", body.nx, body.ny, body.nz),
              {"body.mesh.nx", "body.mesh.ny", "body.mesh.nz"});
+  } else if (body.is_smooth()) {
+    mesh.add("smooth", {"body.mesh.sectors", "body.mesh.rings"});
   } else if (body.is_round()) {
-    mesh.add(fmt::format("{} sectors, {} rings to the equator", body.meshed_sectors(), body.rings),
+    mesh.add(fmt::format("a mesh of {} sectors, {} rings to the equator", body.meshed_sectors(), body.meshed_rings()),
              {"body.mesh.sectors", "body.mesh.rings"});
   }
   return shape_words(body, Model::continuous, unsettled) + (mesh.text().empty() ? "" : "; " + mesh.text());

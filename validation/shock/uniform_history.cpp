@@ -9,6 +9,8 @@
 #include <optional>
 #include <stdexcept>
 
+#include "numeric/motion/free_flight.hpp"
+
 namespace clatter::validation::inline shock {
 namespace {
 
@@ -50,11 +52,35 @@ struct PiecePolynomials {
   }
 };
 
-double deepest(const numeric::Body& body, const numeric::MotionState& state) {
+/// Where a function that rises and then falls is largest, between 0 and 1.
+template <class Function>
+double largest_of(Function&& function) {
+  double low = 0, high = 1;
+  for (int i = 0; i < 80; ++i) {
+    const double one = (2 * low + high) / 3, other = (low + 2 * high) / 3;
+    (function(one) < function(other) ? low : high) = function(one) < function(other) ? one : other;
+  }
+  return function((low + high) / 2);
+}
+
+/// Along the arc from the lowest point of each section to where the ground presses fastest: depth and k + c δ̇ are
+/// concave there.
+double largest_pressure_on(const numeric::SmoothShape& shape, const numeric::MotionState& state,
+                           const numeric::Ground& ground) {
   const Vector3 up = state.attitude.conjugate() * Vector3::UnitZ();
-  double deepest = -std::numeric_limits<double>::infinity();
-  for (const Vector3& vertex : body.facets().vertices) deepest = std::max(deepest, -state.centre.z() - up.dot(vertex));
-  return deepest;
+  const Vector3 stretched = shape.semiaxes.cwiseProduct(up), lowest = -stretched.normalized();
+  const Vector3 faster = -shape.semiaxes.cwiseProduct(up.cross(state.angular_velocity));  // slope of δ̇ on the ball
+  const Vector3 level = faster - faster.dot(lowest) * lowest;
+  const Vector3 towards = level.norm() > 0 ? Vector3(level.normalized()) : lowest.unitOrthogonal();
+  const auto at = [&](double along, double part) {
+    const double angle = part * std::numbers::pi / 2;
+    const Vector3 place = shape.end_centre(0) + Vector3(along * shape.straight, 0, 0) +
+                          shape.semiaxes.cwiseProduct(lowest * std::cos(angle) + towards * std::sin(angle));
+    const double depth = -(state.centre.z() + up.dot(place)), rate = -numeric::point_velocity(state, place).z();
+    return depth > 0 ? std::max((ground.stiffness + ground.damping * rate) * depth, 0.0) : std::min(depth, 0.0);
+  };
+  const auto over_section = [&](double along) { return largest_of([&](double part) { return at(along, part); }); };
+  return std::max(shape.straight > 0 ? largest_of(over_section) : over_section(0), 0.0);
 }
 
 HistoryInstant instant_of(const numeric::PieceSample& sample, const MotionPiece& piece, const numeric::Body& body,
@@ -64,7 +90,7 @@ HistoryInstant instant_of(const numeric::PieceSample& sample, const MotionPiece&
   at.in_contact = piece.piece.in_contact;
   const numeric::MotionState& state = sample.state;
   at.angular_acceleration = state.attitude * sample.angular_acceleration;
-  at.indentation = deepest(body, state);
+  at.indentation = -numeric::lowest_height(body, state);
   for (const Vector3& r : places) at.specific_forces.push_back(specific_force(sample, r, body.mass()));
   at.action_x = at.action_y = nan;
   if (!at.in_contact) return at;
@@ -98,6 +124,7 @@ std::vector<Wanted> wanted_times(const ContinuousShock& shock, double end, doubl
 }  // namespace
 
 double largest_pressure(const numeric::Body& body, const numeric::MotionState& state, const numeric::Ground& ground) {
+  if (body.smooth()) return largest_pressure_on(*body.smooth(), state, ground);
   const numeric::Facets& facets = body.facets();
   const auto depth_and_rate = [&](int vertex) {
     const Vector3& u = facets.vertices[static_cast<std::size_t>(vertex)];

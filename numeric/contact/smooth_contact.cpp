@@ -1,0 +1,638 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "numeric/contact/smooth_contact.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <complex>
+#include <limits>
+#include <numbers>
+
+namespace clatter::numeric::inline contact {
+namespace {
+
+using Piece = SmoothContact::Piece;
+
+/// The weight of the area at a point of a piece, times the area on ball or cylinder.
+double weight_at(const Piece& piece, const Vector3& p, bool projected) {
+  if (projected) return piece.weight.at(p);
+  return piece.by_normal ? (piece.normal + piece.normal_change * p).norm() : piece.area;
+}
+
+/// Integrals in the coordinates of a piece, weighted by the measure.
+struct LocalSums {
+  double depth = 0, depth_squared = 0, depth_rate = 0, depth_rate_squared = 0, rate = 0, rate_squared = 0;
+  Vector3 depth_place = Vector3::Zero(), depth_rate_place = Vector3::Zero(), rate_place = Vector3::Zero(),
+          rate_squared_place = Vector3::Zero();
+  Matrix3 depth_places = Matrix3::Zero();
+  double force_by_area = 0;
+  Vector3 force_place_by_area = Vector3::Zero();
+
+  void add(const Vector3& p, double d, double r, double weight) {
+    const double wd = weight * d, wdr = wd * r;
+    depth += wd;
+    depth_squared += wd * d;
+    depth_rate += wdr;
+    depth_rate_squared += wdr * r;
+    depth_place += wd * p;
+    depth_rate_place += wdr * p;
+  }
+  void add_rates(const Vector3& p, double d, double r, double weight, double weight_rate, const Ground& ground) {
+    const double wr = weight * r, force = weight_rate * d * (ground.stiffness + ground.damping * r);
+    rate += wr;
+    rate_squared += wr * r;
+    rate_place += wr * p;
+    rate_squared_place += wr * r * p;
+    depth_places += weight * d * p * p.transpose();
+    force_by_area += force;
+    force_place_by_area += force * p;
+  }
+};
+
+}  // namespace
+
+/// What all pieces of an evaluation share.
+struct SmoothContact::Shared {
+  const GroundView& view;
+  Vector3 normal;      ///< of the ground, body frame
+  Vector3 rate_slope;  ///< δ̇ = −(vertical speed + rate_slope·u); also the rate of change of the normal
+  Vector3 up;          ///< m: the gradient of the height on the ball, unit
+  double stretch;      ///< its size s [m]
+};
+
+struct SmoothContact::Sums {
+  LoadIntegrals pressing;
+  ContactLoad load;
+  LoadRates* rates;
+};
+
+std::unique_ptr<ContactSurface> contact_surface(const Body& body, const Ground& ground) {
+  if (body.smooth()) return std::make_unique<SmoothContact>(body, ground);
+  return std::make_unique<ContactLoader>(body, ground);
+}
+
+SmoothContact::SmoothContact(const Body& body, const Ground& ground)
+    : body_(body), ground_(ground), shape_(*body.smooth()),
+      slimness_(shape_.semiaxes.minCoeff() / shape_.semiaxes.maxCoeff()) {}
+
+ContactLoad SmoothContact::load(const GroundView& view, LoadRates* rates, std::vector<int>* submerged) {
+  count_ = 0;
+  const Vector3 &n0 = view.reference.normal, &t = view.turn, &a = shape_.semiaxes;
+  const Vector3 normal = n0 + t, stretched = a.cwiseProduct(normal);
+  const double s0 = a.cwiseProduct(n0).norm(), s = stretched.norm();
+  const Shared shared{view, normal, normal.cross(view.angular_velocity), stretched / s, s};
+  // |S n| since touch-down, without cancellation.
+  const Vector3 squared = a.cwiseProduct(a);
+  const double longer = (2 * n0 + t).dot(squared.cwiseProduct(t)) / (s + s0);
+  Sums sums{{}, {}, rates};
+  sums.load.deepest = -std::numeric_limits<double>::infinity();
+  std::array<double, 2> depths{};
+  for (int end = 0; end < shape_.ends(); ++end) {
+    const Vector3 centre = shape_.end_centre(end);
+    const double depth = (s0 - view.reference.height(centre)) + (longer - (t.dot(centre) + view.sink));
+    depths[static_cast<std::size_t>(end)] = depth;
+    if (depth > sums.load.deepest) {
+      sums.load.deepest = depth;
+      sums.load.deepest_rate = -(view.vertical_speed + shared.rate_slope.dot(centre - a.cwiseProduct(shared.up)));
+    }
+    if (!(depth > 0)) continue;
+    if (submerged) submerged->push_back(end);
+    add_end(end, depth, shared, sums);
+  }
+  if (shape_.straight > 0 && sums.load.deepest > 0) add_mantle(depths, shared, sums);
+  const double k = ground_.stiffness, c = ground_.damping;
+  const LoadIntegrals& all = sums.pressing;
+  sums.load.force = k * all.depth + c * all.depth_rate;
+  sums.load.first_moment = k * all.depth_position + c * all.depth_rate_position;
+  sums.load.energy *= k / 2;
+  sums.load.damping_power = c * all.depth_rate_squared;
+  sums.load.release_power *= -k;
+  if (rates) rates->load = all;
+  return sums.load;
+}
+
+/// What follows from where the piece lies: rate and measure.
+void SmoothContact::complete(Piece& piece, const Vector3& normal_at_origin, const Matrix3& normal_change,
+                             const Shared& shared) const {
+  const Vector3& a = shape_.semiaxes;
+  const Vector3 cofactor = a.prod() * a.cwiseInverse();
+  const auto by_area = [&](const Vector3& direction) {
+    const Vector3 turned = cofactor.cwiseProduct(direction);
+    return SpaceLinear{-turned.dot(normal_at_origin), -(normal_change.transpose() * turned)};
+  };
+  piece.rate = {-(shared.view.vertical_speed + shared.rate_slope.dot(piece.origin)),
+                -(piece.axes.transpose() * shared.rate_slope)};
+  if (ground_.area == AreaMeasure::projected) {
+    piece.weight = by_area(shared.normal);
+    piece.weight_rate = by_area(shared.rate_slope);
+    return;
+  }
+  piece.weight_rate = {};
+  piece.area = a.x() * a.x();
+  piece.by_normal = !shape_.is_ball();
+  piece.normal = cofactor.cwiseProduct(normal_at_origin);
+  piece.normal_change = cofactor.asDiagonal() * normal_change;
+}
+
+void SmoothContact::add_end(int end, double depth, const Shared& shared, Sums& sums) {
+  const Vector3 &up = shared.up, across = up.unitOrthogonal();
+  Matrix3 turn;
+  turn << across, up.cross(across), up;
+  Piece piece;
+  piece.origin = shape_.end_centre(end) - shape_.semiaxes.cwiseProduct(up);
+  piece.axes = shape_.semiaxes.asDiagonal() * turn;
+  piece.depth = {depth, {0, 0, -shared.stretch}};
+  piece.height = std::min(depth / shared.stretch, 2.0);
+  complete(piece, -up, turn, shared);
+  if (shape_.ends() == 2) {
+    // The half beyond the seam: ±(p − up)·x > 0.
+    const double side = end == 0 ? -1 : 1;
+    const SpaceLinear beyond{-side * up.x(), side * turn.row(0).transpose()};
+    const double rho = piece.height < 1 ? std::sqrt(piece.height * (2 - piece.height)) : 1;
+    const double varies =
+        std::hypot(beyond.slope.x(), beyond.slope.y()) * rho + std::fabs(beyond.slope.z()) * piece.height;
+    if (!(beyond.value > -varies)) return;
+    if (!(beyond.value > varies)) piece.parts.add(beyond);
+  }
+  add_piece(piece, shared, sums);
+}
+
+void SmoothContact::add_mantle(const std::array<double, 2>& depths, const Shared& shared, Sums& sums) {
+  const Vector3& up = shared.up;
+  const int deeper = depths[0] >= depths[1] ? 0 : 1;
+  const Vector3 along = deeper == 0 ? Vector3::UnitX() : Vector3(-Vector3::UnitX());
+  const double steep = std::hypot(up.y(), up.z());
+  const Vector3 down = steep > 0 ? Vector3(0, -up.y() / steep, -up.z() / steep) : Vector3(0, 0, -1);
+  Matrix3 turn;
+  turn << along, along.cross(down), -down;
+  Piece piece;
+  piece.is_mantle = true;
+  piece.origin = shape_.end_centre(deeper) + shape_.semiaxes.cwiseProduct(down);
+  piece.axes = shape_.semiaxes.asDiagonal() * turn;
+  const double depth = depths[static_cast<std::size_t>(deeper)] - shared.stretch * (up.x() * up.x() / (1 + steep));
+  piece.depth = {depth, {-shared.stretch * std::fabs(up.x()), 0, -shared.stretch * steep}};
+  piece.mantle = {shape_.straight / shape_.semiaxes.x(), depth, piece.depth.slope.x(), shared.stretch * steep};
+  if (!(depth > 0)) return;
+  Matrix3 normal_change = turn;
+  normal_change.col(0).setZero();
+  complete(piece, down, normal_change, shared);
+  add_piece(piece, shared, sums);
+}
+
+/// As fine as the square root of the measure asks for: it is analytic where |Im ψ| and |Im φ| < arsinh(κ/ρ), κ the
+/// least over the largest semiaxis, ρ the sine of the cap's half-angle.
+CapRule SmoothContact::rule_for(double height) const {
+  CapRule rule;
+  if (ground_.area == AreaMeasure::projected || shape_.is_ball()) return rule;
+  constexpr double digits = 15;
+  const double rho = height < 1 ? std::sqrt(height * (2 - height)) : 1;
+  rule.around = 6 + 2 * static_cast<int>(std::ceil(digits * std::numbers::ln10 / (2 * std::asinh(slimness_ / rho))));
+  const double strip = std::asinh(slimness_), cosine = std::cosh(strip);
+  const double rim = 1 - std::min(height, 2.0);
+  const std::complex<double> beyond(1 - rim * cosine, std::sqrt(std::max(1 - rim * rim, 0.0)) * std::sinh(strip));
+  for (rule.parts = 1;; rule.parts *= 2) {
+    const double half = height / (2 * rule.parts);
+    const auto ellipse = [&](const std::complex<double>& singular, double middle) {
+      const std::complex<double> z = (singular - middle) / half, root = std::sqrt(z * z - 1.0);
+      return std::max(std::abs(z + root), std::abs(z - root));
+    };
+    const double least = std::min(ellipse(1 - cosine, half), ellipse(beyond, height - half));
+    rule.heights = gauss_order(least, digits);
+    if (rule.heights < most_gauss_nodes || rule.parts >= 64) return rule;
+  }
+}
+
+template <class Visit>
+void SmoothContact::over(const Piece& piece, const HalfSpaces& parts, Visit&& visit) const {
+  if (piece.is_mantle) {
+    if (parts.count() == 0) {
+      constexpr double digits = 15;
+      const double strip = std::asinh(slimness_);
+      const bool round = ground_.area == AreaMeasure::projected || shape_.is_ball();
+      return over_mantle(piece.mantle, round ? 8 : 8 + static_cast<int>(digits * std::numbers::ln10 / strip), visit);
+    }
+    HalfSpaces all = parts;
+    all.add(piece.depth);
+    return MantleSlices(piece.mantle.length, all).visit(visit);
+  }
+  if (parts.count() == 0) return over_cap(piece.height, rule_for(piece.height), visit);
+  HalfSpaces all = parts;
+  if (piece.height < 2) all.add({piece.depth.value / -piece.depth.slope.z(), {0, 0, -1}});
+  over_part(all, visit);
+}
+
+void SmoothContact::add_piece(Piece& piece, const Shared& shared, Sums& sums) {
+  const double k = ground_.stiffness, c = ground_.damping;
+  const bool projected = ground_.area == AreaMeasure::projected;
+  const SpaceLinear pressure{k + c * piece.rate.value, c * piece.rate.slope};
+  // Over the whole piece; a bound decides cheaply in nearly all cases.
+  double reach = 0;
+  if (c > 0) {
+    const double length = piece.is_mantle ? piece.mantle.end() : 0;
+    const double rho = piece.is_mantle || piece.height >= 1 ? 1 : std::sqrt(piece.height * (2 - piece.height));
+    const double height = piece.is_mantle ? 2 : piece.height;
+    reach = std::hypot(pressure.slope.x(), pressure.slope.y()) * rho + std::fabs(pressure.slope.x()) * length +
+            std::fabs(pressure.slope.z()) * height;
+  }
+  LocalSums local;
+  const bool all_presses = pressure.value > reach;
+  if (!all_presses) {
+    LocalSums below;
+    over(piece, piece.parts, [&](const Vector3& p, double area) {
+      below.add(p, piece.depth.at(p), piece.rate.at(p), area * weight_at(piece, p, projected));
+    });
+    sums.load.energy += below.depth_squared;
+    sums.load.release_power += below.depth_rate;
+    if (!(pressure.value > -reach)) return;
+    piece.parts.add(pressure);
+  }
+  over(piece, piece.parts, [&](const Vector3& p, double area) {
+    const double depth = piece.depth.at(p), rate = piece.rate.at(p), weight = area * weight_at(piece, p, projected);
+    local.add(p, depth, rate, weight);
+    if (sums.rates) local.add_rates(p, depth, rate, weight, projected ? area * piece.weight_rate.at(p) : 0, ground_);
+  });
+  if (all_presses) sums.load.energy += local.depth_squared;
+  else sums.load.release_power -= local.depth_rate;
+  const auto place = [&](double sum, const Vector3& of_place) -> Vector3 {
+    return sum * piece.origin + piece.axes * of_place;
+  };
+  sums.pressing.add({local.depth, local.depth_rate, local.depth_squared, local.depth_rate_squared,
+                     place(local.depth, local.depth_place), place(local.depth_rate, local.depth_rate_place)},
+                    1);
+  if (ground_.has_friction()) pieces_[static_cast<std::size_t>(count_++)] = piece;
+  static_cast<void>(shared);
+  if (!sums.rates) return;
+  const Vector3 moved = piece.axes * local.depth_place;
+  const Matrix3 mixed = piece.origin * moved.transpose();
+  sums.rates->rates.add({local.rate, local.rate_squared, place(local.rate, local.rate_place),
+                         place(local.rate_squared, local.rate_squared_place),
+                         local.depth * piece.origin * piece.origin.transpose() + mixed + mixed.transpose() +
+                             piece.axes * local.depth_places * piece.axes.transpose()},
+                        1);
+  sums.rates->force_by_area += local.force_by_area;
+  sums.rates->first_moment_by_area += place(local.force_by_area, local.force_place_by_area);
+}
+
+namespace {
+
+constexpr int most_cells = 2000;         ///< into which a piece is halved
+constexpr double most_variation = 0.45;  ///< of the slip over a cell, from its middle, in parts of it
+constexpr int most_around = 256;
+
+/// Slip over a piece, in its coordinates, and what presses there.
+struct PieceSlip {
+  const Piece& piece;
+  SpaceLinear east, north, pressure;
+  double rounding, digits;
+  bool projected;
+
+  [[nodiscard]] double load(const Vector3& p) const {
+    return piece.depth.at(p) * pressure.at(p) * weight_at(piece, p, projected);
+  }
+  [[nodiscard]] SlipVector at(const Vector3& p) const { return {east.at(p), north.at(p)}; }
+};
+
+void add_at(const PieceSlip& slip, const Vector3& p, double area, DirectionSums& sums) {
+  const SlipVector v = slip.at(p);
+  const double size = std::sqrt(v.square() + slip.rounding * slip.rounding);
+  if (size > 0) sums.add(p, area * slip.load(p) / size, v);
+}
+
+/// Largest change of the slip over a cap from its value at the lowest point: along it, and by its height.
+struct Variation {
+  double along, up;
+};
+
+Variation variation(const PieceSlip& slip) {
+  const double height = slip.piece.height, rho = height < 1 ? std::sqrt(height * (2 - height)) : 1;
+  const Vector3 &e = slip.east.slope, &n = slip.north.slope;
+  return {std::sqrt(e.head<2>().squaredNorm() + n.head<2>().squaredNorm()) * rho, std::hypot(e.z(), n.z()) * height};
+}
+
+/// For slip that varies by a part q < 1 over the cap: terms of order k in the place fall like q^k.
+CapRule rule_of_variation(const PieceSlip& slip, double part) {
+  const Variation change = variation(slip);
+  const double order = slip.digits / -std::log10(std::max(part, 1e-15));
+  const bool by_height = slip.piece.height > 0.3 || change.up > change.along;
+  CapRule rule;
+  rule.around = 6 + 2 * static_cast<int>(std::ceil(order / 2));
+  const int heights = 3 + static_cast<int>(std::ceil(by_height ? order / 2 : order / 4));
+  rule.parts = (heights + most_gauss_nodes - 1) / most_gauss_nodes;
+  rule.heights = std::min(heights, most_gauss_nodes);
+  return rule;
+}
+
+/// The place of the lower half of the ball where nothing slips, by Newton's method; whether it is near the cap.
+bool find_resting_place(const PieceSlip& slip, Vector3& place) {
+  const double height = slip.piece.height;
+  if (slip.piece.is_mantle || !(height < 0.5)) return false;
+  const double most = std::min(3 * std::sqrt(height * (2 - height)), 0.6);
+  place.setZero();
+  for (int pass = 0; pass < 12; ++pass) {
+    const SlipVector v = slip.at(place);
+    const double tilt = 1 / (1 - place.z());
+    const double ex = slip.east.slope.x() + slip.east.slope.z() * place.x() * tilt;
+    const double ey = slip.east.slope.y() + slip.east.slope.z() * place.y() * tilt;
+    const double nx = slip.north.slope.x() + slip.north.slope.z() * place.x() * tilt;
+    const double ny = slip.north.slope.y() + slip.north.slope.z() * place.y() * tilt;
+    const double determinant = ex * ny - ey * nx, size = ex * ex + ey * ey + nx * nx + ny * ny;
+    if (!(std::fabs(determinant) > 1e-6 * size)) return false;
+    const double dx = (v.north * ey - v.east * ny) / determinant, dy = (v.east * nx - v.north * ex) / determinant;
+    place.x() += dx;
+    place.y() += dy;
+    const double square = place.x() * place.x() + place.y() * place.y();
+    if (!(square < most * most)) return false;
+    place.z() = square / (1 + std::sqrt(1 - square));
+    if (std::hypot(dx, dy) <= 1e-15 * most) return true;
+  }
+  return false;
+}
+
+/// How many places around a resting place the direction of the slip asks for, by where |v|² = c₀ + c₁ cos + c₂ cos 2 of
+/// the rim's angle may vanish: c₀ = c₁ cosh η + c₂ cosh 2η at least.
+int places_around(const PieceSlip& slip, const SphereArc& rim) {
+  constexpr int count = 8;
+  double mean = 0;
+  std::complex<double> first, second;
+  for (int i = 0; i < count; ++i) {
+    const double angle = 2 * std::numbers::pi * i / count, square = slip.at(rim.at(angle)).square() / count;
+    mean += square;
+    first += 2 * square * std::polar(1.0, angle);
+    second += 2 * square * std::polar(1.0, 2 * angle);
+  }
+  const double c1 = std::abs(first), c2 = std::abs(second);
+  const double cosine = 2 * (mean + c2) / (c1 + std::sqrt(c1 * c1 + 8 * c2 * (mean + c2)));
+  if (!(cosine > 1)) return most_around + 1;
+  const double wanted = slip.digits * std::numbers::ln10 / std::acosh(std::min(cosine, 1e15));
+  return wanted < most_around ? 8 + 2 * static_cast<int>(std::ceil(wanted / 2)) : most_around + 1;
+}
+
+/// Along a ray from a resting place: the direction hardly varies but for v_r, below which it fades.
+template <class Add>
+void along_ray(const PieceSlip& slip, const SphereRay& ray, double speed, Add&& add) {
+  const double fades = slip.rounding > 0 && speed > 0 ? slip.rounding / speed : 1;
+  const int order = slip.rounding > 0 ? 16 : trigonometric_order(ray.half_angle()) + 2;
+  double from = 0, to = std::min(2 * fades, 1.0);
+  if (slip.rounding == 0) to = 1;
+  while (from < 1) {
+    for (const GaussNode& node : gauss_rule(order)) {
+      const double part = (from + to) / 2 + (to - from) / 2 * node.at;
+      add(ray.at(part), (to - from) / 2 * node.weight * ray.area(part));
+    }
+    from = to;
+    to = std::min(3 * to, 1.0);
+  }
+}
+
+/// A rectangle of parameters, each from 0 to 1.
+struct Cell {
+  double s0, s1, t0, t1;
+  int level;
+};
+
+/// Integrates over 0 <= s, t <= 1 by Gauss's rule on cells, which are halved until the slip varies little over each.
+/// `place(s, t)` gives a point, `visit(s, t, area of parameters)` adds there; `slip_at` is the velocity to judge by.
+template <class SlipAt, class Visit>
+void over_cells(const PieceSlip& slip, SlipAt&& slip_at, Visit&& visit) {
+  std::array<Cell, 128> stack;
+  int top = 0, cells = 0;
+  stack[static_cast<std::size_t>(top++)] = {0, 1, 0, 1, 0};
+  const int deepest = std::min(100, static_cast<int>(slip.digits / std::log10(2.0)) + 4);
+  while (top > 0) {
+    const Cell cell = stack[static_cast<std::size_t>(--top)];
+    const double s = (cell.s0 + cell.s1) / 2, t = (cell.t0 + cell.t1) / 2;
+    const SlipVector middle = slip_at(s, t);
+    const auto change = [&](double at_s, double at_t) {
+      const SlipVector v = slip_at(at_s, at_t);
+      return std::hypot(v.east - middle.east, v.north - middle.north);
+    };
+    const double by_s = std::max(change(cell.s0, t), change(cell.s1, t));
+    const double by_t = std::max(change(s, cell.t0), change(s, cell.t1));
+    const double part = (by_s + by_t) / std::sqrt(middle.square() + slip.rounding * slip.rounding);
+    const bool halve = !(part <= most_variation) && cell.level < deepest && cells < most_cells && top + 2 < 128;
+    if (halve) {
+      ++cells;
+      if (by_s >= by_t) {
+        stack[static_cast<std::size_t>(top++)] = {cell.s0, s, cell.t0, cell.t1, cell.level + 1};
+        stack[static_cast<std::size_t>(top++)] = {s, cell.s1, cell.t0, cell.t1, cell.level + 1};
+      } else {
+        stack[static_cast<std::size_t>(top++)] = {cell.s0, cell.s1, cell.t0, t, cell.level + 1};
+        stack[static_cast<std::size_t>(top++)] = {cell.s0, cell.s1, t, cell.t1, cell.level + 1};
+      }
+      continue;
+    }
+    const double inverse = 1 / std::max(part, 1e-6),
+                 ellipse = inverse + std::sqrt(std::max(inverse * inverse - 1, 0.0));
+    const int order = part <= most_variation ? std::max(gauss_order(ellipse, slip.digits), 8) : 3;
+    for (const GaussNode& a : gauss_rule(order)) {
+      for (const GaussNode& b : gauss_rule(order)) {
+        visit(s + (cell.s1 - cell.s0) / 2 * a.at, t + (cell.t1 - cell.t0) / 2 * b.at,
+              (cell.s1 - cell.s0) * (cell.t1 - cell.t0) / 4 * a.weight * b.weight);
+      }
+    }
+  }
+}
+
+/// The part of a ball in half-spaces, by fans from `centre`, at which nothing slips if `rests`.
+void over_fans(const PieceSlip& slip, const HalfSpaces& parts, const Vector3& centre, bool rests, DirectionSums& sums) {
+  constexpr double piece = std::numbers::pi / 2, least = 1e-3;
+  const SphereBoundary boundary(parts);
+  for (int i = 0; i < boundary.count; ++i) {
+    const SphereArc& arc = boundary.arcs[static_cast<std::size_t>(i)];
+    const int pieces = std::max(1, static_cast<int>(std::ceil((arc.to - arc.from) / piece)));
+    const double width = (arc.to - arc.from) / pieces;
+    for (int j = 0; j < pieces; ++j) {
+      const auto ray_at = [&](double s) {
+        const double angle = arc.from + width * (j + s);
+        return SphereRay(centre, arc.at(angle), arc.rate(angle));
+      };
+      const auto slip_at = [&](double s, double t) {
+        if (!rests) return slip.at(ray_at(s).at(t));
+        const double part = std::max(t, least);
+        const SlipVector v = slip.at(ray_at(s).at(part));
+        return slip.rounding > 0 ? v : SlipVector{v.east / part, v.north / part};
+      };
+      over_cells(slip, slip_at, [&](double s, double t, double area) {
+        const SphereRay ray = ray_at(s);
+        add_at(slip, ray.at(t), area * width * ray.area(t), sums);
+      });
+    }
+  }
+  if (boundary.has_top) {
+    over_cap(2, {.heights = 16, .around = 32}, [&](const Vector3& p, double area) { add_at(slip, p, area, sums); });
+  }
+}
+
+void over_strip(const PieceSlip& slip, DirectionSums& sums) {
+  const Mantle& mantle = slip.piece.mantle;
+  const Mantle::Strip strip = mantle.strip();
+  const double full = mantle.full_end();
+  if (full > 0) {
+    const auto place = [&](double s, double t) { return mantle_point(full * s, 2 * std::numbers::pi * t); };
+    over_cells(
+        slip, [&](double s, double t) { return slip.at(place(s, t)); },
+        [&](double s, double t, double area) { add_at(slip, place(s, t), area * full * 2 * std::numbers::pi, sums); });
+  }
+  if (strip.empty()) return;
+  const auto place = [&](double s, double t) { return mantle_point(strip.x(s), strip.half_width(s) * (2 * t - 1)); };
+  over_cells(
+      slip, [&](double s, double t) { return slip.at(place(s, t)); },
+      [&](double s, double t, double area) {
+        add_at(slip, place(s, t), area * strip.rate(s) * 2 * strip.half_width(s), sums);
+      });
+}
+
+/// The same of a strip that half-spaces cut.
+void over_cut_strip(const PieceSlip& slip, DirectionSums& sums) {
+  HalfSpaces parts = slip.piece.parts;
+  parts.add(slip.piece.depth);
+  const MantleSlices slices(slip.piece.mantle.length, parts);
+  for (int i = 0; i < slices.intervals(); ++i) {
+    for (int piece = 0; piece < slices.slice(i, 0.5).count; ++piece) {
+      const auto index = static_cast<std::size_t>(piece);
+      const auto angle = [&](const MantleSlices::Slice& at, double t) {
+        return at.from[index] + (at.to[index] - at.from[index]) * t;
+      };
+      const auto slip_at = [&](double s, double t) {
+        const MantleSlices::Slice at = slices.slice(i, std::clamp(s, 1e-9, 1 - 1e-9));
+        return slip.at(mantle_point(at.x, angle(at, t)));
+      };
+      over_cells(slip, slip_at, [&](double s, double t, double area) {
+        const MantleSlices::Slice at = slices.slice(i, s);
+        if (piece >= at.count) return;  // by rounding
+        add_at(slip, mantle_point(at.x, angle(at, t)), area * at.rate * (at.to[index] - at.from[index]), sums);
+      });
+    }
+  }
+}
+
+/// The whole cap, where one rule serves; false: none does.
+bool over_whole_cap(const PieceSlip& slip, DirectionSums& sums) {
+  const Variation change = variation(slip);
+  const double part =
+      (change.along + change.up) / std::sqrt(slip.at(Vector3::Zero()).square() + slip.rounding * slip.rounding);
+  if (part < 0.5) {
+    over_cap(slip.piece.height, rule_of_variation(slip, part),
+             [&](const Vector3& p, double area) { add_at(slip, p, area, sums); });
+    return true;
+  }
+  Vector3 centre;
+  if (!find_resting_place(slip, centre)) return false;
+  const double height = slip.piece.height, rho = std::sqrt(height * (2 - height));
+  const SphereArc rim{{0, 0, height}, {rho, 0, 0}, {0, rho, 0}};
+  const int around = places_around(slip, rim);
+  if (around > most_around) return false;
+  for (int i = 0; i < around; ++i) {
+    const double angle = 2 * std::numbers::pi * i / around, step = 2 * std::numbers::pi / around;
+    const Vector3 end = rim.at(angle);
+    const SphereRay ray(centre, end, rim.rate(angle));
+    along_ray(slip, ray, std::sqrt(slip.at(end).square()),
+              [&](const Vector3& p, double area) { add_at(slip, p, area * step, sums); });
+  }
+  return true;
+}
+
+/// Range of a linear function over a cap.
+struct Range {
+  double low, high;
+};
+
+Range range_over(const Piece& piece, const SpaceLinear& f) {
+  Range range{f.value, f.value};
+  const auto take = [&](double value) { range = {std::min(range.low, value), std::max(range.high, value)}; };
+  if (piece.is_mantle) {
+    for (const double x : {0.0, piece.mantle.end()}) {
+      const double half = piece.mantle.drop > 0 ? piece.mantle.half_width(x) : std::numbers::pi;
+      for (const double angle : {-half, 0.0, half}) take(f.at(mantle_point(x, angle)));
+    }
+    return range;
+  }
+  const double size = f.slope.norm(), rho = std::sqrt(piece.height * (2 - piece.height));
+  const double across = std::hypot(f.slope.x(), f.slope.y()) * rho, rim = f.value + f.slope.z() * piece.height;
+  take(rim - across);
+  take(rim + across);
+  for (const double side : {-1.0, 1.0}) {
+    if (size > 0 && 1 + side * f.slope.z() / size < piece.height) take(f.value + f.slope.z() + side * size);
+  }
+  return range;
+}
+
+}  // namespace
+
+SlipLoad SmoothContact::slip_load(const GroundView& view, const SlipField& field) {
+  SlipLoad load;
+  for (int i = 0; i < count_; ++i) {
+    const Piece& piece = pieces_[static_cast<std::size_t>(i)];
+    const DirectionSums sums = directions(piece, view, field);
+    load.east -= sums.east;
+    load.north -= sums.north;
+    const auto moment = [&](double sum, const Vector3& place) -> Vector3 {
+      return sum * piece.origin + piece.axes * place;
+    };
+    load.moment -=
+        moment(sums.east, sums.east_place).cross(view.east) + moment(sums.north, sums.north_place).cross(view.north);
+  }
+  return load;
+}
+
+/// The slip of a piece; `field`'s floor counts where its points slip alike.
+SmoothContact::SlipOver SmoothContact::slip_over(const Piece& piece, const GroundView& view,
+                                                 const SlipField& field) const {
+  const BodySlip slip = body_slip(piece.origin, view, field);
+  SlipOver over{{slip.east, piece.axes.transpose() * slip.east_slope}, {}};
+  if (!field.planar) over.north = {slip.north, piece.axes.transpose() * slip.north_slope};
+  return over;
+}
+
+DirectionSums SmoothContact::directions(const Piece& piece, const GroundView& view, const SlipField& field) const {
+  const auto [east, north] = slip_over(piece, view, field);
+  const Range by_east = range_over(piece, east), by_north = range_over(piece, north);
+  const double width = std::max(by_east.high - by_east.low, by_north.high - by_north.low);
+  const double k = ground_.stiffness, c = ground_.damping;
+  const double rounding =
+      width > SlipField::alike * field.floor ? field.regularisation : std::max(field.regularisation, field.floor);
+  const PieceSlip slip{piece,
+                       east,
+                       north,
+                       {k + c * piece.rate.value, c * piece.rate.slope},
+                       rounding,
+                       field.digits,
+                       ground_.area == AreaMeasure::projected};
+  DirectionSums sums;
+  if (field.planar && rounding == 0) {
+    for (const double side : {1.0, -1.0}) {
+      if (!(side > 0 ? by_east.high > 0 : by_east.low < 0)) continue;
+      HalfSpaces parts = piece.parts;
+      if (by_east.low < 0 && by_east.high > 0) parts.add({side * east.value, side * east.slope});
+      over(piece, parts, [&](const Vector3& p, double area) { sums.add(p, area * slip.load(p), {side, 0}); });
+    }
+    return sums;
+  }
+  const bool is_whole = piece.parts.count() == 0;
+  if (field.rough) {
+    over(piece, piece.parts, [&](const Vector3& p, double area) { add_at(slip, p, area, sums); });
+  } else if (piece.is_mantle) {
+    is_whole ? over_strip(slip, sums) : over_cut_strip(slip, sums);
+  } else if (!is_whole || !over_whole_cap(slip, sums)) {
+    HalfSpaces parts = piece.parts;
+    if (piece.height < 2) parts.add({piece.depth.value / -piece.depth.slope.z(), {0, 0, -1}});
+    Vector3 centre;
+    const bool rests = find_resting_place(slip, centre);
+    over_fans(slip, parts, rests ? centre : Vector3(Vector3::Zero()), rests, sums);
+  }
+  return sums;
+}
+
+SlipRange SmoothContact::slip_range(const GroundView& view, const SlipField& field) const {
+  SlipRange range;
+  for (int i = 0; i < count_; ++i) {
+    const Piece& piece = pieces_[static_cast<std::size_t>(i)];
+    const auto [east, north] = slip_over(piece, view, field);
+    const Range by_east = range_over(piece, east), by_north = range_over(piece, north);
+    range.add(by_east.low, by_north.low);
+    range.add(by_east.high, by_north.high);
+  }
+  return range;
+}
+
+}  // namespace clatter::numeric::inline contact

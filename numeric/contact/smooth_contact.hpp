@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The ground's load on a convex body without corners, by quadrature over its true surface.
+#pragma once
+
+#include <array>
+#include <memory>
+
+#include "numeric/contact/contact_load.hpp"
+#include "numeric/contact/smooth_patch.hpp"
+
+namespace clatter::numeric::inline contact {
+
+/// ∫q s and ∫q s p over a piece, q the pressure and s the direction of the slip.
+struct DirectionSums {
+  double east = 0, north = 0;
+  Vector3 east_place = Vector3::Zero(), north_place = Vector3::Zero();
+
+  void add(const Vector3& p, double load, const SlipVector& direction) {
+    east += load * direction.east;
+    north += load * direction.north;
+    east_place += load * direction.east * p;
+    north_place += load * direction.north * p;
+  }
+};
+
+/// The load on a SmoothShape.  The affine map that makes its ends unit balls leaves heights linear: an end lies below
+/// the ground within a cap about its lowest point, the straight part within a strip of a unit cylinder, and depth, rate
+/// and the vertical component of the area are linear in the place on the ball.  So the integrals of the projected
+/// measure are exact by three heights and six places around (over_cap), e.g. of a ball of radius R
+///     F_n = π k_G d² (R − d/3)   (projected),      F_n = π k_G R d²   (surface);
+/// where the measure is that of an ellipsoid's surface the rule is as fine as its axes ask for.  Where the clamp, or
+/// the end of a half, cuts the cap, its parts are integrated over. Accuracy: 1e-13 of F_n; a strip that the clamp or a
+/// change of slip cuts, 1e-9.
+class SmoothContact final : public ContactSurface {
+ public:
+  /// `body` has a smooth shape.
+  SmoothContact(const Body& body, const Ground& ground);
+
+  [[nodiscard]] ContactLoad load(const GroundView& view, LoadRates* rates, std::vector<int>* submerged) override;
+  /// About the place where nothing slips, if that is near the patch: there the direction of the slip varies around it
+  /// alone.  Parts over which the slip varies strongly are halved, as far as 10^−digits asks for it and work allows.
+  [[nodiscard]] SlipLoad slip_load(const GroundView& view, const SlipField& field) override;
+  [[nodiscard]] SlipRange slip_range(const GroundView& view, const SlipField& field) const override;
+
+  /// A piece of the surface in coordinates of its own, u = origin + axes p: p of over_cap or of over_mantle.
+  struct Piece {
+    Vector3 origin;
+    Matrix3 axes;
+    SpaceLinear depth, rate;
+    SpaceLinear weight, weight_rate;  ///< of the area on ball or cylinder, projected measure
+    double area = 1;                  ///< the same of the surface, where it is one number
+    bool by_normal = false;           ///< where it is not: |normal + normal_change p|
+    Vector3 normal;
+    Matrix3 normal_change;
+    bool is_mantle = false;
+    double height = 0;  ///< of the cap
+    Mantle mantle;
+    HalfSpaces parts;  ///< that what presses lies in; none: all that is below the ground
+  };
+
+ private:
+  struct Sums;
+  struct Shared;
+  void add_end(int end, double depth, const Shared& shared, Sums& sums);
+  void add_mantle(const std::array<double, 2>& depths, const Shared& shared, Sums& sums);
+  void add_piece(Piece& piece, const Shared& shared, Sums& sums);
+  void complete(Piece& piece, const Vector3& normal_at_origin, const Matrix3& normal_change,
+                const Shared& shared) const;
+  [[nodiscard]] CapRule rule_for(double height) const;
+  struct SlipOver {
+    SpaceLinear east, north;
+  };
+  [[nodiscard]] SlipOver slip_over(const Piece& piece, const GroundView& view, const SlipField& field) const;
+  [[nodiscard]] DirectionSums directions(const Piece& piece, const GroundView& view, const SlipField& field) const;
+  template <class Visit>
+  void over(const Piece& piece, const HalfSpaces& parts, Visit&& visit) const;
+
+  const Body& body_;
+  const Ground& ground_;
+  SmoothShape shape_;
+  double slimness_ = 1;          ///< least over largest semiaxis
+  std::array<Piece, 3> pieces_;  ///< that press, of the last load
+  int count_ = 0;
+};
+
+/// That of the body: smooth where its shape is, else its facets.
+[[nodiscard]] std::unique_ptr<ContactSurface> contact_surface(const Body& body, const Ground& ground);
+
+}  // namespace clatter::numeric::inline contact

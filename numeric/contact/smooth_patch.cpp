@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "numeric/contact/smooth_patch.hpp"
+
+#include <algorithm>
+#include <cassert>
+
+namespace clatter::numeric::inline contact {
+namespace {
+
+/// A plane by its unit normal, f = distance + normal·p.
+struct UnitPlane {
+  double distance;  ///< of the origin
+  Vector3 normal;
+};
+
+UnitPlane unit_plane(const SpaceLinear& f) {
+  const double size = f.slope.norm();
+  return {f.value / size, f.slope / size};
+}
+
+/// Where two planes and the unit sphere about (0, 0, 1) meet: 0 or 2 points.
+int meet(const UnitPlane& one, const UnitPlane& other, std::array<Vector3, 2>& points) {
+  const Vector3 line = one.normal.cross(other.normal);
+  const double square = line.squaredNorm();
+  if (!(square > 1e-28)) return 0;
+  const Vector3 foot = -(one.distance * other.normal.cross(line) + other.distance * line.cross(one.normal)) / square;
+  const Vector3 along = line / std::sqrt(square);
+  const double constant = foot.squaredNorm() - 2 * foot.z(), discriminant = along.z() * along.z() - constant;
+  if (!(discriminant > 0)) return 0;
+  const double far = along.z() + std::copysign(std::sqrt(discriminant), along.z());
+  points = {foot + far * along, foot + constant / far * along};
+  return 2;
+}
+
+/// sin x/x.
+double sinc(double x) { return std::fabs(x) < 1e-4 ? 1 - x * x / 6 : std::sin(x) / x; }
+
+}  // namespace
+
+Vector3 SphereArc::at(double angle) const {
+  Vector3 p = middle + a * std::cos(angle) + b * std::sin(angle);
+  const double square = p.x() * p.x() + p.y() * p.y();
+  if (square < 0.5 && p.z() < 1) p.z() = square / (1 + std::sqrt(1 - square));
+  return p;
+}
+
+SphereBoundary::SphereBoundary(const HalfSpaces& half_spaces) {
+  has_top = half_spaces.contain({0, 0, 2});
+  for (int i = 0; i < half_spaces.count(); ++i) {
+    if (!(half_spaces[i].slope.squaredNorm() > 0)) {
+      if (half_spaces[i].value > 0) continue;
+      count = 0;
+      has_top = false;
+      return;
+    }
+    const auto [distance, normal] = unit_plane(half_spaces[i]);
+    const double across = normal.x() * normal.x() + normal.y() * normal.y();
+    const double square = across - distance * (2 * normal.z() + distance);
+    if (!(square > 0)) continue;  // the plane misses the sphere: all of it is in, or nothing, which the top tells
+    const Vector3 unit = normal.unitOrthogonal();
+    SphereArc arc{Vector3(-normal.z() * normal.x(), -normal.z() * normal.y(), across) - distance * normal,
+                  std::sqrt(square) * unit, std::sqrt(square) * unit.cross(normal)};
+    std::array<double, 2 * HalfSpaces::most> angles;
+    int found = 0;
+    for (int j = 0; j < half_spaces.count(); ++j) {
+      std::array<Vector3, 2> points;
+      if (j == i || !(half_spaces[j].slope.squaredNorm() > 0)) continue;
+      if (meet({distance, normal}, unit_plane(half_spaces[j]), points) == 0) continue;
+      for (const Vector3& p : points) {
+        const Vector3 arm = p - arc.middle;
+        angles[static_cast<std::size_t>(found++)] = std::atan2(arm.dot(arc.b), arm.dot(arc.a));
+      }
+    }
+    std::sort(angles.begin(), angles.begin() + found);
+    for (int j = 0; j < std::max(found, 1); ++j) {
+      const bool whole = found == 0, last = j + 1 == found;
+      arc.from = whole ? 0 : angles[static_cast<std::size_t>(j)];
+      arc.to = whole  ? 2 * std::numbers::pi
+               : last ? angles[0] + 2 * std::numbers::pi
+                      : angles[static_cast<std::size_t>(j) + 1];
+      if (arc.to > arc.from && half_spaces.contain(arc.at((arc.from + arc.to) / 2), i)) {
+        arcs[static_cast<std::size_t>(count++)] = arc;
+      }
+    }
+  }
+}
+
+double Mantle::Strip::share(double t) const {
+  const double change = narrow - wide, scale = sinc(change / 2) * std::sin((wide + narrow) / 2);
+  return t * sinc(t * change / 2) * std::sin(wide + t * change / 2) / scale;
+}
+
+double Mantle::Strip::rate(double t) const {
+  const double change = narrow - wide;
+  return (x2 - x1) * std::sin(half_width(t)) / (sinc(change / 2) * std::sin((wide + narrow) / 2));
+}
+
+double Mantle::end() const {
+  if (!(depth > 0)) return 0;
+  return slope < 0 ? std::min(length, -depth / slope) : length;
+}
+
+double Mantle::full_end() const {
+  const double over = depth - 2 * drop;
+  if (!(over >= 0)) return 0;
+  return slope < 0 ? std::min(length, -over / slope) : length;
+}
+
+double Mantle::half_width(double x) const {
+  return 2 * std::asin(std::sqrt(std::clamp((depth + slope * x) / (2 * drop), 0.0, 1.0)));
+}
+
+Mantle::Strip Mantle::strip() const {
+  const double x1 = full_end(), x2 = end();
+  if (!(x2 > x1) || !(drop > 0)) return {0, 0, 0, 0};
+  const double narrow = slope < 0 && x2 < length ? 0 : half_width(x2);
+  const double wide = x1 > 0 ? std::numbers::pi : half_width(x1);
+  if (!(wide > 0)) return {0, 0, 0, 0};
+  return {x1, x2, wide, narrow};
+}
+
+MantleSlices::MantleSlices(double length, const HalfSpaces& half_spaces) : length_(length), half_spaces_(half_spaces) {
+  breaks_[static_cast<std::size_t>(count_++)] = 0;
+  breaks_[static_cast<std::size_t>(count_++)] = length;
+  for (int i = 0; i < half_spaces.count(); ++i) {
+    const SpaceLinear& f = half_spaces[i];
+    const double size = std::hypot(f.slope.y(), f.slope.z());
+    if (f.slope.x() != 0) {
+      add_break(-(f.value + f.slope.z() + size) / f.slope.x());
+      add_break(-(f.value + f.slope.z() - size) / f.slope.x());
+    }
+    for (int j = 0; j < i; ++j) add_corners(f, half_spaces[j]);
+  }
+  std::sort(breaks_.begin(), breaks_.begin() + count_);
+}
+
+void MantleSlices::add_break(double x) {
+  assert(count_ < static_cast<int>(breaks_.size()));
+  if (x > 0 && x < length_) breaks_[static_cast<std::size_t>(count_++)] = x;
+}
+
+/// Points of the line of two planes on y² + (ζ − 1)² = 1.
+void MantleSlices::add_corners(const SpaceLinear& one, const SpaceLinear& other) {
+  const Vector3 line = one.slope.cross(other.slope);
+  const double square = line.squaredNorm();
+  if (!(square > 0)) return;
+  const Vector3 foot = -(one.value * other.slope.cross(line) + other.value * line.cross(one.slope)) / square;
+  const double a = line.y() * line.y() + line.z() * line.z(), z = foot.z() - 1;
+  const double b = foot.y() * line.y() + z * line.z(), c = foot.y() * foot.y() + z * z - 1;
+  const double discriminant = b * b - a * c;
+  if (!(discriminant > 0) || !(a > 0)) return;
+  for (const double sign : {1.0, -1.0}) add_break(foot.x() + (-b + sign * std::sqrt(discriminant)) / a * line.x());
+}
+
+MantleSlices::Slice MantleSlices::slice(int interval, double part) const {
+  const double begin = breaks_[static_cast<std::size_t>(interval)];
+  const double width = breaks_[static_cast<std::size_t>(interval) + 1] - begin;
+  const double sine = std::sin(std::numbers::pi / 2 * part);
+  const double x = begin + width * sine * sine;
+  std::array<double, most + 1> angles;
+  std::size_t found = 0;
+  angles[found++] = -std::numbers::pi;
+  angles[found++] = std::numbers::pi;
+  for (int i = 0; i < half_spaces_.count(); ++i) {
+    const SpaceLinear& f = half_spaces_[i];
+    const double y = f.slope.y(), z = f.slope.z(), size = std::hypot(y, z);
+    // f = here + y sin φ − z (cos φ − 1) = here + z + size cos(φ − peak); its part above −size, without cancellation.
+    const double here = f.value + f.slope.x() * x;
+    const double above = here + (z < 0 ? y * y / (size - z) : size + z);
+    if (!(size > 0) || !(above > 0) || !(above < 2 * size)) continue;
+    const double half = 2 * std::asin(std::sqrt(above / (2 * size))), peak = std::atan2(y, -z);
+    for (const double angle : {peak - half, peak + half}) {
+      angles[found++] = std::remainder(angle, 2 * std::numbers::pi);
+    }
+  }
+  std::sort(angles.begin(), angles.begin() + static_cast<std::ptrdiff_t>(found));
+  Slice slice{.x = x, .rate = std::numbers::pi / 2 * width * std::sin(std::numbers::pi * part), .from = {}, .to = {}};
+  for (std::size_t i = 0; i + 1 < found; ++i) {
+    if (!(angles[i + 1] > angles[i])) continue;
+    if (!half_spaces_.contain(mantle_point(x, (angles[i] + angles[i + 1]) / 2))) continue;
+    slice.from[static_cast<std::size_t>(slice.count)] = angles[i];
+    slice.to[static_cast<std::size_t>(slice.count++)] = angles[i + 1];
+  }
+  return slice;
+}
+
+}  // namespace clatter::numeric::inline contact
