@@ -173,7 +173,7 @@ ContactDiagnosis ContactSystem::diagnose(const ContactState& y, ContactState& ra
 }
 
 SlipField ContactSystem::slip_field(const FrictionPhase& phase) const {
-  SlipField field{.kind = SlipField::Kind::points, .planar = planar_};
+  SlipField field{.kind = SlipField::Kind::points, .planar = planar_, .digits = phase.digits};
   if (phase.kind == FrictionPhase::Kind::regularised) field.regularisation = ground_.regularisation_speed;
   else field.floor = phase.floor;
   return field;

@@ -7,6 +7,7 @@
 #include <complex>
 #include <limits>
 #include <numbers>
+#include <span>
 
 namespace clatter::numeric::inline contact {
 namespace {
@@ -421,11 +422,16 @@ void over_cells(const PieceSlip& slip, SlipAt&& slip_at, Visit&& visit) {
       }
       continue;
     }
-    const double inverse = 1 / std::max(part, 1e-6),
-                 ellipse = inverse + std::sqrt(std::max(inverse * inverse - 1, 0.0));
-    const int order = part <= most_variation ? std::max(gauss_order(ellipse, slip.digits), 8) : 3;
-    for (const GaussNode& a : gauss_rule(order)) {
-      for (const GaussNode& b : gauss_rule(order)) {
+    const double size = std::sqrt(middle.square() + slip.rounding * slip.rounding);
+    const auto rule = [&](double by) {
+      constexpr int least = 6;
+      if (!(part <= most_variation)) return gauss_rule(3);
+      const double inverse = size / std::max(by, 1e-6 * size);
+      return gauss_rule(std::max(gauss_order(inverse + std::sqrt(inverse * inverse - 1), slip.digits), least));
+    };
+    const std::span<const GaussNode> by_t_rule = rule(by_t);
+    for (const GaussNode& a : rule(by_s)) {
+      for (const GaussNode& b : by_t_rule) {
         visit(s + (cell.s1 - cell.s0) / 2 * a.at, t + (cell.t1 - cell.t0) / 2 * b.at,
               (cell.s1 - cell.s0) * (cell.t1 - cell.t0) / 4 * a.weight * b.weight);
       }
@@ -557,6 +563,27 @@ Range range_over(const Piece& piece, const SpaceLinear& f) {
   return range;
 }
 
+/// The direction in which the slip varies most over the piece; the slip's own where it does not vary.
+SlipVector steepest(const PieceSlip& slip) {
+  const Vector3 &e = slip.east.slope, &n = slip.north.slope;
+  const double angle = std::atan2(2 * e.dot(n), e.squaredNorm() - n.squaredNorm()) / 2;
+  return {std::cos(angle), std::sin(angle)};
+}
+
+SpaceLinear component(const PieceSlip& slip, const SlipVector& way) {
+  return {way.east * slip.east.value + way.north * slip.north.value,
+          way.east * slip.east.slope + way.north * slip.north.slope};
+}
+
+/// Whether all slip is along one line, as in the plane, or as good as that where it changes its sign.
+bool slips_one_way(const PieceSlip& slip) {
+  const SlipVector way = steepest(slip);
+  const Range along = range_over(slip.piece, component(slip, way));
+  if (!(along.low < 0 && along.high > 0)) return slip.north.value == 0 && slip.north.slope.isZero(0);
+  const Range across = range_over(slip.piece, component(slip, {-way.north, way.east}));
+  return std::max(-across.low, across.high) <= std::pow(10, -slip.digits) * (along.high - along.low);
+}
+
 }  // namespace
 
 SlipLoad SmoothContact::slip_load(const GroundView& view, const SlipField& field) {
@@ -599,12 +626,16 @@ DirectionSums SmoothContact::directions(const Piece& piece, const GroundView& vi
                        field.digits,
                        ground_.area == AreaMeasure::projected};
   DirectionSums sums;
-  if (field.planar && rounding == 0) {
+  if (rounding == 0 && slips_one_way(slip)) {
+    const SlipVector way = steepest(slip);
+    const SpaceLinear along = component(slip, way);
+    const Range range = range_over(piece, along);
     for (const double side : {1.0, -1.0}) {
-      if (!(side > 0 ? by_east.high > 0 : by_east.low < 0)) continue;
+      if (!(side > 0 ? range.high > 0 : range.low < 0)) continue;
       HalfSpaces parts = piece.parts;
-      if (by_east.low < 0 && by_east.high > 0) parts.add({side * east.value, side * east.slope});
-      over(piece, parts, [&](const Vector3& p, double area) { sums.add(p, area * slip.load(p), {side, 0}); });
+      if (range.low < 0 && range.high > 0) parts.add({side * along.value, side * along.slope});
+      const SlipVector direction{side * way.east, side * way.north};
+      over(piece, parts, [&](const Vector3& p, double area) { sums.add(p, area * slip.load(p), direction); });
     }
     return sums;
   }
