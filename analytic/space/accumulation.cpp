@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <span>
+#include <utility>
 
 #include "analytic/base/limits.hpp"
 
@@ -177,6 +178,84 @@ Vector3 SpaceAccumulation::lever(const Tail& tail) const {
   return moment / normal;
 }
 
+void Rattling::touch(int corner) {
+  const auto at = std::ranges::lower_bound(touched_, corner);
+  if (at == touched_.end() || *at != corner) touched_.insert(at, corner);
+}
+
+void Rattling::add(const ImpactRow& row) {
+  Round round{
+      .arrived = {}, .touched = {}, .time = row.start, .approach_speed = row.approach_speed, .after = state_after(row)};
+  for (const Corner& corner : row.corners) touch(corner.index);
+  for (std::size_t i = 0; i + row.held < row.corners.size(); ++i) round.arrived.push_back(row.corners[i].index);
+  std::ranges::sort(round.arrived);
+  round.touched = std::exchange(touched_, {});
+  rounds_.push_back(std::move(round));
+}
+
+std::optional<Tail> Rattling::extrapolate(const Drop& drop, const Tolerance& tolerance) const {
+  constexpr std::size_t longest = 4;
+  for (std::size_t period = 1; period <= longest; ++period) {
+    if (repeats(period)) return extrapolate(drop, tolerance, period);
+  }
+  return {};
+}
+
+/// Whether three periods are alike.
+bool Rattling::repeats(std::size_t period) const {
+  const std::size_t count = rounds_.size();
+  if (count < 3 * period + 1) return false;
+  for (std::size_t i = count - 2 * period; i < count; ++i) {
+    const Round &now = rounds_[i], &before = rounds_[i - period];
+    if (now.arrived != before.arrived || now.touched != before.touched) return false;
+  }
+  return true;
+}
+
+std::optional<Tail> Rattling::extrapolate(const Drop& drop, const Tolerance& tolerance, std::size_t period) const {
+  using Change = Eigen::Matrix<double, 9, 1>;
+  const auto at = [&](std::size_t periods) -> const Round& { return rounds_[rounds_.size() - 1 - periods * period]; };
+  const auto duration = [&](std::size_t k) { return at(k).time - at(k + 1).time; };
+  const auto change = [&](std::size_t k) {
+    const State &from = at(k + 1).after, &to = at(k).after;
+    const Quaternion turn = to.attitude * from.attitude.conjugate();
+    Change c;
+    c << std::copysign(2, turn.w()) * turn.vec(), to.velocity - from.velocity,
+        to.angular_velocity - from.angular_velocity;
+    return c;
+  };
+  const double ratio = duration(0) / duration(1), ratio_before = duration(1) / duration(2);
+  if (!(ratio < 1) || !(ratio_before < 1)) return {};
+  const double left = ratio / (1 - ratio), left_before = ratio_before / (1 - ratio_before);
+  const double time = duration(0) * left, other = duration(1) * left_before - duration(0);
+  const double off = 2 * std::fabs(time - other) + 8 * detail::epsilon * at(0).time;
+  const double unknown = tolerance.resolution / (ratio * at(0).approach_speed);
+  if (!(off < time) || !(off <= std::fmax(tolerance.relative * time, unknown))) return {};
+  const Change rest = left * change(0);
+  const Change errors = 2 * (rest - (left_before * change(1) - change(0))).cwiseAbs() + off / time * rest.cwiseAbs();
+  const double mass = drop.body.mass;
+  Tail tail;
+  tail.end_time = time;
+  tail.end_time_error = off;
+  tail.velocity_after = at(0).after.velocity + rest.segment<3>(3);
+  tail.velocity_error = errors.segment<3>(3).norm();
+  tail.angular_velocity_after = at(0).after.angular_velocity + rest.tail<3>();
+  tail.angular_velocity_error = errors.tail<3>().norm();
+  tail.normal_impulse = mass * (rest[5] + drop.gravity * time);
+  tail.normal_impulse_error = mass * (errors[5] + drop.gravity * off);
+  tail.tangential_impulse = mass * rest.segment<2>(3);
+  tail.tangential_impulse_error = mass * errors.segment<2>(3).norm();
+  std::vector<int> all;
+  for (std::size_t i = 0; i < period; ++i) {
+    const auto& some = rounds_[rounds_.size() - 1 - i].touched;
+    all.insert(all.end(), some.begin(), some.end());
+  }
+  std::ranges::sort(all);
+  all.erase(std::ranges::unique(all).begin(), all.end());
+  tail.corners = all;
+  return tail;
+}
+
 bool undisturbed(const Drop& drop, const State& now, const Tail& tail) {
   const PrincipalAxes principal(drop.body.inertia);
   const FreeFlight flight(principal, now, drop.gravity, drop.gravity_along);
@@ -246,40 +325,6 @@ void add_errors(const Drop& drop, const ImpactRow& last, Tail& tail) {
   tail.velocity_error += e.velocity_after + error / drop.body.mass;
   tail.angular_velocity_error +=
       e.angular_velocity_after + jump_of(drop.body, error + turned * normal) / reach + turned * turning * turned;
-}
-
-std::size_t known_rows(const std::vector<ImpactRow>& rows) {
-  const auto lost = std::ranges::find_if(rows, [](const ImpactRow& row) { return !row.error.predictable; });
-  return static_cast<std::size_t>(lost - rows.begin());
-}
-
-bool ends_for_certain(const Drop& drop, const std::vector<ImpactRow>& rows, Tail& tail) {
-  const std::size_t count = known_rows(rows);
-  const auto lost = std::span(rows).subspan(count);
-  const auto stays = [&](const Corner& corner) { return std::ranges::count(tail.corners, corner.index) > 0; };
-  const ImpactRow* const known = count == 0 ? nullptr : &rows[count - 1];
-  bool certain =
-      known && std::ranges::all_of(lost, [&](const ImpactRow& row) { return std::ranges::all_of(row.corners, stays); });
-  Tail since = tail;
-  if (certain) {
-    since.end_time -= known->start;
-    for (const ImpactRow& row : lost) {
-      since.normal_impulse += row.impact.impulse.z();
-      since.tangential_impulse.x() += row.impact.impulse.head<2>().norm();
-    }
-    certain = undisturbed(drop, state_after(*known), since);
-  }
-  if (!certain) {
-    tail.forget();
-    return false;
-  }
-  constexpr double safety = 4;
-  const double impulse = safety * (since.normal_impulse + since.tangential_impulse.norm());
-  tail.end_time_error = known->error.start + safety * since.end_time;
-  tail.normal_impulse_error = tail.tangential_impulse_error = impulse;
-  tail.velocity_error = known->error.velocity_after + impulse / drop.body.mass;
-  tail.angular_velocity_error = known->error.angular_velocity_after + jump_of(drop.body, impulse) / drop.body.reach();
-  return true;
 }
 
 StateErrors errors_since(const Drop& drop, const State& known, const StateErrors& errors, const Tail& since) {

@@ -43,6 +43,41 @@ class SpaceAccumulation {
   std::vector<Event> events_;
 };
 
+/// Impacts of corners that come down again and again beside others that stay on the ground: what lies between two of
+/// them, contacts and hops, repeats with a period, and shrinks geometrically in the limit.  From three periods, the
+/// last of duration T and change D of the state (attitude, V, ω), with the ratio r of the last two durations,
+///     remaining time T r/(1 − r),   remaining change D r/(1 − r),                                          (1)
+/// whose errors are twice what the period before would have had them otherwise, and of the attitude what the order of
+/// turns changes, the square of the turn.
+class Rattling {
+ public:
+  /// A corner that has been on the ground since the last impact that was added, and strikes or stays.
+  void touch(int corner);
+  /// Beside corners that stay, those of `row` that come down have struck.
+  void add(const ImpactRow& row);
+  void forget() { rounds_.clear(), touched_.clear(); }
+
+  struct Tolerance {
+    double relative;    ///< of the remaining time
+    double resolution;  ///< rounding of heights [m]
+  };
+  /// The tail, if it is known to the tolerance, or as well as the next durations are: these err by the resolution over
+  /// the approach speed.  Its end_time counts from the last impact.
+  [[nodiscard]] std::optional<Tail> extrapolate(const Drop& drop, const Tolerance& tolerance) const;
+
+ private:
+  struct Round {
+    std::vector<int> arrived, touched;  ///< ascending
+    double time, approach_speed;
+    State after;
+  };
+  [[nodiscard]] bool repeats(std::size_t period) const;
+  [[nodiscard]] std::optional<Tail> extrapolate(const Drop& drop, const Tolerance& tolerance, std::size_t period) const;
+
+  std::vector<Round> rounds_;
+  std::vector<int> touched_;  ///< since the last round
+};
+
 /// Whether no other point reaches the ground before twice the remaining time has passed, whatever the impulses to come
 /// do.
 /// @param now the state after the last impact
@@ -59,15 +94,6 @@ void end_state(const Drop& drop, const ImpactRow& last, const Vector3& lever, Ta
 /// Adds to the errors of an extrapolated end those of the impact that it is extrapolated from.
 /// @param tail  end_time since the first impact
 void add_errors(const Drop& drop, const ImpactRow& last, Tail& tail);
-
-/// How many rows there are before the first that cannot be predicted.
-[[nodiscard]] std::size_t known_rows(const std::vector<ImpactRow>& rows);
-
-/// Whether the tail's corners come to rest although errors decide the order of the last impacts: since the last row
-/// that can be predicted nothing else has been able to reach the ground, whatever the order.  Then the errors are what
-/// has happened since, else infinite.
-/// @param tail  end_time since the first impact
-[[nodiscard]] bool ends_for_certain(const Drop& drop, const std::vector<ImpactRow>& rows, Tail& tail);
 
 /// Bounds on the errors of a state at which corners stay on the ground, from those of an earlier one since which
 /// nothing else can have reached the ground, but the order of impacts is open: those, and four times what has happened

@@ -3,8 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <Eigen/LU>
-#include <array>
 #include <utility>
 
 #include "analytic/base/errors.hpp"
@@ -15,12 +13,6 @@ namespace clatter::analytic::space {
 using detail::epsilon;
 using detail::infinite;
 namespace {
-
-/// The attitude of a motion, the velocities of another.
-Eigen::Matrix<double, 9, 1> with_velocities(Eigen::Matrix<double, 9, 1> y, const Eigen::Matrix<double, 9, 1>& other) {
-  y.tail<5>() = other.tail<5>();
-  return y;
-}
 
 constexpr const char* slip_is_open = "how friction lets its corners slip is open";
 
@@ -72,8 +64,8 @@ void ContactMotion::take(State s) {
   motion_.segment<3>(4) = s.angular_velocity.dot(edge) * edge;
 }
 
-/// What is left of the corners' normal velocity, and of the slip of those that stick, impulses of the ground stop, which
-/// cannot create energy.
+/// What is left of the corners' normal velocity, and of the slip of those that stick, impulses of the ground stop,
+/// which cannot create energy.
 void ContactMotion::hold(const State& s) { take(law_.stopped(levelled(s), points_)); }
 
 void ContactMotion::stick_where_slow() {
@@ -83,16 +75,6 @@ void ContactMotion::stick_where_slow() {
     if (!p.sticks) p.angle = std::atan2(slip.y(), slip.x());
   }
   hold(state());
-}
-
-State ContactMotion::state_of(const Motion& y) const {
-  State s;
-  s.attitude = Quaternion(y[0], y[1], y[2], y[3]).normalized();
-  s.angular_velocity = y.segment<3>(4);
-  const Vector3 arm = s.attitude * points_[0].place;
-  s.velocity = Vector3(y[7], y[8], 0) - s.angular_velocity.cross(arm);
-  s.position = {0, 0, -arm.z()};
-  return s;
 }
 
 double ContactMotion::speed_scale() const {
@@ -107,7 +89,7 @@ double ContactMotion::least_slip() const {
   return least;
 }
 
-GroundForces ContactMotion::forces(const Motion& y) const { return law_.forces(state_of(y), points_); }
+GroundForces ContactMotion::forces(const Motion& y) const { return law_.forces(state_of(y, points_), points_); }
 
 /// Friction no longer holds what sticks: slip begins.
 bool ContactMotion::give_way() {
@@ -137,7 +119,7 @@ std::optional<bool> ContactMotion::still_begins(const State& start, double lengt
   const auto turning = turning_points(points_);
   if (turning.empty()) return turns_back() ? std::optional<bool>() : true;
   return stiffness_ * length > stable && std::ranges::all_of(turning, [&](std::size_t i) {
-           return slip(motion_, points_[i]).norm() > slip_of(start, points_[i]).norm();
+           return slip_of(motion_, points_, points_[i]).norm() > slip_of(start, points_[i]).norm();
          });
 }
 
@@ -162,197 +144,26 @@ void ContactMotion::note_directions(const State& start, bool begins) {
   }
 }
 
-ContactMotion::Motion ContactMotion::rate(const Motion& y, const GroundForces& f) const {
-  const Quaternion turn(0, y[4], y[5], y[6]);
-  const Quaternion change = turn * Quaternion(y[0], y[1], y[2], y[3]);
-  Motion result;
-  result << change.w() / 2, change.vec() / 2, f.turning, f.accelerations[0].head<2>();
-  if (points_[0].sticks) result.tail<2>().setZero();
-  return result;
-}
-
 int ContactMotion::derivative(double, const double y[], double rate[], void* motion) {
   Eigen::Map<Motion> result(rate);
   const auto& with = *static_cast<const ContactMotion*>(motion);
   const Motion y_now = Eigen::Map<const Motion>(y);
-  result = with.rate(y_now, with.forces(y_now));
+  result = rate_of(y_now, with.points_, with.forces(y_now));
   return 0;
 }
 
 void ContactMotion::apply(Motion& y, double length, Motion& error) {
   if (!turning_points(points_).empty()) {
-    collocate(y, length, error);
+    const SlipStart start = slip_start(law_, points_, y, length, {reach_, speed_scale()});
+    points_ = start.points;
+    stiffness_ = start.stiffness;
+    error = start.error;
+    y = start.end;
   } else {
     gsl_odeiv2_step_reset(step_.get());
     gsl_odeiv2_step_apply(step_.get(), 0, length, y.data(), error.data(), nullptr, nullptr, &system_);
   }
   y.head<4>().normalize();
-}
-
-/// Velocity of a corner along the ground: that of the first to its last digit, however small.
-Vector3 ContactMotion::slip(const Motion& y, const GroundPoint& point) const {
-  const Vector3 from_first = Quaternion(y[0], y[1], y[2], y[3]) * (point.place - points_[0].place);
-  return Vector3(y[7], y[8], 0) + horizontal(Vector3(y.segment<3>(4)).cross(from_first));
-}
-
-/// Of attitude and velocities, each on its own scale.
-double ContactMotion::largest(const Motion& change) const {
-  const double velocities = std::fmax(change.segment<3>(4).norm() * reach_, change.tail<2>().norm());
-  return std::fmax(change.head<4>().norm(), velocities / speed_scale());
-}
-
-/// A step that is implicit in the directions of slip: what Newton's method has of it so far.
-struct ContactMotion::Collocation {
-  static constexpr int stages = RadauRule::points;
-  using Stages = Eigen::Matrix<double, 9, stages>;
-  Motion from;
-  double length = 0;
-  std::vector<GroundPoint> points;   ///< every corner that slips has an angle of its own
-  std::vector<std::size_t> turning;  ///< those
-  Eigen::Matrix<double, 2, stages> angles;
-  Stages states, rates;
-  std::array<Stages, 2> by_angle;          ///< of the rates
-  Eigen::Matrix<double, 2, stages> speed;  ///< along the angles
-  bool begins = false;                     ///< from directions that could be found
-
-  static const RadauRule& rule() {
-    static const RadauRule the_rule;
-    return the_rule;
-  }
-  [[nodiscard]] std::vector<GroundPoint> directed(int stage) const {
-    auto all = points;
-    for (std::size_t k = 0; k < turning.size(); ++k) all[turning[k]].angle = angles(static_cast<int>(k), stage);
-    return all;
-  }
-  [[nodiscard]] Stages reached(const Stages& with) const {
-    return from.replicate<1, stages>() + length * with * rule().weight.transpose();
-  }
-};
-
-/// Begins with directions in which slip would not turn.
-ContactMotion::Collocation ContactMotion::begin_collocation(const Motion& y, double length) const {
-  Collocation c;
-  c.from = y;
-  c.length = length;
-  c.points = points_;
-  for (GroundPoint& p : c.points) {
-    if (p.begins || p.across) continue;
-    const Vector3 v = slip(y, p);
-    p.angle = std::atan2(v.y(), v.x());
-    p.begins = true;
-  }
-  c.turning = turning_points(c.points);
-  const Motion first = rate(y, law_.forces(state_of(y), c.points));
-  for (int l = 0; l < Collocation::stages; ++l) {
-    const Motion at = y + Collocation::rule().at[l] * length * first;
-    const State s = state_of(at);
-    const auto turning = turning_points(points_);
-    const SlipAngles angles =
-        slip_angles(law_, s, points_, SlipAngles::Zero(static_cast<Eigen::Index>(turning.size())));
-    if (!angles.allFinite()) return c;
-    auto now = c.points;
-    for (std::size_t k = 0; k < turning.size(); ++k) now[turning[k]].angle = angles[static_cast<Eigen::Index>(k)];
-    for (std::size_t k = 0; k < c.turning.size(); ++k) c.angles(static_cast<int>(k), l) = now[c.turning[k]].angle;
-    c.rates.col(l) = rate(at, law_.forces(s, now));
-  }
-  c.states = c.reached(c.rates);
-  c.begins = true;
-  return c;
-}
-
-/// A step of Newton's method for the directions, in which the corners move at the stages; the rest of the state follows
-/// by iteration.  Returns the change of the state.
-double ContactMotion::improve(Collocation& c) const {
-  constexpr double step = 1e-5;
-  constexpr int stages = Collocation::stages;
-  const RadauRule& rule = Collocation::rule();
-  const auto corners = static_cast<int>(c.turning.size());
-  for (int l = 0; l < stages; ++l) {
-    const Motion y = c.states.col(l);
-    const State s = state_of(y);
-    auto points = c.directed(l);
-    c.rates.col(l) = rate(y, law_.forces(s, points));
-    for (int k = 0; k < corners; ++k) {
-      double& angle = points[c.turning[static_cast<std::size_t>(k)]].angle;
-      const double middle = angle;
-      angle = middle + step;
-      const Motion up = rate(y, law_.forces(s, points));
-      angle = middle - step;
-      const Motion down = rate(y, law_.forces(s, points));
-      angle = middle;
-      c.by_angle[static_cast<std::size_t>(k)].col(l) = (up - down) / (2 * step);
-    }
-  }
-  Collocation::Stages next = c.reached(c.rates);
-  using Equations = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, 2 * stages, 2 * stages>;
-  Equations equations(corners * stages, corners * stages);
-  Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, 2 * stages, 1> off(corners * stages);
-  for (int l = 0; l < stages; ++l) {
-    const Motion y = next.col(l);
-    for (int k = 0; k < corners; ++k) {
-      const GroundPoint& point = c.points[c.turning[static_cast<std::size_t>(k)]];
-      const Vector3 along = slip_at(c.angles(k, l)), aside = Vector3::UnitZ().cross(along), v = slip(y, point);
-      const Vector3 from_first = Quaternion(y[0], y[1], y[2], y[3]) * (point.place - points_[0].place);
-      Motion by_state = Motion::Zero();  // of the slip aside
-      by_state.segment<3>(4) = from_first.cross(aside);
-      by_state.tail<2>() = aside.head<2>();
-      const int row = corners * l + k;
-      off[row] = aside.dot(v);
-      for (int m = 0; m < stages; ++m) {
-        for (int j = 0; j < corners; ++j) {
-          const double turned = by_state.dot(c.by_angle[static_cast<std::size_t>(j)].col(m));
-          equations(row, corners * m + j) = c.length * rule.weight(l, m) * turned;
-        }
-      }
-      c.speed(k, l) = along.dot(v);
-      equations(row, row) -= c.speed(k, l);
-    }
-  }
-  const auto turned = (-equations.partialPivLu().solve(off)).eval();
-  Collocation::Stages turning = Collocation::Stages::Zero();
-  for (int l = 0; l < stages; ++l) {
-    for (int k = 0; k < corners; ++k) {
-      const double angle = turned[corners * l + k];
-      c.angles(k, l) += angle;
-      turning.col(l) += angle * c.by_angle[static_cast<std::size_t>(k)].col(l);
-    }
-  }
-  next += c.length * turning * rule.weight.transpose();
-  double change = 0;
-  for (int l = 0; l < stages; ++l) change = std::fmax(change, largest(next.col(l) - c.states.col(l)));
-  c.states = next;
-  return next.allFinite() ? change : infinite;
-}
-
-/// By (1) of radau_rule.hpp; an infinite error where there is no such step.
-void ContactMotion::collocate(Motion& y, double length, Motion& error) {
-  constexpr int last = Collocation::stages - 1, most = 30;
-  error.setConstant(infinite);
-  Collocation c = begin_collocation(y, length);
-  double change = infinite;
-  for (int i = 0; i < most && c.begins && !(change <= 4 * epsilon); ++i) {
-    const double before = std::exchange(change, improve(c));
-    if (change <= 1e-13 && !(change < before)) break;
-  }
-  if (!(change <= 1e-13)) return;
-  stiffness_ = 0;
-  for (std::size_t k = 0; k < c.turning.size(); ++k) {
-    const GroundPoint& point = points_[c.turning[k]];
-    const auto row = static_cast<int>(k);
-    if (!(c.speed.row(row).minCoeff() > -no_slip * speed_scale())) return;
-    double across = 0;  // at most, by all angles
-    for (std::size_t j = 0; j < c.turning.size(); ++j) {
-      const Motion by = c.by_angle[j].col(last);
-      across += slip(with_velocities(y, by), point).norm();
-    }
-    stiffness_ = std::fmax(stiffness_, across / c.speed(row, last));
-  }
-  const auto directions = c.directed(last);
-  for (std::size_t i = 0; i < points_.size(); ++i) {
-    if (points_[i].begins) points_[i].angle = directions[i].angle;
-  }
-  error = length * c.rates * Collocation::rule().highest;
-  y = c.states.col(last);
 }
 
 /// Height of a vertex above the first corner.
@@ -362,9 +173,9 @@ double ContactMotion::height(const State& s, std::size_t vertex) const {
 
 /// What turns negative at an event.
 double ContactMotion::room(const Motion& y, Event event, std::size_t number) const {
-  if (event == Event::arrival) return height(state_of(y), number);
+  if (event == Event::arrival) return height(state_of(y, points_), number);
   const GroundForces f = forces(y);
-  return event == Event::lifts ? f.of_points[number].z() : law_.friction_left(state_of(y), points_, f);
+  return event == Event::lifts ? f.of_points[number].z() : law_.friction_left(state_of(y, points_), points_, f);
 }
 
 /// Corners at rest that cannot stick begin to slip, if there is one way only.
@@ -479,12 +290,12 @@ void ContactMotion::step() {
   const State start = state();
   const double shortest = 1e-10 * falling_;
   double length = longest(start, forces(from));
-  const double order = turning_points(points_).empty() ? 8 : RadauRule::points;
+  const double order = turning_points(points_).empty() ? 8 : SlipStart::order;
   for (;;) {
     Motion error;
     motion_ = from;
     apply(motion_, length, error);
-    const double share = largest(error) / step_error;
+    const double share = MotionScale{reach_, speed_scale()}.largest(error) / step_error;
     const std::optional<bool> begins = share <= 1 ? still_begins(start, length) : true;
     const bool clear = begins && (length <= shortest || is_free() || is_clear(start, state(), length));
     const double better = 0.9 * std::pow(std::fmax(share, 1e-8), -1.0 / order);
@@ -627,14 +438,14 @@ ContactMotion::Rates ContactMotion::rates(ContactEnd end, int vertex) const {
     result.bend = (result.acceleration + f.turning.cross(arm) + w.cross(w.cross(arm))).z();
     return result;
   }
-  const Motion change = 1e-5 * falling_ * rate(motion_, f);
+  const Motion change = 1e-5 * falling_ * rate_of(motion_, points_, f);
   const auto turning = turning_points(points_);
   SlipAngles turns(static_cast<Eigen::Index>(turning.size()));  // g stays nearly the same
   for (std::size_t k = 0; k < turning.size(); ++k) {
     turns[static_cast<Eigen::Index>(k)] = slip_at(points_[turning[k]].angle).cross(f.accelerations[turning[k]]).z();
   }
   const auto push = [&](const Motion& y) {
-    const State at = state_of(y);
+    const State at = state_of(y, points_);
     if (turning.empty()) return law_.forces(at, points_).of_points[0].z();
     return law_.forces(at, directed(points_, slip_angles(law_, at, points_, turns))).of_points[0].z();
   };

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The equations of motion of a body one or two corners of which stay on the ground, solved from event to event.
 //
-// Steps are explicit, but for those in which slip begins: they are implicit in its direction (radau_rule.hpp), until
+// Steps are explicit, but for those in which slip begins: they are implicit in its direction (slip_start.hpp), until
 // explicit ones are stable.
 #pragma once
 
@@ -14,8 +14,7 @@
 #include <vector>
 
 #include "analytic/base/limits.hpp"
-#include "analytic/space/radau_rule.hpp"
-#include "analytic/space/slip_onset.hpp"
+#include "analytic/space/slip_start.hpp"
 
 namespace clatter::analytic::space {
 
@@ -34,7 +33,7 @@ class ContactMotion {
   bool advance(double duration);
 
   [[nodiscard]] const Drop& drop() const { return drop_; }
-  [[nodiscard]] State state() const { return state_of(motion_); }
+  [[nodiscard]] State state() const { return state_of(motion_, points_); }
   [[nodiscard]] bool slips() const { return !std::ranges::all_of(points_, &GroundPoint::sticks); }
   /// Least speed of corners that slip with friction, infinite without [m/s].
   [[nodiscard]] double least_slip() const;
@@ -51,8 +50,7 @@ class ContactMotion {
   [[nodiscard]] Rates rates(ContactEnd end, int vertex) const;
 
  private:
-  /// Attitude (w, x, y, z), ω, horizontal velocity of the first corner.
-  using Motion = Eigen::Matrix<double, 9, 1>;
+  using Motion = GroundMotion;
   enum class Event { none, arrival, lifts, gives_way, digs_in };
 
   /// Local error of a step, relative to the sizes of attitude and velocities.
@@ -64,16 +62,12 @@ class ContactMotion {
   static constexpr double longest_step = 0.1;  ///< [rad], and of √(reach/g)
   static constexpr int most_steps = 5'000;
 
-  [[nodiscard]] State state_of(const Motion& y) const;
   [[nodiscard]] GroundForces forces(const Motion& y) const;
   [[nodiscard]] bool touches(int vertex) const;
   [[nodiscard]] const Vector3& place(int vertex) const { return drop_.body.vertices[static_cast<std::size_t>(vertex)]; }
   [[nodiscard]] double height(const State& s, std::size_t vertex) const;
   [[nodiscard]] double room(const Motion& y, Event event, std::size_t number) const;
   static int derivative(double, const double y[], double rate[], void* motion);
-  [[nodiscard]] Motion rate(const Motion& y, const GroundForces& f) const;
-  [[nodiscard]] Vector3 slip(const Motion& y, const GroundPoint& point) const;
-  [[nodiscard]] double largest(const Motion& change) const;
   bool give_way();
   [[nodiscard]] bool turns_back() const;
   [[nodiscard]] std::optional<bool> still_begins(const State& start, double length) const;
@@ -89,10 +83,6 @@ class ContactMotion {
   [[nodiscard]] double least_between(const State& from, const State& to, double length, int vertex) const;
   bool locate(const Motion& from, double length, Event event, std::size_t number);
   void apply(Motion& y, double length, Motion& error);
-  struct Collocation;
-  [[nodiscard]] Collocation begin_collocation(const Motion& y, double length) const;
-  [[nodiscard]] double improve(Collocation& c) const;
-  void collocate(Motion& y, double length, Motion& error);
   [[nodiscard]] std::vector<int> arriving() const;
   [[nodiscard]] State levelled(State s) const;
   void take(State s);

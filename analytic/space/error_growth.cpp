@@ -388,8 +388,8 @@ void ErrorGrowth::check_others(const FreeFlight& flight, const FirstContact& con
   }
 }
 
-void ErrorGrowth::stay(const std::optional<ContactDerivatives>& derivatives, const StateErrors& before,
-                       const StateErrors& rounding) {
+void ErrorGrowth::stay(const SustainedContact& contact, const std::optional<ContactDerivatives>& derivatives,
+                       const StateErrors& before, const StateErrors& rounding) {
   if (!derivatives) predictable_ = false;
   if (!predictable_) return;
   resumed_ = true;
@@ -400,7 +400,12 @@ void ErrorGrowth::stay(const std::optional<ContactDerivatives>& derivatives, con
   shift[0] = 0;
   const double late = bound(shift.lazyProduct(factor_));
   factor_ = derivatives->of_state.lazyProduct(factor_).eval();
-  append(factor_of(rounding));
+  // The corner that stays has no normal velocity, whatever the errors.
+  const State& after = contact.after;
+  const auto pivot = static_cast<std::size_t>(contact.pivots.front());
+  const Corner corner{.index = contact.pivots.front(), .place = body_.vertices[pivot]};
+  append(without_approach(factor_of(rounding), approach_gradient(after.attitude, corner, after.angular_velocity),
+                          4 * epsilon * (after.velocity.norm() + after.angular_velocity.norm() * body_.reach())));
   if (!derivatives->hold(body_, late, bound(factor_.middleRows<3>(1)))) predictable_ = false;
 }
 

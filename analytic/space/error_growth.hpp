@@ -39,8 +39,8 @@ class ErrorGrowth {
   /// Carries the errors through a contact that lasts; amplification is not known thereafter.
   /// @param derivatives  contact_derivatives(); none: nothing is predictable any more
   /// @param before, rounding  what adds to the errors at its beginning and end
-  void stay(const std::optional<ContactDerivatives>& derivatives, const StateErrors& before,
-            const StateErrors& rounding);
+  void stay(const SustainedContact& contact, const std::optional<ContactDerivatives>& derivatives,
+            const StateErrors& before, const StateErrors& rounding);
   /// Begins anew with these bounds.
   void restart(const StateErrors& errors);
   /// On the errors of the state.

@@ -108,9 +108,10 @@ GroundForces GroundLaw::forces(const State& s, std::span<const GroundPoint> poin
   const Vector3& w = s.angular_velocity;
   const Vector3 free_turning = inverse * (inertia * w).cross(w), weight(0, 0, -drop_.gravity);
   SmallVector free = SmallVector::Zero(6);
-  for (std::size_t i = 0; i < arms.size(); ++i) {
-    free.segment<3>(static_cast<Eigen::Index>(3 * i)) =
-        weight + free_turning.cross(arms[i]) + w.cross(w.cross(arms[i]));
+  Eigen::Index at = 0;
+  for (const Vector3& arm : arms) {
+    free.segment<3>(at) = weight + free_turning.cross(arm) + w.cross(w.cross(arm));
+    at += 3;
   }
   GroundForces f;
   const SmallVector all = solved(unknowns(s, points, friction_), effect, free, edge, drop_.body.mass, f.is_unique);

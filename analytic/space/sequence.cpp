@@ -51,6 +51,8 @@ constexpr int most_evaluations = 1'000'000;
 constexpr std::size_t most_contacts = 10'000;
 /// Angle that the body turns by during hops that are only summed up before a contact that lasts [rad].
 constexpr double least_turn = 1e-8;
+/// The same where corners rattle beside others that stay, whose heights are known to rounding only [rad].
+constexpr double most_turn = 1e-5;
 
 /// The loop of impacts, in internal units.
 class Run : public SequenceLoop<Sequence, ErrorGrowth> {
@@ -150,6 +152,8 @@ class Run : public SequenceLoop<Sequence, ErrorGrowth> {
     result_.message.clear();
     result_.end_acceleration = 0;
     accumulation_ = {};
+    for (const int corner : now.corners) rattling_.touch(corner);
+    for (const int corner : now.pivots) rattling_.touch(corner);
     if (now.end == ContactEnd::lift_off) return lift_off(now.pivots.front());
     if (now.end == ContactEnd::joining) {
       result_.standing = Standing{time_, state_, now.error, now.pivots};
@@ -172,14 +176,15 @@ class Run : public SequenceLoop<Sequence, ErrorGrowth> {
     known_ = Known{state, error, time, result_.rows.size(), result_.contacts.size()};
   }
 
-  /// Where errors decide in which order corners have struck since, but nothing else can have reached the ground before
-  /// they stay there, the errors are what has happened since.
-  void regain(Standing& standing) {
+  /// Time and impulses since the last state that can be predicted, with what is left of hops, if nothing but these
+  /// corners can have reached the ground since, in whatever order they have struck.
+  [[nodiscard]] std::optional<Tail> since_known(const std::vector<int>& corners, double until,
+                                                const std::optional<Tail>& hops) const {
     const auto stay = [&](const std::vector<int>& some) {
-      return std::ranges::all_of(some, [&](int i) { return std::ranges::count(standing.corners, i) > 0; });
+      return std::ranges::all_of(some, [&](int i) { return std::ranges::count(corners, i) > 0; });
     };
-    if (!known_) return;
-    Tail since{.end_time = standing.time - known_->time, .corners = standing.corners};
+    if (!known_) return {};
+    Tail since{.end_time = until - known_->time, .corners = corners};
     const auto add = [&](double normal, double tangential) {
       since.normal_impulse += normal;
       since.tangential_impulse.x() += tangential;
@@ -187,22 +192,45 @@ class Run : public SequenceLoop<Sequence, ErrorGrowth> {
     for (std::size_t i = known_->rows; i < result_.rows.size(); ++i) {
       const ImpactRow& row = result_.rows[i];
       for (const Corner& corner : row.corners) {
-        if (!stay({corner.index})) return;
+        if (!stay({corner.index})) return {};
       }
       add(row.impact.impulse.z(), row.impact.impulse.head<2>().norm());
     }
     const double friction = drop_.law.law.most_friction();
     for (std::size_t i = known_->contacts; i < result_.contacts.size(); ++i) {
       const SustainedContact& contact = result_.contacts[i];
-      if (!stay(contact.corners) || !stay(contact.pivots)) return;
+      if (!stay(contact.corners) || !stay(contact.pivots)) return {};
       add(contact.normal_impulse, friction * contact.normal_impulse);
       if (contact.tail) add(contact.tail->normal_impulse, contact.tail->tangential_impulse.norm());
     }
-    if (result_.tail) add(result_.tail->normal_impulse, result_.tail->tangential_impulse.norm());
-    if (!undisturbed(drop_, known_->state, since)) return;
-    standing.error = errors_since(drop_, known_->state, known_->error, since);
+    if (hops) add(hops->normal_impulse, hops->tangential_impulse.norm());
+    if (!undisturbed(drop_, known_->state, since)) return {};
+    return since;
+  }
+
+  /// Where errors decide in which order corners have struck, but only those that stay, the errors are what has happened
+  /// since.
+  void regain(Standing& standing) {
+    const auto since = since_known(standing.corners, standing.time, result_.tail);
+    if (!since) return;
+    standing.error = errors_since(drop_, known_->state, known_->error, *since);
     growth_->restart(standing.error);
     regained_ = true;
+  }
+
+  /// Whether a tail's corners come to rest for certain, although errors decide the order of the last impacts.
+  [[nodiscard]] bool ends_for_certain(Tail& tail) const {
+    const auto since = since_known(tail.corners, tail.end_time, tail);
+    if (!since) {
+      tail.forget();
+      return false;
+    }
+    const StateErrors errors = errors_since(drop_, known_->state, known_->error, *since);
+    tail.end_time_error = errors.time;
+    tail.normal_impulse_error = tail.tangential_impulse_error = body_.mass * errors.velocity;
+    tail.velocity_error = errors.velocity;
+    tail.angular_velocity_error = errors.angular_velocity;
+    return true;
   }
 
   /// The contact of these corners, its errors carried on.
@@ -213,9 +241,9 @@ class Run : public SequenceLoop<Sequence, ErrorGrowth> {
     if (!growth_ || !growth_->predictable()) return contact;
     const StateErrors& all = standing.error;
     const StateErrors exact{.time = 0, .attitude = 0, .velocity = 0, .angular_velocity = 0};
-    growth_->stay(contact_derivatives(drop_, standing.state, contact, all),
-                  std::exchange(regained_, false) ? exact : errors_of_hops(),
-                  contact_rounding(drop_, standing.state, contact));
+    const auto derivatives = contact_derivatives(drop_, standing.state, contact, all);
+    growth_->stay(contact, derivatives, std::exchange(regained_, false) ? exact : errors_of_hops(),
+                  derivatives ? contact_rounding(drop_, standing.state, contact, *derivatives) : StateErrors());
     contact.error = growth_->bounds();
     add_impulse_error(drop_, all, contact);
     return contact;
@@ -288,6 +316,9 @@ class Run : public SequenceLoop<Sequence, ErrorGrowth> {
                       row);
     }
     if (!result_.rows.empty()) accumulation_.add(row, damping_loss(drop_.law.law, row.approach_speed));
+    if (row.held > 0) rattling_.add(row);
+    else
+      for (const Corner& corner : row.corners) rattling_.touch(corner.index);
     result_.rows.push_back(std::move(row));
     if (result_.rows.back().error.predictable) know(state_, time_, errors_now());
   }
@@ -301,7 +332,23 @@ class Run : public SequenceLoop<Sequence, ErrorGrowth> {
       else finish(std::move(*tail));
       return true;
     }
-    return may_accumulate(drop_.law.law) && drop_.gravity > 0 && extrapolated_end();
+    return may_accumulate(drop_.law.law) && drop_.gravity > 0 && (rattled_end() || extrapolated_end());
+  }
+
+  /// Whether corners beside others that stay have come down often enough to tell how that ends.
+  bool rattled_end() {
+    const ImpactRow& last = result_.rows.back();
+    if (last.held == 0) return false;
+    constexpr double roundings = 16;
+    const double resolution = roundings * epsilon * reach_;
+    auto tail = rattling_.extrapolate(drop_, {std::pow(10.0, -options_.digits), resolution});
+    if (!tail || !undisturbed(drop_, state_, *tail) || !keeps_slipping(drop_, last, *tail)) return false;
+    const double turned = tail->end_time * state_.angular_velocity.norm();
+    if (tail->corners.size() < 3 && turned > most_turn) return false;
+    rattling_.forget();
+    tail->end_time += time_;
+    finish(std::move(*tail));
+    return true;
   }
 
   bool extrapolated_end() {
@@ -336,7 +383,8 @@ class Run : public SequenceLoop<Sequence, ErrorGrowth> {
     end.velocity = tail.velocity_after;
     end.angular_velocity = tail.angular_velocity_after;
     const Vector3 turn = (tail.end_time - time_) / 2 * (state_.angular_velocity + end.angular_velocity);
-    if (turn.norm() > 0 && !result_.rows.back().group) {
+    const ImpactRow& last = result_.rows.back();
+    if (turn.norm() > 0 && (!last.group || last.held > 0)) {
       end.attitude = (turn_by(turn) * end.attitude).normalized();
       end.position.z() = -(end.attitude * touching_place(body_, end.attitude, tail.corners.front())).z();
     }
@@ -350,7 +398,7 @@ class Run : public SequenceLoop<Sequence, ErrorGrowth> {
     result_.rest = settles(drop_, end, tail.end_time);
     if (!growth_) tail.forget();
     else if (growth_->predictable()) add_errors(drop_, result_.rows.back(), tail);
-    else end_is_certain_ = ends_for_certain(drop_, result_.rows, tail) || rests_for_certain();
+    else end_is_certain_ = ends_for_certain(tail) || rests_for_certain();
     const bool turns = !result_.rest && (tips(tail.corners) || tail.angular_velocity_after != Vector3::Zero());
     const bool spins = tail.angular_velocity_after.z() != 0;
     const bool comes_down = result_.rest && tail.corners.size() < result_.rest->corners.size();
@@ -482,6 +530,7 @@ class Run : public SequenceLoop<Sequence, ErrorGrowth> {
   std::vector<Touch> touches_;
   std::vector<int> held_;  ///< corners that are on the ground at the next impact
   SpaceAccumulation accumulation_;
+  Rattling rattling_;
   std::optional<Known> known_;
   std::optional<int> lifted_;  ///< the corner that a contact's end has left last
   bool regained_ = false;      ///< errors were begun anew for the contact that follows

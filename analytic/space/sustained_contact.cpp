@@ -57,6 +57,7 @@ class Neighbours {
     double margin;
   };
   [[nodiscard]] std::optional<Slope> slope(int k, double error) const;
+  [[nodiscard]] std::optional<Slope> slope(int k, double error, double length) const;
   [[nodiscard]] double parted(const ContactMotion& other) const;
   [[nodiscard]] double clearance() const;
   /// The ground would have to pull from the start.
@@ -84,8 +85,17 @@ double Neighbours::parted(const ContactMotion& other) const {
 }
 
 /// By the k-th number of the state; nothing where a neighbour as far off as the error is no longer of first order.
+/// Nearer ones serve where those that far off slip or stick otherwise.
 std::optional<Neighbours::Slope> Neighbours::slope(int k, double error) const {
-  const double length = std::fmax(steps_[k], std::fmin(error, most_[k]));
+  constexpr double nearer = 1e-2;
+  const double least = std::fmax(1e-9 * sizes_[k], error);
+  double length = std::fmax(steps_[k], std::fmin(error, most_[k]));
+  auto found = slope(k, error, length);
+  while (!found && nearer * length >= least) length *= nearer, found = slope(k, error, length);
+  return found;
+}
+
+std::optional<Neighbours::Slope> Neighbours::slope(int k, double error, double length) const {
   const Changes step = length * Changes::Unit(k);
   ContactMotion plus(base_, shifted(start_, step)), minus(base_, shifted(start_, -step));
   if (!plus.advance(contact_.duration) || !minus.advance(contact_.duration)) return {};
@@ -149,17 +159,23 @@ std::optional<ContactDerivatives> contact_derivatives(const Drop& drop, const St
   return Neighbours(drop, now, contact).derivatives(errors);
 }
 
-StateErrors contact_rounding(const Drop& drop, const State& now, const SustainedContact& contact) {
+StateErrors contact_rounding(const Drop& drop, const State& now, const SustainedContact& contact,
+                             const ContactDerivatives& derivatives) {
+  constexpr double accuracy = 1e-12;
   const double reach = drop.body.reach(), falling = std::sqrt(reach / drop.gravity);
   const double speed = reach / falling + now.angular_velocity.norm() * reach;
-  const double accuracy = contact.sticks && contact.slips ? 1e-9 : 1e-11;  // slip begins or ends
   const double rounding = accuracy * std::fmin(1, contact.duration / falling) + 8 * detail::epsilon;
   // What is left of normal velocity and slip is taken away.
   const Changes held = change(now, ContactMotion(drop, now, contact.corners).state());
-  return {.time = rounding * contact.duration,
-          .attitude = rounding + held.head<3>().norm(),
-          .velocity = rounding * speed + held.segment<3>(3).norm(),
-          .angular_velocity = rounding * speed / reach + held.tail<3>().norm()};
+  const StateErrors made{.time = rounding * contact.duration,
+                         .attitude = rounding + held.head<3>().norm(),
+                         .velocity = rounding * speed + held.segment<3>(3).norm(),
+                         .angular_velocity = rounding * speed / reach + held.tail<3>().norm()};
+  const Eigen::Matrix<double, 10, 1> carried = derivatives.of_state.cwiseAbs() * made.in_each_direction();
+  return {.time = made.time + carried[0],
+          .attitude = made.attitude + carried.segment<3>(1).norm(),
+          .velocity = made.velocity + carried.segment<3>(4).norm(),
+          .angular_velocity = made.angular_velocity + carried.tail<3>().norm()};
 }
 
 SustainedContact follow_contact(const Drop& drop, const State& now, const std::vector<int>& corners,
@@ -169,7 +185,7 @@ SustainedContact follow_contact(const Drop& drop, const State& now, const std::v
   if (!d) return contact;
   const Eigen::Matrix<double, 10, 1> bounds = d->of_state.cwiseAbs() * errors.in_each_direction();
   if (!d->hold(drop.body, bounds[0] - errors.time, bounds.segment<3>(1).norm())) return contact;
-  const StateErrors rounding = contact_rounding(drop, now, contact);
+  const StateErrors rounding = contact_rounding(drop, now, contact, *d);
   contact.error = {.time = bounds[0] + rounding.time,
                    .attitude = bounds.segment<3>(1).norm() + rounding.attitude,
                    .velocity = bounds.segment<3>(4).norm() + rounding.velocity,

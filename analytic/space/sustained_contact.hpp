@@ -54,8 +54,10 @@ struct ContactDerivatives {
                                                                     const SustainedContact& contact,
                                                                     const StateErrors& errors);
 
-/// What computing a contact may add to the errors.
-[[nodiscard]] StateErrors contact_rounding(const Drop& drop, const State& now, const SustainedContact& contact);
+/// What computing a contact may add to the errors: what its steps err by, and what is taken from its beginning, both as
+/// they are and as the contact carries them on.
+[[nodiscard]] StateErrors contact_rounding(const Drop& drop, const State& now, const SustainedContact& contact,
+                                           const ContactDerivatives& derivatives);
 
 /// The same with error bars, by contact_derivatives(); infinite where those are not known.
 /// @param errors  of `now`, bounds

@@ -232,6 +232,47 @@ BOOST_AUTO_TEST_CASE(ends_of_contacts_change_within_their_errors_when_their_begi
   BOOST_TEST(judged > 30);
 }
 
+BOOST_AUTO_TEST_CASE(
+    contacts_in_which_slip_begins_change_within_their_errors_when_their_beginning_does_by_next_to_nothing) {
+  // What starts of slip compute wrong is no smooth function of the beginning, and shows between neighbours.
+  constexpr int wanted = CLATTER_TEST_SLOW_BUILD ? 30 : 300;
+  Matrix3 skew;
+  skew << 3.5e-3, 4e-4, -3e-4, 4e-4, 6e-3, 5e-4, -3e-4, 5e-4, 8e-3;
+  const Body body = polyhedron(box(1, {.size = {0.3, 0.2, 0.12}}).vertices,
+                               {.mass = 0.7, .centre = {0.02, 0.03, 0.01}, .inertia = skew});
+  std::mt19937_64 random(19);
+  std::normal_distribution<double> normal;
+  int judged = 0, known = 0, within = 0;
+  for (int n = 0; judged < wanted && n < 20 * wanted; ++n) {
+    const Drop drop = drop_of(body, 0.2 + 0.1 * (n % 11));
+    const Quaternion attitude = Quaternion(1, 0.4 * normal(random), 0.4 * normal(random), normal(random)).normalized();
+    const int lowest = lowest_vertex(body, attitude);
+    const Vector3 turning(3 * normal(random), 3 * normal(random), 3 * normal(random));
+    const Vector3 slip = n % 3 == 0 ? Vector3(0.3 * normal(random), 0.3 * normal(random), 0) : Vector3(0, 0, 0);
+    const double size = n % 2 == 0 ? 1e-12 : 1e-13;
+    const StateErrors errors{.time = 0, .attitude = size, .velocity = size, .angular_velocity = size};
+    const State s = standing(body, attitude, lowest, turning, slip);
+    const SustainedContact contact = follow_contact(drop, s, {lowest}, errors);
+    const bool begins = contact.slips && (contact.sticks || slip == Vector3::Zero());
+    if (!begins || contact.end == ContactEnd::open || !(contact.duration > 1e-3)) continue;
+    ++judged;
+    if (!std::isfinite(contact.error.time)) continue;
+    ++known;
+    const Vector3 kick = size * Vector3(normal(random), normal(random), normal(random)).normalized();
+    const SustainedContact near =
+        follow_contact(drop, standing(body, attitude, lowest, turning + kick, slip), {lowest});
+    const bool as_said =
+        near.end == contact.end && std::fabs(near.duration - contact.duration) <= contact.error.time &&
+        (near.after.velocity - contact.after.velocity).norm() <= contact.error.velocity &&
+        (near.after.angular_velocity - contact.after.angular_velocity).norm() <= contact.error.angular_velocity;
+    within += as_said ? 1 : 0;
+  }
+  BOOST_TEST(judged == wanted);
+  BOOST_TEST(known >= 0.8 * judged);
+  BOOST_TEST(within >= 0.99 * known);
+  BOOST_TEST_MESSAGE(judged << " contacts, " << known << " with errors known, " << within << " within");
+}
+
 namespace {
 
 /// A corner on the ground by Newton's and Euler's equations, in steps of fourth order: held, or with friction against
