@@ -86,10 +86,10 @@ class PointSearch {
   [[nodiscard]] double best() const { return best_; }
   /// Clearances from here on are no near miss.
   [[nodiscard]] double threshold() const { return threshold_; }
-  /// Normal velocity of the point that arrives first; of a small hop to relative accuracy, with that `error`.
+  /// Normal velocity of the point that arrives first; of a small hop that of its series.
   /// @param first  the point at the contact
-  double arrival_velocity(const PointHeight& first, double& error) const;
-  /// Whether the contact is a hop's, known to relative accuracy.
+  [[nodiscard]] double arrival_velocity(const PointHeight& first) const;
+  /// Whether the contact is a hop's: as accurate, relatively, as the speed with which the point departed.
   [[nodiscard]] bool hopped() const { return best_ > 0 && hop_time_ == best_; }
 
  private:
@@ -364,10 +364,8 @@ bool PointSearch::take(int point, double time, detail::Bracket bracket) {
   return true;
 }
 
-double PointSearch::arrival_velocity(const PointHeight& first, double& error) const {
-  if (!hopped()) return first.velocity;
-  error = 4 * epsilon * std::fabs(hop_velocity_);
-  return hop_velocity_;
+double PointSearch::arrival_velocity(const PointHeight& first) const {
+  return hopped() ? hop_velocity_ : first.velocity;
 }
 
 namespace {
@@ -505,28 +503,30 @@ class Search {
     const State& start = flight_.start();
     const double parts =
         std::fabs(start.velocity.z()) + flight_.gravity() * best + flight_.rotation().fastest() * heights_.reach();
-    found_.velocity_error = 4 * epsilon * parts;
+    // A point that only lay on the ground, and was not struck, leaves with no better speed than that of its parts.
+    const Touch* const departed = search_.hopped() ? touch(found_.point) : nullptr;
     const PointHeight first =
         best == 0 ? from_[static_cast<std::size_t>(found_.point)] : heights_.at(found_.point, moment);
-    found_.normal_velocity = search_.arrival_velocity(first, found_.velocity_error);
-    if (search_.hopped() && heights_.is_round(found_.point)) {
+    found_.normal_velocity = search_.arrival_velocity(first);
+    found_.velocity_error = 4 * epsilon * (departed != nullptr ? std::fabs(found_.normal_velocity) : parts);
+    if (departed != nullptr && heights_.is_round(found_.point)) {
       // Rounding of the attitude turns the lowest point of a rim by that over the rim's steepness.
       const double steep =
           std::fmin(heights_.steepness(found_.point, heights_.moment(0)), heights_.steepness(found_.point, moment));
-      found_.velocity_error += 4 * epsilon * std::fabs(touch(found_.point)->normal_velocity);
+      found_.velocity_error += 4 * epsilon * std::fabs(departed->normal_velocity);
       found_.velocity_error /= steep;
     }
     found_.acceleration = first.acceleration;
     found_.together.assign(1, found_.point);
-    found_.is_hop = search_.hopped();
+    found_.is_hop = departed != nullptr;
     found_.time_error = found_.is_hop ? best * found_.velocity_error / std::fabs(found_.normal_velocity)
                                       : heights_.noise(best) / std::fabs(first.velocity);
     // The others' heights err by the time's error, too.
     // Of a graze by the square of that time, and never beside a departure that was later.
     const double noise = heights_.noise(best);
-    const double late = search_.hopped() ? 4 * epsilon * best
-                                         : std::fmin(std::fmin(noise / std::fabs(first.velocity), best),
-                                                     std::sqrt(2 * noise / std::fabs(first.acceleration)));
+    const double late = found_.is_hop ? 4 * epsilon * best
+                                      : std::fmin(std::fmin(noise / std::fabs(first.velocity), best),
+                                                  std::sqrt(2 * noise / std::fabs(first.acceleration)));
     for (int i = 0; i < heights_.count(); ++i) {
       if (i == found_.point) continue;
       const PointHeight h = best == 0 ? from_[static_cast<std::size_t>(i)] : heights_.at(i, moment);
