@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analytic/plane/accumulation.hpp"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <limits>
@@ -107,6 +108,34 @@ std::optional<Tail> bouncing_tail(const BodyMotion& motion, const ImpactLaw& law
               .after_error = {}};
 }
 
+std::optional<Tail> resting_tail(const BodyMotion& motion, const ImpactLaw& law, const BodyMotion::Strike& last) {
+  const bool sticks = last.impact.mode == ImpactMode::stick || last.impact.mode == ImpactMode::slip_stick;
+  const bool follows = sticks || (law.friction == FrictionKind::none && std::popcount(last.vertices) == 1);
+  const Departure departure = motion.local_departure();
+  if (!follows || law.restitution != 0 || std::popcount(departure.touching) != 2) return {};
+  const int at_rest = departure.reference, coming = std::countr_zero(departure.touching & ~(1u << at_rest));
+  if (!(vertex_height(motion.turned_body(), departure, coming).velocity < 0)) return {};
+  const PlanarBody& body = motion.body();
+  const ContactPoint one = motion.contact_point(at_rest), other = motion.contact_point(coming);
+  double pushes_up = 1 + one.tangential * other.tangential / body.gyration_square;  // the other, per impulse
+  if (sticks) {
+    const ContactInertia of_one = contact_inertia(body.gyration_square, one);
+    const ContactInertia of_other = contact_inertia(body.gyration_square, other);
+    pushes_up -= of_one.coupling * of_other.coupling / of_one.tangential;
+    const double most = law.friction_value * of_one.tangential;
+    if (std::fabs(of_one.coupling) > most || std::fabs(of_other.coupling) > most) return {};
+  }
+  if (!(pushes_up < 0)) return {};
+  const PlanarVelocity v = motion.velocity();
+  return Tail{.end_time = motion.time(),
+              .normal_impulse = -body.mass * v.normal,
+              .tangential_impulse = sticks ? -body.mass * v.tangential : 0,
+              .vertices = departure.touching,
+              .closed_form = true,
+              .after = {.tangential = sticks ? 0 : v.tangential},
+              .after_error = {}};
+}
+
 bool may_accumulate(const ImpactLaw& law) { return law.restitution < 1 || law.friction == FrictionKind::coulomb; }
 
 double damping_loss(const ImpactLaw& law, double approach_speed) {
@@ -146,7 +175,8 @@ std::optional<Tail> Accumulation::periodic(int period, const Tolerance& toleranc
     times[k] = block(period, k, &Event::flight_time);
     impulses[k] = block(period, k, &Event::normal_impulse);
   }
-  const auto time = shrinking_remainder(times);
+  const bool at_once = std::ranges::all_of(times, [](double t) { return t == 0; });
+  const auto time = at_once ? Remainder{} : shrinking_remainder(times);
   const auto impulse = shrinking_remainder(impulses);
   if (!time || !impulse || !(time->error <= std::fmax(tolerance.relative * time->value, tolerance.time)) ||
       !(impulse->error <= std::fmax(tolerance.relative * impulse->value, tolerance.impulse))) {

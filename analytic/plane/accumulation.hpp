@@ -40,6 +40,14 @@ struct Slide {
 [[nodiscard]] std::optional<Tail> bouncing_tail(const BodyMotion& motion, const ImpactLaw& law,
                                                 const BodyMotion::Strike& last);
 
+/// A level face without rebound, e = 0, whose two ends strike in turn at one instant: each impulse pushes the other end
+/// down, by less than it came down before, so that the impulses that are left take all normal motion, −m V_n in sum,
+/// and where the ends stick −m V_t.  With (b) of impact.hpp the other end gains, per impulse P_n/m,
+///     1 + d_t d_t′/k², frictionless;   less B B′/C where both stick, |B|, |B′| <= μ C.
+/// Nothing where that is not below zero, where no end approaches, or for another law or mode.
+[[nodiscard]] std::optional<Tail> resting_tail(const BodyMotion& motion, const ImpactLaw& law,
+                                               const BodyMotion::Strike& last);
+
 /// Whether impacts by this law, however slow, take energy away in proportion to what there is.  Damped ground alone
 /// does not, since e → 1 for slow contacts: bouncing on it lasts for ever, ever more slowly.
 [[nodiscard]] bool may_accumulate(const ImpactLaw& law);

@@ -125,6 +125,7 @@ double BodyMotion::contact_angle() const {
 
 BodyMotion::Strike BodyMotion::strike(VertexSet vertices, const ImpactLaw& law) {
   collapse_frame();
+  touching_ |= vertices;
   if (std::popcount(vertices) > 1) {
     const auto [first, second] = outermost(*this, vertices);
     const PlanarVelocity before = velocity();
@@ -134,7 +135,6 @@ BodyMotion::Strike BodyMotion::strike(VertexSet vertices, const ImpactLaw& law) 
       remainder_ = impact->after;
       scale_ = {.normal = std::fabs(before.normal),
                 .tangential = std::fabs(before.tangential) + std::fabs(impact->slip_after)};
-      touching_ = vertices;
       slip_ = impact->slip_after;
       const double e = law.law == RestitutionLaw::viscoelastic ? impact->restitution() : law.restitution;
       const double of_first = -normal_velocity(before, contact_point(first)),
@@ -173,7 +173,6 @@ Impact BodyMotion::strike_point(int vertex, const ImpactLaw& law) {
       remainder_ = impact.after;
     }
   }
-  touching_ = only(vertex);
   reference_ = vertex;
   rebound_speed_ = impact.separation_speed;
   slip_ = impact.slip_after;
@@ -248,6 +247,7 @@ Flight BodyMotion::fly() {
   refine(arrival);
   carry(departure, arrival);
   time_ += arrival.time;
+  if (arrival.time > 0) touching_ = 0;
   remainder_.normal -= gravity_ * arrival.time;
   scale_.normal += gravity_ * arrival.time;
   way_ += arrival.time * (remainder_.tangential + gravity_along_ / 2 * arrival.time);

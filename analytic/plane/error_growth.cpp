@@ -132,7 +132,11 @@ void ErrorGrowth::add_to(const BodyMotion& motion, Tail& tail) const {
   const Departure from = motion.local_departure();
   const PlanarVelocity v = motion.velocity();
   const MotionGradients moves(motion.body(), motion.contact_point(from.reference), v, from.gravity);
-  const double relative = bound(at_normal, 2 * epsilon * from.rebound_speed) / from.rebound_speed;
+  // Without rebound it is the other end that moves, in proportion to the centre of mass.
+  const bool rebounds = from.rebound_speed > 0;
+  const double size = rebounds ? from.rebound_speed : std::fabs(v.normal);
+  const double relative =
+      (rebounds ? bound(at_normal, 2 * epsilon * size) : bound(moves.normal, 2 * epsilon * size)) / size;
   tail.end_time_error += bound(at_time, epsilon * motion.time()) + relative * (tail.end_time - motion.time());
   tail.normal_impulse_error += relative * tail.normal_impulse;
   tail.tangential_impulse_error += relative * std::fabs(tail.tangential_impulse);

@@ -95,9 +95,13 @@ class Race {
   Flight run(const PlanarBody& body) {
     best_ = never;
     flight_.near_miss.clearance = never;
+    for (int i = 0; i < body.vertex_count; ++i) {
+      if (arrives_at_once(heights_[i])) take_at_once(i);
+    }
+    if (flight_.end != FlightEnd::contact && some_stays(body)) return flight_;
     for (const bool touching : {false, true}) {
       for (int i = 0; i < body.vertex_count; ++i) {
-        if (contains(departure_.touching, i) == touching && !enter(i)) return flight_;
+        if (contains(departure_.touching, i) == touching) enter(i);
       }
     }
     if (flight_.end == FlightEnd::contact) {
@@ -109,23 +113,29 @@ class Race {
   }
 
  private:
-  /// False if the flight is decided without looking further.
-  bool enter(int vertex) {
-    const VertexHeight& height = heights_[vertex];
-    if (cannot_leave(height) && departure_.gravity > 0) {
+  /// Whether a vertex stays on the ground, which ends the flight.
+  bool some_stays(const PlanarBody& body) {
+    for (int i = 0; i < body.vertex_count && departure_.gravity > 0; ++i) {
+      if (!cannot_leave(heights_[i])) continue;
       flight_.end = FlightEnd::stays_touching;
-      flight_.arrival.vertex = vertex;
-      return false;
-    }
-    if (arrives_at_once(height)) {
-      FirstRoot now;
-      now.time = 0;
-      take(vertex, now);
+      flight_.arrival.vertex = i;
       return true;
     }
+    return false;
+  }
+
+  void take_at_once(int vertex) {
+    FirstRoot now;
+    now.time = 0;
+    take(vertex, now);
+  }
+
+  void enter(int vertex) {
+    const VertexHeight& height = heights_[vertex];
+    if (arrives_at_once(height)) return;
     if (best_ < never && stays_above(height, best_, turn_)) {
       ++flight_.evaluations;
-      return true;
+      return;
     }
     const FirstRoot root = first_root(height, best_);
     flight_.evaluations += root.evaluations;
@@ -135,7 +145,6 @@ class Race {
       flight_.near_miss.vertex = vertex;
     }
     if (root.time && *root.time < best_) take(vertex, root);
-    return true;
   }
 
   void take(int vertex, const FirstRoot& root) {

@@ -123,6 +123,11 @@ class Run : public SequenceLoop<Sequence, ErrorGrowth> {
 
   /// Whether infinitely many impacts follow that need no more rows.
   bool accumulates(const BodyMotion::Strike& strike) {
+    if (const auto rest = resting_tail(motion_, law_, strike)) {
+      if (!options_.until_rest && !is_last_row() && !vanishes(*rest)) return false;
+      finish(*rest);
+      return true;
+    }
     auto tail = bouncing_tail(motion_, law_, strike);
     if (!tail) return extrapolated_end(strike.impact.mode);
     if (bounces_on(strike.impact.separation_speed, gravity_)) return false;
@@ -132,16 +137,20 @@ class Run : public SequenceLoop<Sequence, ErrorGrowth> {
   }
 
   bool extrapolated_end(ImpactMode mode) {
-    constexpr double ulps = 4 * std::numeric_limits<double>::epsilon();
     if (!may_accumulate(law_)) return false;
     auto tail = extrapolated(accumulation_, {.time = motion_.time()});
     if (!tail || !undisturbed(*tail)) return false;
-    const bool vanishes = tail->normal_impulse <= ulps * result_.total_normal_impulse;
-    if (!vanishes && !keeps_its_mode(motion_, *tail, mode)) return false;
+    if (!vanishes(*tail) && !keeps_its_mode(motion_, *tail, mode)) return false;
     end_state(motion_, mode, *tail);
     tail->end_time += motion_.time();
     finish(*tail);
     return true;
+  }
+
+  /// Whether its impulse is rounding of the sum so far.
+  [[nodiscard]] bool vanishes(const Tail& tail) const {
+    constexpr double ulps = 4 * std::numeric_limits<double>::epsilon();
+    return tail.normal_impulse <= ulps * result_.total_normal_impulse;
   }
 
   /// No other vertex reaches the ground before twice the remaining time has passed.
