@@ -18,6 +18,7 @@
 #include "analytic/space/level_rim.hpp"
 #include "analytic/space/resting_face.hpp"
 #include "analytic/space/row_impact.hpp"
+#include "analytic/space/striking_body.hpp"
 #include "analytic/space/sustained_contact.hpp"
 
 namespace clatter::analytic::space {
@@ -29,18 +30,19 @@ namespace {
 
 /// Sets `touches` to the row's corners with their normal velocities in the state after the impact; what is rounding of
 /// zero is zero.
-void find_departures(const Law& law, const ImpactRow& row, const State& after, std::vector<Touch>& touches) {
-  const bool plastic = law.law.restitution == 0 && law.law.law != RestitutionLaw::viscoelastic;
+void find_departures(const Drop& drop, const ImpactRow& row, const State& after, std::vector<Touch>& touches) {
+  const ImpactLaw& law = drop.law.law;
+  const bool plastic = law.restitution == 0 && law.law != RestitutionLaw::viscoelastic;
+  const VelocityRounding of_group(drop.body, row.before);
   touches.clear();
   for (const Corner& corner : row.corners) {
     const ContactVelocity velocity = contact_velocity(after, corner.place);
     const double turning = corner.radius * after.angular_velocity.head<2>().norm();  // of a level rim
     double normal = row.group ? velocity.value.z() - turning : row.impact.contact_after.z();
     // Several corners leave each other what is rounding of the impact.
-    const double scale =
-        row.group ? 4 * (velocity.scale + contact_velocity(row.before, corner.place).scale) : velocity.scale;
-    const bool rounding = std::fabs(normal) <= 16 * epsilon * scale;
-    if (rounding && (row.group || plastic)) normal = 0;
+    const double rounding =
+        (row.group ? 64 : 16) * epsilon * velocity.scale + (row.group ? of_group.at(corner.place) : 0);
+    if (std::fabs(normal) <= rounding && (row.group || plastic)) normal = 0;
     touches.push_back({corner.index, normal});
   }
 }
@@ -308,7 +310,7 @@ class Run : public SequenceLoop<Sequence, ErrorGrowth> {
     state_.velocity = row.impact.velocity_after;
     state_.angular_velocity = row.impact.angular_velocity_after;
     row.energy_after = energy(state_);
-    find_departures(drop_.law, row, state_, touches_);
+    find_departures(drop_, row, state_, touches_);
     result_.total_normal_impulse += row.impact.impulse.z();
     note_energy(row.impact.energy_loss, 1e-12);
     if (growth_) {

@@ -21,14 +21,25 @@ Vector2 point_of_pushes(const Vector3& moment, double normal, double depth, cons
 
 }  // namespace
 
-StrikingBody::StrikingBody(const Body& body, const State& before, const Law& law)
-    : body_(body), law_(law), state_(before), before_(before), axes_(before.attitude.toRotationMatrix()) {
-  law.validate();
-  inverse_inertia_ = axes_ * body.inertia.inverse() * axes_.transpose();
+VelocityRounding::VelocityRounding(const Body& body, const State& before)
+    : speed_(before.velocity.norm()), turning_(before.angular_velocity.norm()),
+      gain_(body.mass * body.inertia.inverse().cwiseAbs().rowwise().sum()) {
+  const Vector3 own = before.attitude.conjugate() * before.angular_velocity;
+  change_ = std::sqrt(speed_ * speed_ + own.dot(body.inertia * own) / body.mass);
 }
 
-double StrikingBody::rounding(double distance) const {
-  return 64 * detail::epsilon * (before_.velocity.norm() + before_.angular_velocity.norm() * distance);
+double VelocityRounding::at(const Vector3& place) const {
+  const double x = place.x(), y = place.y(), z = place.z(), distance = place.norm();
+  const double turning = gain_.dot(Vector3(std::hypot(y, z), std::hypot(x, z), std::hypot(x, y)));
+  return 64 * detail::epsilon * (speed_ + turning_ * distance) +
+         16 * detail::epsilon * change_ * (1 + distance * turning);
+}
+
+StrikingBody::StrikingBody(const Body& body, const State& before, const Law& law)
+    : body_(body), law_(law), state_(before), before_(before), rounding_(body, before),
+      axes_(before.attitude.toRotationMatrix()) {
+  law.validate();
+  inverse_inertia_ = axes_ * body.inertia.inverse() * axes_.transpose();
 }
 
 void StrikingBody::strike_at(const Vector3& place, const std::vector<int>& points, const Law& law) {

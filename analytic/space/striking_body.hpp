@@ -36,6 +36,21 @@ struct FaceRebound {
   std::optional<double> spin_after = {};  ///< ω_z, where friction has a couple about the vertical [rad/s]
 };
 
+/// Bound on the rounding of a point's normal velocity u during an impact [m/s].  With 2E/m = V² + ω·Iω/m, which bounds
+/// what an impulse P changes, δω = I⁻¹ (r × δP) in body axes, where I is nearly diagonal:
+///     δu = 64 ε (|V| + |ω| |r|) + 16 ε √(2E/m) (1 + m |r| Σₖ Jₖ |eₖ × r|),   Jₖ = Σⱼ |(I⁻¹)ₖⱼ|.              (1)
+/// Two normal velocities that differ by less are equal, and one below it is zero: their signs would be rounding's.
+class VelocityRounding {
+ public:
+  VelocityRounding(const Body& body, const State& before);
+  /// @param place  r, body frame from the centre of mass
+  [[nodiscard]] double at(const Vector3& place) const;
+
+ private:
+  double speed_, turning_, change_;  ///< |V|, |ω|, √(2E/m)
+  Vector3 gain_;                     ///< m J
+};
+
 /// Strikes add up to one GroupImpact.  World frame; arms are from the centre of mass.
 class StrikingBody {
  public:
@@ -52,9 +67,9 @@ class StrikingBody {
   [[nodiscard]] Vector3 velocity(const Vector3& arm) const {
     return state_.velocity + state_.angular_velocity.cross(arm);
   }
-  /// Rounding of the normal velocity of a point at this distance from the centre of mass [m/s].
-  [[nodiscard]] double rounding(double distance) const;
-  [[nodiscard]] bool approaches(const Vector3& arm) const { return velocity(arm).z() < -rounding(arm.norm()); }
+  /// Rounding of a point's normal velocity [m/s].
+  [[nodiscard]] double rounding(const Vector3& arm) const { return rounding_.at(place(arm)); }
+  [[nodiscard]] bool approaches(const Vector3& arm) const { return velocity(arm).z() < -rounding(arm); }
   void know_approach(double speed) { impact_.approach_speed = std::fmax(impact_.approach_speed, speed); }
 
   /// The impact of one point; `points` are the indices that the record gets.  @throws as space::strike()
@@ -92,6 +107,7 @@ class StrikingBody {
   const Body& body_;
   const Law& law_;
   State state_, before_;
+  VelocityRounding rounding_;
   Matrix3 axes_, inverse_inertia_;
   GroupImpact impact_;
   bool merges_ = false;

@@ -100,12 +100,13 @@ class SectorSearch {
                OutcomeCollection& found)
       : touching_(touching), most_(most), found_(found), speeds_(touching.size(), 1.0) {
     double reach = 0;
+    slow_ = 1e-10 * struck.impact().approach_speed;
     for (const Corner& corner : touching) {
       arms_.push_back(struck.arm(corner.place));
       reach = std::fmax(reach, arms_.back().norm());
+      slow_ = std::fmax(slow_, struck.rounding(arms_.back()));
     }
     near_ = least_width * reach;
-    slow_ = std::fmax(1e-10 * struck.impact().approach_speed, struck.rounding(reach));
     constexpr int parts = 3;  // each less than half a turn
     for (int i = 0; i < parts; ++i) {
       const Sector part{tilt(i * full_turn / parts), tilt((i + 1) % parts * full_turn / parts), struck};
