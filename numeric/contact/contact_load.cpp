@@ -44,13 +44,6 @@ void widen(const BodySlip& slip, const ContactPolygon& polygon, bool planar, Sli
   }
 }
 
-/// A face that looks up from below the ground, of negative weight in the projected measure, is pressed downward and
-/// rubs as much.  In a patch taken as flat each column of the ground slips as one: the faces at its ends share one
-/// velocity, and their difference, never negative, is what the column presses with.
-double friction_weight(double weight, const SlipField& slip) {
-  return slip.kind == SlipField::Kind::turning ? weight : std::fabs(weight);
-}
-
 }  // namespace
 
 BodySlip body_slip(const Vector3& origin, const GroundView& view, const SlipField& field) {
@@ -110,6 +103,7 @@ ContactLoader::ContactLoader(const Body& body, const Ground& ground) : body_(bod
 ContactLoad ContactLoader::load(const GroundView& view, LoadRates* rates, std::vector<int>* submerged) {
   pressing_.clear();
   corners_.clear();
+  looks_up_ = has_parts_ = false;
   Sums sums{view, view.normal(), {}, {}, {}, {}, rates, submerged};
   sums.rate_slope = sums.normal.cross(view.angular_velocity);
   sums.normal_rate = sums.rate_slope;
@@ -190,7 +184,10 @@ double ContactLoader::add_pressing(const ContactPolygon& pressing, const FacetVi
   const LoadIntegrals here = load_integrals(pressing);
   sums.pressing.add(here, facet.weight);
   if (ground_.has_friction()) {
-    pressing_.push_back({corners_.size(), pressing.count, &facet.normal, pressing.origin, facet.weight});
+    const GroundView& view = sums.view;
+    pressing_.push_back({corners_.size(), pressing.count, &facet.normal, pressing.origin, facet.weight,
+                         -view.height(pressing.origin), -sums.normal});
+    looks_up_ = looks_up_ || facet.weight < 0;
     corners_.insert(corners_.end(), pressing.corners, pressing.corners + pressing.count);
   }
   if (!sums.rates) return here.depth_squared;
@@ -207,26 +204,57 @@ ContactPolygon ContactLoader::polygon_of(const Pressing& pressing) const {
 
 SlipLoad ContactLoader::slip_load(const GroundView& view, const SlipField& field) {
   SlipLoad load;
-  for (const Pressing& pressing : pressing_) add_slip(pressing, view, field, load);
+  // Over a patch taken as flat the two faces of a column have one velocity.
+  const bool by_columns = looks_up_ && field.kind == SlipField::Kind::points;
+  for (const Pressing& pressing : pressing_) {
+    if (by_columns && !(pressing.weight > 0)) continue;
+    add_slip(pressing, polygon_of(pressing), view, field, rounding_of(pressing, view, field), load);
+  }
+  if (!by_columns) return load;
+  if (!has_parts_) find_overhangs(view);
+  const Vector3 up = view.normal();
+  for (const Overhang& part : overhangs_.parts()) {
+    const Pressing& lower = pressing_[static_cast<std::size_t>(part.lower)];
+    const Pressing& upper = pressing_[static_cast<std::size_t>(part.upper)];
+    Pressing above = lower;
+    const double slope = upper.normal->dot(up);
+    above.weight *= -part.sign;
+    above.depth -= upper.normal->dot(upper.origin - lower.origin) / slope;
+    above.depth_slope += *upper.normal / slope;
+    const ContactPolygon polygon{overhangs_.corners(part), part.count, *lower.normal, lower.origin};
+    add_slip(above, polygon, view, field, rounding_of(lower, view, field), load);
+  }
   return load;
+}
+
+void ContactLoader::find_overhangs(const GroundView& view) {
+  faces_.clear();
+  for (const Pressing& pressing : pressing_) faces_.push_back({polygon_of(pressing), pressing.weight});
+  overhangs_.find(faces_, view.normal());
+  has_parts_ = true;
 }
 
 SlipRange ContactLoader::slip_range(const GroundView& view, const SlipField& field) const {
   SlipRange range;
   for (const Pressing& pressing : pressing_) {
+    if (!(pressing.weight > 0)) continue;
     widen(body_slip(pressing.origin, view, field), polygon_of(pressing), field.planar, range);
   }
   return range;
 }
 
-void ContactLoader::add_slip(const Pressing& pressing, const GroundView& view, const SlipField& field, SlipLoad& load) {
-  const ContactPolygon polygon = polygon_of(pressing);
-  const double weight = friction_weight(pressing.weight, field);
-  const BodySlip slip = body_slip(polygon.origin, view, field);
+double ContactLoader::rounding_of(const Pressing& pressing, const GroundView& view, const SlipField& field) const {
+  if (field.floor == 0) return field.regularisation;
   SlipRange range;
-  widen(slip, polygon, field.planar, range);
-  const double rounding = range.width() > SlipField::alike * field.floor ? field.regularisation
-                                                                         : std::max(field.regularisation, field.floor);
+  widen(body_slip(pressing.origin, view, field), polygon_of(pressing), field.planar, range);
+  return range.width() > SlipField::alike * field.floor ? field.regularisation
+                                                        : std::max(field.regularisation, field.floor);
+}
+
+void ContactLoader::add_slip(const Pressing& pressing, const ContactPolygon& polygon, const GroundView& view,
+                             const SlipField& field, double rounding, SlipLoad& load) {
+  const double weight = pressing.weight;
+  const BodySlip slip = body_slip(polygon.origin, view, field);
   if (field.planar && rounding == 0) {
     return add_split(polygon, weight, view, ground_, slip, side_.data(), load);
   }
@@ -242,7 +270,7 @@ void ContactLoader::add_slip(const Pressing& pressing, const GroundView& view, c
   const double rate = -(view.vertical_speed + rate_slope.dot(polygon.origin));
   SlipPatch patch{plane_.data(),
                   polygon.count,
-                  over_plane(-view.height(polygon.origin), -normal),
+                  over_plane(pressing.depth, pressing.depth_slope),
                   over_plane(ground_.stiffness + ground_.damping * rate, -ground_.damping * rate_slope),
                   over_plane(slip.east, slip.east_slope),
                   over_plane(slip.north, slip.north_slope),

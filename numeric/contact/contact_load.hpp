@@ -8,6 +8,7 @@
 #include "numeric/body/body.hpp"
 #include "numeric/contact/contact_polygon.hpp"
 #include "numeric/contact/ground.hpp"
+#include "numeric/contact/overhangs.hpp"
 #include "numeric/contact/slip_integrals.hpp"
 
 namespace clatter::numeric::inline contact {
@@ -124,6 +125,9 @@ class ContactLoader final : public ContactSurface {
 
   using ContactSurface::load;
   [[nodiscard]] ContactLoad load(const GroundView& view, LoadRates* rates, std::vector<int>* submerged) override;
+  /// Where faces look up from below the ground (projected measure) a column of the ground rubs with the difference of
+  /// what its two faces have, along the slip of the lower one, which it touches: never more than μ F_n, and never
+  /// driving.
   [[nodiscard]] SlipLoad slip_load(const GroundView& view, const SlipField& field) override;
   [[nodiscard]] SlipRange slip_range(const GroundView& view, const SlipField& field) const override;
 
@@ -137,6 +141,9 @@ class ContactLoader final : public ContactSurface {
     const Vector3* normal;  ///< of its facet
     Vector3 origin;
     double weight;  ///< of its area
+    /// Depth that presses, at the origin and its slope over the plane.
+    double depth = 0;
+    Vector3 depth_slope = Vector3::Zero();
   };
   [[nodiscard]] ContactPolygon polygon_of(const Pressing& pressing) const;
   void add_facet(const Facet& facet, Sums& sums);
@@ -147,7 +154,11 @@ class ContactLoader final : public ContactSurface {
   /// Adds the integrals of f_n = (k_G + c_G δ̇) δ against the slip direction over the polygon: by
   /// slip_integrals, right to rounding; in the plane exactly, by the polygon's parts on the two sides of the line of no
   /// slip.
-  void add_slip(const Pressing& pressing, const GroundView& view, const SlipField& field, SlipLoad& load);
+  /// @param rounding  v_r.
+  void add_slip(const Pressing& pressing, const ContactPolygon& polygon, const GroundView& view, const SlipField& field,
+                double rounding, SlipLoad& load);
+  [[nodiscard]] double rounding_of(const Pressing& pressing, const GroundView& view, const SlipField& field) const;
+  void find_overhangs(const GroundView& view);
 
   const Body& body_;
   const Ground& ground_;
@@ -156,6 +167,10 @@ class ContactLoader final : public ContactSurface {
   std::vector<PlanePoint> plane_;    ///< polygon in its facet's plane
   std::vector<Pressing> pressing_;   ///< of the last load
   std::vector<ContactCorner> corners_;
+  bool looks_up_ = false;   ///< whether a face presses from above
+  bool has_parts_ = false;  ///< whether overhangs_ is that of the last load
+  Overhangs overhangs_;
+  std::vector<PressedFace> faces_;
 };
 
 }  // namespace clatter::numeric::inline contact

@@ -8,8 +8,9 @@ namespace clatter::numeric::inline contact {
 enum class AreaMeasure {
   surface,  ///< the body's own surface, the paper's reading: a steep side face counts in full
   /// Its signed vertical component, a Winkler bed of springs: F = k_G × submerged volume.  Faces that look up from
-  /// below the ground are pressed downward.  Friction of the regularised law acts on them as on the others, by what
-  /// presses on each; friction of the coulomb law is that of the resultant.
+  /// below the ground are pressed downward: each column of the ground presses with the difference of what its lower and
+  /// its upper face have, never less than zero, and its friction is μ times that, in every law, along the slip of the
+  /// lower face.
   projected,
 };
 
