@@ -9,7 +9,7 @@
 # Debian's own version (1.74 on Debian 12) and holds Math and Multiprecision.
 # shellcheck disable=SC2034  # the lists are read by the callers
 program_packages=(cmake ninja-build g++ libgsl-dev libboost-dev libeigen3-dev libcli11-dev
-                  nlohmann-json3-dev libfmt-dev libtomlplusplus-dev librandom123-dev)
+                  nlohmann-json3-dev libfmt-dev libtomlplusplus-dev librandom123-dev libqhull-dev)
 # gnuplot draws pictures.  It comes when it is first asked for: without it all else is there.
 # shellcheck disable=SC2034
 picture_packages=(gnuplot-nox)
@@ -21,7 +21,7 @@ mpi_packages=(libopenmpi-dev openmpi-bin)
 test_packages=(libboost-test-dev python3 python3-numpy python3-matplotlib python3-mpmath)
 # What `tests/run --full` alone needs.  Without the shells and groff the tests of completion and man page would be
 # skipped; help2man writes the packages' manual pages; emscripten, with Node.js, builds the page of clatter demo from the
-# program's sources and those of GSL; Chromium and Firefox open it; OpenMPI shares a sweep among processes.
+# program's sources and those of GSL and Qhull; Chromium and Firefox open it; OpenMPI shares a sweep among processes.
 # clang-format holds the form of C++ files, ctags the length of their functions; ccache keeps what two trees have in
 # common.  The Python module, the figures and the
 # notebooks take the line of Python packages.

@@ -82,7 +82,7 @@ Files: *
 Copyright: 2026 The clatter authors
 License: GPL-3+
 Comment: The page of clatter demo also holds three.js, KaTeX and uPlot (MIT licence), and compiled in it the GNU
- Scientific Library (GPL-3+), Eigen (MPL-2.0), Boost.Math (BSL-1.0), fmt, JSON for Modern C++, toml++, musl and
+ Scientific Library (GPL-3+), Qhull (its own licence), Eigen (MPL-2.0), Boost.Math (BSL-1.0), fmt, JSON for Modern C++, toml++, musl and
  emscripten's runtime (MIT) and LLVM's libraries (Apache-2.0 with exception); it shows their notices.
 
 Files: validation/measured/*.csv

@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Builds the page of `clatter demo`, one file with both models in it, compiled to WebAssembly.
 
-Needs Debian 12's emscripten (3.1.6), nodejs, npm, zopfli and the program's packages. GSL comes as source from the archive that this
-machine's own lists of packages name.
+Needs Debian 12's emscripten (3.1.6), nodejs, npm, zopfli and the program's packages. GSL and Qhull come as source from the archive that
+this machine's own lists of packages name.
 """
 
 import argparse
@@ -27,7 +27,7 @@ PAGE = HERE / "page.html"
 # CTest's status for a test that was skipped.
 SKIPPED = 77
 # Headers of Debian's packages that are the same for every machine; the folder that holds them has this machine's, too.
-HEADERS = ("boost", "fmt", "gsl", "nlohmann", "toml++")
+HEADERS = ("boost", "fmt", "gsl", "libqhull_r", "nlohmann", "toml++")
 # As in CMakeLists.txt: it has names that others of its folder have.
 ALONE = {"validation/explain/space_steps.cpp"}
 # Of two sources for one header the one that needs a library which is not here.
@@ -50,6 +50,11 @@ roots/fdfsolver roots/newton
 specfunc/lambert
 sys/coerce sys/expm1 sys/fdiv sys/hypot sys/infnan sys/ldfrexp sys/log1p sys/minmax sys/pow_int
 vector/copy vector/init vector/oper vector/prop vector/subvector vector/swap vector/vector vector/view
+""".split()
+# All that computes; stat_r.c, whose numbers nobody reads here, belongs to it.
+QHULL_FILES = """
+geom2_r geom_r global_r io_r libqhull_r mem_r merge_r poly2_r poly_r qset_r random_r rboxlib_r stat_r user_r usermem_r userprintf_r
+userprintf_rbox_r
 """.split()
 # For any machine whose C library is complete.
 GSL_CONFIG = """
@@ -81,9 +86,10 @@ def write(path, text):
         path.write_text(text, encoding="utf-8")
 
 
-def fetch_gsl(folder):
-    """GSL's source package, by a list of packages of its own made from this machine's."""
-    if (folder / "gsl" / "gsl_math.h").exists():
+def fetch_sources(folder):
+    """Source packages of GSL and Qhull, by a list of packages of its own made from this machine's."""
+    wanted = [package for package, file in (("gsl", "gsl_math.h"), ("qhull", "src/libqhull_r/libqhull_r.h")) if not (folder / package / file).exists()]
+    if not wanted:
         return
     parts, lists = folder / "apt", folder / "lists"
     for path in (parts, lists / "partial"):
@@ -97,14 +103,16 @@ def fetch_gsl(folder):
         write(parts / file.name, text)
     options = ["-q", "-o", "Dir::Etc::SourceList=/dev/null", "-o", f"Dir::Etc::SourceParts={parts}", "-o", f"Dir::State::Lists={lists}",
                "-o", "APT::Sandbox::User=root"]
-    for command in (["update", "-o", "APT::Update::Error-Mode=any"], ["source", "--download-only", "gsl"]):
+    for command in (["update", "-o", "APT::Update::Error-Mode=any"], ["source", "--download-only", *wanted]):
         done = subprocess.run(["apt-get", *options, *command], cwd=folder, capture_output=True, text=True, check=False)
         if done.returncode != 0:
             said = [line for line in done.stderr.splitlines() if line.startswith("E:")]
-            sys.exit(f"build_page.py: GSL's source, which comes through apt-get {command[0]}, is out of reach: {said[0] if said else 'no reason given'}")
-    archive, = folder.glob("gsl_*.orig.tar.*")
-    (folder / "gsl").mkdir(exist_ok=True)
-    run("tar", "xf", archive, "--strip-components=1", "-C", folder / "gsl")
+            sys.exit(f"build_page.py: the source of {' and '.join(wanted)}, which comes through apt-get {command[0]}, is out of reach: "
+                     f"{said[0] if said else 'no reason given'}")
+    for package in wanted:
+        archive, = folder.glob(f"{package}_*.orig.tar.*[!c]")  # a signature beside it ends in .asc
+        (folder / package).mkdir(exist_ok=True)
+        run("tar", "xf", archive, "--strip-components=1", "-C", folder / package)
 
 
 def needed():
@@ -182,12 +190,17 @@ def ninja(folder):
         lines.extend([f"build {' '.join(made)}: c {' '.join(f'{gsl}/{file}.c' for file in files)}", f"  place = objects/gsl/{name}",
                       f"  flags = -I{gsl} -I{gsl}/{name} -I{include}"])
         objects += made
+    qhull = folder / "qhull/src"
+    made = [f"objects/qhull/{file}.o" for file in QHULL_FILES]
+    lines.extend([f"build {' '.join(made)}: c {' '.join(f'{qhull}/libqhull_r/{file}.c' for file in QHULL_FILES)}", "  place = objects/qhull",
+                  f"  flags = -I{qhull}"])
+    objects += made
     lines.append(f"build module.js: link {' '.join(objects)}")
     write(folder / "build.ninja", "\n".join(lines) + "\n")
 
 
 def build_module(folder):
-    fetch_gsl(folder)
+    fetch_sources(folder)
     ninja(folder)
     run("ninja", "-C", folder, "--quiet", "-k", "0", env=ENVIRONMENT)
     return folder / "module.js"
@@ -196,7 +209,7 @@ def build_module(folder):
 def notices():
     """What is compiled in, with the versions of Debian's packages."""
     def version(match):
-        name = "libgsl-dev" if match[1] == "gsl" else match[1]
+        name = {"gsl": "libgsl-dev", "qhull": "libqhull-dev"}.get(match[1], match[1])
         return subprocess.run(["dpkg-query", "-W", "-f=${Version}", name], capture_output=True, text=True, check=True).stdout
     return re.sub(r"\{([a-z0-9.-]+)\}", version, (HERE / "notices.txt").read_text(encoding="utf-8"))
 
@@ -213,7 +226,7 @@ def digest_of_models(module):
     """Of all that the compiled models follow from, the versions of Debian's packages included."""
     files = [name for name in needed() if (ROOT / name).exists()]
     made = sorted(path for path in (module / "generated").rglob("*") if path.is_file())
-    options = repr([FLAGS, CXX_FLAGS, LINK_FLAGS, HEADERS, GSL_FILES, GSL_CONFIG])
+    options = repr([FLAGS, CXX_FLAGS, LINK_FLAGS, HEADERS, GSL_FILES, GSL_CONFIG, QHULL_FILES])
     return digest([*((name, (ROOT / name).read_bytes()) for name in [*files, "validation/demo/library.hpp"]),
                    *((str(path.relative_to(module)), path.read_bytes()) for path in made), ("options", options.encode()),
                    ("versions", notices().encode())])

@@ -90,23 +90,6 @@ bool vanish(std::initializer_list<double> parts, double whole) {
   return std::all_of(parts.begin(), parts.end(), [&](double part) { return std::fabs(part) <= typed * whole; });
 }
 
-/// The points that the convex hull of all needs, each once.
-std::vector<Vector3> hull_corners(const std::vector<Vector3>& points, double size) {
-  constexpr double same = 1e-9;  // of the size, as is_outside_hull has it
-  std::vector<Vector3> distinct;
-  for (const Vector3& point : points) {
-    const auto equals = [&](const Vector3& other) { return (other - point).norm() <= same * size; };
-    if (std::none_of(distinct.begin(), distinct.end(), equals)) distinct.push_back(point);
-  }
-  std::vector<Vector3> corners;
-  for (std::size_t i = 0; i < distinct.size(); ++i) {
-    std::vector<Vector3> others = distinct;
-    others.erase(others.begin() + static_cast<std::ptrdiff_t>(i));
-    if (others.empty() || is_outside_hull(distinct[i], others)) corners.push_back(distinct[i]);
-  }
-  return corners;
-}
-
 /// Height of the centre of mass above the lowest point.
 double touch_height(const space::Body& body, const space::Quaternion& attitude) {
   const space::Vector3 up = attitude.conjugate() * space::Vector3::UnitZ();

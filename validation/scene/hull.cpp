@@ -1,9 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "validation/scene/hull.hpp"
 
+#include <libqhull_r/libqhull_r.h>
+
 #include <Eigen/QR>
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
 #include <limits>
+#include <numeric>
 
 namespace clatter::validation::inline scene {
 namespace {
@@ -46,16 +53,14 @@ Nearest nearest_part(const std::vector<Vector3>& simplex) {
   return best;
 }
 
-}  // namespace
-
-/// Gilbert, Johnson and Keerthi (1988): the nearest point of a simplex of points, with the point furthest towards the
-/// origin in its place of the next.
-bool is_outside_hull(const Vector3& point, const std::vector<Vector3>& points) {
+/// Whether a plane separates the point from all others by more than 1e-9 of the size.  Gilbert, Johnson and Keerthi
+/// (1988): the nearest point of a simplex of points, with the point furthest towards the origin in its place of the
+/// next.
+bool is_separate(const Vector3& point, const std::vector<Vector3>& others, double size) {
+  if (others.empty() || !(size > 0)) return false;
   std::vector<Vector3> arms;
-  double size = 0;
-  for (const Vector3& other : points) size = std::max(size, (other - point).cwiseAbs().maxCoeff());
-  if (points.empty() || !(size > 0)) return false;
-  for (const Vector3& other : points) arms.emplace_back((other - point) / size);
+  arms.reserve(others.size());
+  for (const Vector3& other : others) arms.emplace_back((other - point) / size);
   Nearest nearest{{arms[0]}, arms[0], arms[0].norm()};
   for (int step = 0; step < most_steps && nearest.distance > on_surface; ++step) {
     const Vector3 towards = nearest.point / nearest.distance;
@@ -68,6 +73,101 @@ bool is_outside_hull(const Vector3& point, const std::vector<Vector3>& points) {
     nearest = next;
   }
   return false;
+}
+
+/// The points that differ from all kept before them by more than `same` [m], in their order.  Each is held against
+/// those alone that are as near along one slanted direction, along which few points of a body share a place.
+std::vector<Vector3> distinct_points(const std::vector<Vector3>& points, double same) {
+  const Vector3 slanted = Vector3(1, 0.7548776662466927, 0.5698402909980532).normalized();
+  std::vector<std::size_t> order(points.size()), rank(points.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::sort(order, {}, [&](std::size_t i) { return slanted.dot(points[i]); });
+  for (std::size_t k = 0; k < order.size(); ++k) rank[order[k]] = k;
+  std::vector<char> is_kept(points.size());
+  std::vector<Vector3> kept;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const auto is_near = [&](std::size_t k) {
+      return std::fabs(slanted.dot(points[order[k]] - points[i])) <= 2 * same;  // twice: for rounding
+    };
+    const auto equals = [&](std::size_t k) {
+      return is_kept[order[k]] != 0 && (points[order[k]] - points[i]).norm() <= same;
+    };
+    bool is_new = true;
+    for (std::size_t k = rank[i]; is_new && k-- > 0 && is_near(k);) is_new = !equals(k);
+    for (std::size_t k = rank[i] + 1; is_new && k < order.size() && is_near(k); ++k) is_new = !equals(k);
+    is_kept[i] = is_new ? 1 : 0;
+    if (is_new) kept.push_back(points[i]);
+  }
+  return kept;
+}
+
+/// Box about points, along the axes.
+struct Extent {
+  explicit Extent(const std::vector<Vector3>& points) : low(points.front()), high(low) {
+    for (const Vector3& point : points) {
+      low = low.cwiseMin(point);
+      high = high.cwiseMax(point);
+    }
+  }
+  /// Largest difference of a coordinate from one of the points'.
+  [[nodiscard]] double reach(const Vector3& from) const { return (high - from).cwiseMax(from - low).maxCoeff(); }
+
+  Vector3 low, high;
+};
+
+/// For each point those that share an edge of a triangulation of the hull with it, none for a point within it, by Qhull
+/// (Barber, Dobkin and Huhdanpaa, 1996).  Nothing at all for points that lie in a plane to rounding.
+std::vector<std::vector<Vector3>> hull_neighbours(const std::vector<Vector3>& points, const Extent& extent) {
+  if (!((extent.high - extent.low).minCoeff() > 0)) return {};
+  std::vector<double> scaled;  // to a cube: what a corner and what an edge is does not change
+  scaled.reserve(3 * points.size());
+  for (const Vector3& point : points) {
+    const Vector3 place = (point - extent.low).cwiseQuotient(extent.high - extent.low);
+    scaled.insert(scaled.end(), place.begin(), place.end());
+  }
+  char command[] = "qhull Qt", *messages = nullptr;  // Qhull says nothing that a user of this program could act on
+  std::size_t length = 0;
+  FILE* const unread = open_memstream(&messages, &length);
+  qhT state, *const qh = &state;
+  qh_zero(qh, unread);
+  const int status =
+      qh_new_qhull(qh, 3, static_cast<int>(points.size()), scaled.data(), False, command, nullptr, unread);
+  std::vector<std::vector<Vector3>> neighbours(status == 0 ? points.size() : 0);
+  for (const facetT* facet = status == 0 ? qh->facet_list : nullptr; facet && facet->next; facet = facet->next) {
+    std::array<std::size_t, 3> corners{};
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto* const vertex = static_cast<const vertexT*>(facet->vertices->e[k].p);
+      corners[k] = static_cast<std::size_t>(vertex->point - scaled.data()) / 3;
+    }
+    for (std::size_t k = 0; k < 3; ++k) {  // each edge is one of two triangles that run about it opposite ways
+      const std::size_t from = corners[k];
+      neighbours[from].insert(neighbours[from].end(), {points[corners[(k + 1) % 3]], points[corners[(k + 2) % 3]]});
+    }
+  }
+  qh_freeqhull(qh, qh_ALL);
+  int long_left = 0, total_left = 0;
+  qh_memfreeshort(qh, &long_left, &total_left);
+  std::fclose(unread);
+  std::free(messages);
+  return neighbours;
+}
+
+}  // namespace
+
+bool is_outside_hull(const Vector3& point, const std::vector<Vector3>& points) {
+  return !points.empty() && is_separate(point, points, Extent(points).reach(point));
+}
+
+std::vector<Vector3> hull_corners(const std::vector<Vector3>& points, double size) {
+  const std::vector<Vector3> distinct = distinct_points(points, on_surface * size);
+  const Extent extent(distinct);
+  const std::vector<std::vector<Vector3>> neighbours = hull_neighbours(distinct, extent);
+  if (neighbours.empty()) return distinct;
+  std::vector<Vector3> corners;
+  for (std::size_t i = 0; i < distinct.size(); ++i) {
+    if (is_separate(distinct[i], neighbours[i], extent.reach(distinct[i]))) corners.push_back(distinct[i]);
+  }
+  return corners;
 }
 
 }  // namespace clatter::validation::inline scene

@@ -1,13 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Whether a point lies within the convex hull of others.
+// The convex hull of points: what lies within it, and its corners against their definition.
 #include "validation/scene/hull.hpp"
 
+#include <Eigen/Geometry>
+#include <algorithm>
 #include <boost/test/unit_test.hpp>
+#include <cmath>
+#include <numbers>
 #include <random>
 
 namespace {
 
 using clatter::numeric::Vector3;
+using clatter::validation::hull_corners;
 using clatter::validation::is_outside_hull;
 
 class Draw {
@@ -27,6 +32,26 @@ class Draw {
  private:
   std::mt19937 random_{7};
 };
+
+/// By definition: each point is held against all others.
+std::vector<Vector3> corners_one_by_one(const std::vector<Vector3>& points) {
+  std::vector<Vector3> corners;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    std::vector<Vector3> others = points;
+    others.erase(others.begin() + static_cast<std::ptrdiff_t>(i));
+    if (is_outside_hull(points[i], others)) corners.push_back(points[i]);
+  }
+  return corners;
+}
+
+/// The nodes of a box's mesh: most lie within faces and edges, up to the rounding of a rotation.
+std::vector<Vector3> lattice(const Vector3& size, const Vector3& turn) {
+  const Eigen::AngleAxisd rotation(turn.norm(), turn.normalized());
+  std::vector<Vector3> points;
+  for (int i = 0; i < 125; ++i)
+    points.emplace_back(rotation * Vector3(size.cwiseProduct(Vector3(i % 5, i / 5 % 5, i / 25) / 4)));
+  return points;
+}
 
 }  // namespace
 
@@ -60,4 +85,51 @@ BOOST_AUTO_TEST_CASE(the_size_of_a_body_does_not_matter_to_what_is_within_it) {
     BOOST_TEST(is_outside_hull(size * Vector3(0.5, 0.5, 1 + 1e-6), cube));
     BOOST_TEST(is_outside_hull(size * Vector3(1.001, 0.5, 0.5), cube));
   }
+}
+
+BOOST_AUTO_TEST_CASE(the_corners_of_a_hull_are_the_points_outside_the_hull_of_all_others_in_their_order) {
+  Draw draw;
+  for (int i = 0; i < 200; ++i) {
+    const Vector3 size(1, i % 3 == 0 ? 1 : 0.01, i % 3 == 2 ? 0.01 : 1);
+    std::vector<Vector3> points = draw.points(4 + i % 60, size);
+    if (i % 4 == 3) points = lattice(size, draw.direction());
+    std::shuffle(points.begin(), points.end(), std::mt19937(static_cast<unsigned>(i)));
+    BOOST_TEST((hull_corners(points, 1) == corners_one_by_one(points)));
+  }
+}
+
+BOOST_AUTO_TEST_CASE(a_meshed_box_has_eight_corners_however_it_is_turned) {
+  Draw draw;
+  for (int i = 0; i < 200; ++i) {
+    const Vector3 size(draw(0.1, 1), draw(0.1, 1), std::pow(10, draw(-5, 0)));
+    BOOST_TEST(hull_corners(lattice(size, draw.direction()), 1).size() == 8U);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(points_of_a_sphere_are_all_corners_and_those_within_it_none_at_any_size) {
+  for (const double size : {1e-120, 1.0, 1e120}) {
+    std::vector<Vector3> sphere, all;
+    for (int i = 0; i < 20'000; ++i) {  // on a spiral of equal turns
+      const double z = (i + 0.5) / 10'000 - 1, turn = i * std::numbers::pi * (3 - std::sqrt(5));
+      sphere.push_back(size * Vector3(std::sqrt(1 - z * z) * std::cos(turn), std::sqrt(1 - z * z) * std::sin(turn), z));
+      all.push_back(sphere.back());
+      all.push_back(sphere.back() / 2);
+    }
+    BOOST_TEST((hull_corners(all, size) == sphere));
+  }
+}
+
+BOOST_AUTO_TEST_CASE(the_first_of_points_that_are_one_is_the_corner) {
+  const double near = 1e-10;  // of the size; counts as the same
+  std::vector<Vector3> points, kept;
+  for (int i = 0; i < 8; ++i) kept.emplace_back(i & 1, i >> 1 & 1, i >> 2 & 1);
+  points = kept;
+  for (const Vector3& corner : kept) points.push_back(corner);
+  for (const Vector3& corner : kept) points.push_back(corner * (1 + near));
+  BOOST_TEST((hull_corners(points, 1) == kept));
+}
+
+BOOST_AUTO_TEST_CASE(points_in_a_plane_are_all_kept) {
+  const std::vector<Vector3> square{{0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}};
+  BOOST_TEST((hull_corners(square, 1) == square));
 }
