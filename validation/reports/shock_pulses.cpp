@@ -81,7 +81,7 @@ std::vector<Column> pulse_columns() {
       {"height_without_rebound", "h, e = 0", "m", "of fall with this change of velocity if the body did not rebound"},
       {"height", "h", "m", "of fall with this change of velocity and the impact's own restitution"},
       word_column("condition", "B110",
-                  "mildest service condition of JESD22-B110, H, B, A or C, that covers both; or -"),
+                  "mildest service condition of JESD22-B110B, H, G, B, F, A, E, D or C, that covers both; or -"),
       {"margin_rectangle", "rectangle", "",
        "fragility over the part's acceleration under a rectangle of this |ΔV| and "
        "peak: at most 1, it fails"},
@@ -121,7 +121,7 @@ std::vector<std::string> pulse_notes(const std::optional<FragilePart>& part) {
     }
     notes.push_back(words);
   }
-  std::string ladder = "JESD22-B110, half sines, 2AT/π, height without rebound:";
+  std::string ladder = "JESD22-B110B, half sines, 2AT/π, height without rebound:";
   for (const ServiceCondition& one : service_conditions()) {
     ladder += fmt::format("{} {} {} g {} ms {:.3f} m/s {:.3f} m", one.name == 'H' ? "" : ";", one.name,
                           significant(one.pulse.acceleration / standard_gravity, 4),

@@ -64,11 +64,15 @@ TestPulse equivalent_pulse(double velocity, double acceleration) {
   return {acceleration, velocity / (pulse_area(PulseShape::half_sine) * acceleration)};
 }
 
-const std::array<ServiceCondition, 4>& service_conditions() {
-  static const std::array<ServiceCondition, 4> all{{{'H', {2900 * standard_gravity, 0.3e-3}},
+const std::array<ServiceCondition, 8>& service_conditions() {
+  static const std::array<ServiceCondition, 8> all{{{'H', {2900 * standard_gravity, 0.3e-3}},
+                                                    {'G', {2000 * standard_gravity, 0.4e-3}},
                                                     {'B', {1500 * standard_gravity, 0.5e-3}},
-                                                    {'A', {500 * standard_gravity, 1e-3}},
-                                                    {'C', {100 * standard_gravity, 2e-3}}}};
+                                                    {'F', {900 * standard_gravity, 0.7e-3}},
+                                                    {'A', {500 * standard_gravity, 1.0e-3}},
+                                                    {'E', {340 * standard_gravity, 1.2e-3}},
+                                                    {'D', {200 * standard_gravity, 1.5e-3}},
+                                                    {'C', {100 * standard_gravity, 2.0e-3}}}};
   return all;
 }
 

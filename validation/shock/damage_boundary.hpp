@@ -47,12 +47,13 @@ struct TestPulse {
 /// That with a blow's change of velocity and peak, both > 0.
 [[nodiscard]] TestPulse equivalent_pulse(double velocity, double acceleration);
 
-/// Service conditions of JESD22-B110, by falling severity.
+/// Service conditions of JESD22-B110B (JEDEC, July 2013), table 1: half sines, by falling peak, which is by falling
+/// change of velocity, too.
 struct ServiceCondition {
   char name;
   TestPulse pulse;
 };
-[[nodiscard]] const std::array<ServiceCondition, 4>& service_conditions();
+[[nodiscard]] const std::array<ServiceCondition, 8>& service_conditions();
 /// The mildest one whose change of velocity and peak are both at least those of a blow; none: '-'.
 [[nodiscard]] char covering_condition(double velocity, double acceleration);
 

@@ -2,7 +2,6 @@
 // The damage boundary against its closed forms and against an integration of the part's equation of motion.
 #include "validation/shock/damage_boundary.hpp"
 
-#include <fmt/format.h>
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 #include <numbers>
@@ -85,11 +84,42 @@ BOOST_AUTO_TEST_CASE(the_corner_of_the_boundary_lies_where_astm_has_it) {
   }
 }
 
-BOOST_AUTO_TEST_CASE(the_ladder_of_jesd22_b110_has_its_printed_digits) {
-  const char* const printed[] = {"H 5.432 1.504", "B 4.682 1.118", "A 3.122 0.497", "C 1.249 0.079"};
-  for (std::size_t i = 0; i < 4; ++i) {
-    const ServiceCondition& one = service_conditions()[i];
-    BOOST_TEST(fmt::format("{} {:.3f} {:.3f}", one.name, one.pulse.velocity(), one.pulse.height(0)) == printed[i]);
+BOOST_AUTO_TEST_CASE(the_eight_conditions_of_jesd22_b110b_have_its_changes_of_velocity_and_heights) {
+  // Table 1 of the standard has cm/s and cm, made with rounded g: to a unit of the last place, relative or absolute.
+  struct Printed {
+    char name;
+    double peak, milliseconds, velocity, height;
+  };
+  constexpr double rounded = 1.1, printed_g = 0.01;
+  constexpr Printed table[] = {{'H', 2900, 0.3, 543, 150}, {'G', 2000, 0.4, 499, 127}, {'B', 1500, 0.5, 468, 112},
+                               {'F', 900, 0.7, 393, 78.9}, {'A', 500, 1.0, 312, 49.7}, {'E', 340, 1.2, 255, 33.1},
+                               {'D', 200, 1.5, 187, 17.9}, {'C', 100, 2.0, 125, 7.9}};
+  BOOST_TEST(service_conditions().size() == std::size(table));
+  for (std::size_t i = 0; i < std::size(table); ++i) {
+    const auto& [name, pulse] = service_conditions()[i];
+    const Printed& row = table[i];
+    BOOST_TEST(name == row.name);
+    BOOST_TEST(std::fabs(pulse.acceleration / standard_gravity - row.peak) < 1e-9);
+    BOOST_TEST(std::fabs(1e3 * pulse.duration - row.milliseconds) < 1e-12);
+    BOOST_TEST(std::fabs(100 * pulse.velocity() - row.velocity) < rounded);
+    BOOST_TEST(std::fabs(100 * pulse.height(0) - row.height) < printed_g * row.height);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(the_mildest_condition_that_covers_a_blow_is_the_last_that_does) {
+  const auto covering = [](double peak, double milliseconds) {  // of a half sine
+    const TestPulse pulse{peak * standard_gravity, milliseconds * 1e-3};
+    return covering_condition(pulse.velocity(), pulse.acceleration);
+  };
+  BOOST_TEST(covering(850, 0.7) == 'F');
+  // A hair inside each condition is covered by it, a hair outside in either by the next one up.
+  const auto& all = service_conditions();
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const double velocity = all[i].pulse.velocity(), peak = all[i].pulse.acceleration;
+    const char harder = i == 0 ? '-' : all[i - 1].name;
+    BOOST_TEST(covering_condition(velocity * (1 - 1e-9), peak * (1 - 1e-9)) == all[i].name);
+    BOOST_TEST(covering_condition(velocity * (1 + 1e-9), peak * (1 - 1e-9)) == harder);
+    BOOST_TEST(covering_condition(velocity * (1 - 1e-9), peak * (1 + 1e-9)) == harder);
   }
 }
 
