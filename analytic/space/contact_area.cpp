@@ -340,7 +340,7 @@ Matrix3 PressedArea::slip_moments_within(const Vector2& slip, double spin) const
     };
     if (spin == 0) return result;
     return speed > distant_pole * extent_ * std::fabs(spin) ? add(FarIntegrals<4, 6>(u, spin / speed))
-                                                  : add(FarIntegrals<8, 10>(u, spin / speed));
+                                                            : add(FarIntegrals<8, 10>(u, spin / speed));
   }
   const Vector2 pole = quarter_turn(slip / spin);
   PoleIntegrals about;

@@ -24,8 +24,8 @@ struct ContactArea {
 
   /// Whether a force at `point` can be the resultant of pushes on the area [m].
   [[nodiscard]] bool contains(const Vector2& point) const;
-  [[nodiscard]] Vector2 middle() const;   ///< mean of the corners [m]
-  [[nodiscard]] double extent() const;    ///< largest distance from it [m]
+  [[nodiscard]] Vector2 middle() const;  ///< mean of the corners [m]
+  [[nodiscard]] double extent() const;   ///< largest distance from it [m]
 };
 
 /// The part of a contact area that a linear pressure pushes.  Lengths are in units of `unit` from `centre`.

@@ -43,7 +43,8 @@ DirectionMoments::DirectionMoments(const Vector3& slip, double distance) {
     const GaussRule<10>::Array z = b + w * x, part = rule.weights / (aside * aside + z.square()).sqrt(),
                                across_part = part * z, square = x.square();
     along << a * part.sum(), a * (part * x).sum(), a * (part * square).sum();
-    across << across_part.sum(), (across_part * x).sum(), (across_part * square).sum(), (across_part * square * x).sum();
+    across << across_part.sum(), (across_part * x).sum(), (across_part * square).sum(),
+        (across_part * square * x).sum();
     return;
   }
   const double from = b - w, to = b + w, r1 = std::hypot(aside, from), r2 = std::hypot(aside, to);
@@ -239,7 +240,8 @@ Vector3 rub_along(const Vector3& slip, const EdgePressure& pressure) {
   const double distance = std::fabs(s[2]) * std::fmax(pressure.end_size - piece.half, 0);
   const DirectionMoments d({s[0], s[1] + piece.centre * s[2], piece.half * s[2]}, distance);
   const double across = piece.weights.dot(d.across.head<3>());
-  return {piece.weights.dot(d.along), across, piece.centre * across + piece.half * piece.weights.dot(d.across.tail<3>())};
+  return {piece.weights.dot(d.along), across,
+          piece.centre * across + piece.half * piece.weights.dot(d.across.tail<3>())};
 }
 
 double EdgeContact::pressure_point() const {

@@ -53,8 +53,8 @@ struct EdgePressure {
 }
 
 /// The impulse of an edge by Coulomb's law with μ > 0; nothing where (2) asks at any moment for a pressure point beyond
-/// the edge, or nearer to its end than 1e-4 of its half (level_contact.hpp then).  An edge that friction can hold sticks.
-/// Accuracy: 1e-12 of the impulse.
+/// the edge, or nearer to its end than 1e-4 of its half (level_contact.hpp then).  An edge that friction can hold
+/// sticks. Accuracy: 1e-12 of the impulse.
 [[nodiscard]] std::optional<EdgeImpulse> edge_impulse(const EdgeContact& edge, const ImpactLaw& law);
 
 }  // namespace clatter::analytic::space

@@ -172,8 +172,8 @@ std::optional<FaceFriction> FacePath::follow() {
     Vector3 direction;
     const auto held = is_held(direction);
     if (!held) return {};
-    result.path = slips ? (*held ? PathKind::slip_stick : PathKind::slip_reslip)
-                        : (*held ? PathKind::stick : PathKind::slip);
+    result.path =
+        slips ? (*held ? PathKind::slip_stick : PathKind::slip_reslip) : (*held ? PathKind::stick : PathKind::slip);
     y_.setZero();
     if (!*held) {
       y_ = first_slip * face_.normal_impulse * load_.norm() * direction;

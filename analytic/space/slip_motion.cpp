@@ -38,7 +38,8 @@ struct StopForecast {
 }  // namespace
 
 SlipMotion::SlipMotion(Eigen::Index size, double step_error)
-    : y_(Values::Zero(size)), size_(static_cast<std::size_t>(size)), step_error_(step_error), system_{derivative, nullptr, size_, this},
+    : y_(Values::Zero(size)), size_(static_cast<std::size_t>(size)),
+      step_error_(step_error), system_{derivative, nullptr, size_, this},
       step_(gsl_odeiv2_step_alloc(gsl_odeiv2_step_rk8pd, size_)) {}
 
 int SlipMotion::derivative(double, const double y[], double change[], void* motion) {

@@ -145,7 +145,7 @@ std::string near_miss_words(int digits, const Run& run) {
 }
 
 const char* convention_words(const space::GroupImpact& group) {
-  return group.is_whole ? "the body rebounds as a whole" : "they strike one after the other, the fastest first";
+  return group.is_whole ? "the body rebounds as a whole" : "the ground pushes at the nearest place of the corners";
 }
 
 using OutcomeSets = std::vector<std::optional<space::OutcomeSet>>;
