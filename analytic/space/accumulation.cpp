@@ -253,6 +253,9 @@ std::optional<Tail> Rattling::extrapolate(const Drop& drop, const Tolerance& tol
   std::ranges::sort(all);
   all.erase(std::ranges::unique(all).begin(), all.end());
   tail.corners = all;
+  if (all.size() < 3) return tail;
+  tail.velocity_after.z() = 0;  // a face rests
+  tail.angular_velocity_after.head<2>().setZero();
   return tail;
 }
 

@@ -28,7 +28,7 @@ class Collocation {
  public:
   Collocation(const GroundLaw& law, const std::vector<GroundPoint>& points, const GroundMotion& from, double length);
 
-  /// Begins with directions in which slip would not turn, if there are such directions.
+  /// Begins with the motion in directions in which slip would not turn, if there are such directions.
   bool begin(const std::vector<GroundPoint>& given);
   /// A step of Newton's method for the directions, in which the corners move at the stages; the rest of the state
   /// follows by iteration.  Returns the change of the state.
@@ -100,6 +100,12 @@ bool Collocation::begin(const std::vector<GroundPoint>& given) {
     rates_.col(l) = rate(at, now);
   }
   states_ = reached(rates_);
+  for (int l = 0; l < stages; ++l) {  // of slip that is more than it gains in the step, the direction is its own
+    for (int k = 0; k < corners(); ++k) {
+      const Vector3 v = slip_of(GroundMotion(states_.col(l)), points_, point(points_, k));
+      if (v.norm() > 0) angles_(k, l) = std::atan2(v.y(), v.x());
+    }
+  }
   return true;
 }
 

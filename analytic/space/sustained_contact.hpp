@@ -24,7 +24,7 @@ namespace clatter::analytic::space {
 
 /// The motion with `corners` on the ground, until others come down, the ground no longer pushes, or the law leaves it
 /// open.  Without error bars.
-/// Accuracy: 1e-11 of angle and velocities, 1e-9 where slip begins or ends, while not near an instability.
+/// Accuracy: 1e-12 of angle and velocities, also where slip begins or ends, while not near an instability.
 /// @param now  the corners at height 0 and without normal velocity, to rounding: what is left of those is taken away
 /// @param corners  one or two vertices
 /// @throws NumericalError if 5 000 steps do not end it

@@ -97,7 +97,7 @@ BOOST_AUTO_TEST_CASE(slip_that_grows_faster_than_its_direction_is_driven_back_be
 }
 
 BOOST_AUTO_TEST_CASE(rattling_beside_corners_that_stay_is_summed_and_leaves_the_end_as_it_is_row_by_row) {
-  constexpr int drops = CLATTER_TEST_SLOW_BUILD ? 10 : 60;
+  constexpr int drops = CLATTER_TEST_SLOW_BUILD ? 10 : 30;
   int at_rest = 0, certain = 0, summed = 0;
   std::size_t most_rows = 0;
   for (int n = 0; n < drops; ++n) {
@@ -145,7 +145,7 @@ BOOST_AUTO_TEST_CASE(throws_by_any_law_run_to_their_end_where_corners_come_to_st
   const Sequence s = impact_sequence(drop, {.impacts = 100'000, .digits = 2, .until_rest = true});
   BOOST_CHECK(s.outcome == Outcome::at_rest);
   BOOST_TEST(unaccounted(s) <= 1e-9);
-  for (int n = 0; n < (CLATTER_TEST_SLOW_BUILD ? 6 : 40); ++n) {
+  for (int n = 0; n < (CLATTER_TEST_SLOW_BUILD ? 6 : 20); ++n) {
     const Sequence other = impact_sequence(thrown(n, true), {.impacts = 100'000, .until_rest = true});
     BOOST_TEST_CONTEXT("throw " << n << ": " << other.message) {
       BOOST_CHECK(other.outcome != Outcome::not_computed);
