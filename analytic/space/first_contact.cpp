@@ -509,11 +509,11 @@ class Search {
         best == 0 ? from_[static_cast<std::size_t>(found_.point)] : heights_.at(found_.point, moment);
     found_.normal_velocity = search_.arrival_velocity(first);
     found_.velocity_error = 4 * epsilon * (departed != nullptr ? std::fabs(found_.normal_velocity) : parts);
-    if (departed != nullptr && heights_.is_round(found_.point)) {
+    if (search_.hopped() && heights_.is_round(found_.point)) {
       // Rounding of the attitude turns the lowest point of a rim by that over the rim's steepness.
       const double steep =
           std::fmin(heights_.steepness(found_.point, heights_.moment(0)), heights_.steepness(found_.point, moment));
-      found_.velocity_error += 4 * epsilon * std::fabs(departed->normal_velocity);
+      if (departed != nullptr) found_.velocity_error += 4 * epsilon * std::fabs(departed->normal_velocity);
       found_.velocity_error /= steep;
     }
     found_.acceleration = first.acceleration;

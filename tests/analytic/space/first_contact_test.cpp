@@ -251,3 +251,27 @@ BOOST_AUTO_TEST_CASE(in_100000_random_drops_no_first_corner_is_wrong_and_no_impa
   BOOST_TEST(compared >= drops - drops / 500);
   BOOST_TEST(contacts > drops / 2);
 }
+
+BOOST_AUTO_TEST_CASE(a_rim_that_lies_on_the_ground_without_having_been_struck_hops_as_one_that_was_but_for_its_errors) {
+  const Body rod = cylinder(1, {.length = 1, .radius = 0.05});
+  for (const double rise : {1e-6, 1e-4, 1e-2}) {
+    State state;
+    state.attitude = Quaternion(Eigen::AngleAxisd(-0.3, Vector3::UnitY()));
+    state.angular_velocity = {0.01, 0.02, 0.03};
+    const Vector3 place = touching_place(rod, state.attitude, 0);
+    state.position.z() = -(state.attitude * place).z();
+    state.velocity.z() = rise - state.angular_velocity.cross(state.attitude * place).z();
+    const FreeFlight flight(PrincipalAxes(rod.inertia), state, 9.81);
+    const Touch touch{.point = 0, .normal_velocity = rise};
+    const FirstContact struck = first_contact(rod, flight, {&touch, 1}), lying = first_contact(rod, flight, {});
+    BOOST_TEST_CONTEXT("rises at " << rise) {
+      BOOST_TEST((lying.end == FlightEnd::contact && struck.end == FlightEnd::contact));
+      BOOST_TEST(lying.point == 0);
+      BOOST_TEST(struck.is_hop);
+      BOOST_TEST(!lying.is_hop);
+      BOOST_TEST(std::fabs(lying.time - struck.time) <= lying.time_error + struck.time_error);
+      BOOST_TEST(std::fabs(lying.normal_velocity - struck.normal_velocity) <= lying.velocity_error);
+      BOOST_TEST(lying.velocity_error > struck.velocity_error);
+    }
+  }
+}
