@@ -187,7 +187,7 @@ double ContactLoader::add_pressing(const ContactPolygon& pressing, const FacetVi
     const GroundView& view = sums.view;
     pressing_.push_back({corners_.size(), pressing.count, &facet.normal, pressing.origin, facet.weight,
                          -view.height(pressing.origin), -sums.normal});
-    looks_up_ = looks_up_ || facet.weight < 0;
+    looks_up_ = looks_up_ || facet.weight < -upright;
     corners_.insert(corners_.end(), pressing.corners, pressing.corners + pressing.count);
   }
   if (!sums.rates) return here.depth_squared;

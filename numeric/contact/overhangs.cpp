@@ -13,10 +13,10 @@ void Overhangs::find(std::span<const PressedFace> faces, const Vector3& up) {
   corners_.clear();
   const int count = static_cast<int>(faces.size());
   for (int upper = 0; upper < count; ++upper) {
-    if (!(faces[static_cast<std::size_t>(upper)].weight < 0)) continue;
+    if (!(faces[static_cast<std::size_t>(upper)].weight < -upright)) continue;
     for (int lower = 0; lower < count; ++lower) {
       const PressedFace& below = faces[static_cast<std::size_t>(lower)];
-      if (!(below.weight > 0)) continue;
+      if (!(below.weight > upright)) continue;
       for (int i = 2; i < faces[static_cast<std::size_t>(upper)].polygon.count; ++i) {
         Triangle triangle;
         const int sign = project(upper, i, lower, triangle);
@@ -41,7 +41,7 @@ void Overhangs::add(const Piece& piece, int lower, int upper, int sign, int from
   corners_.insert(corners_.end(), piece.corners, piece.corners + piece.count);
   for (int face = from; face < static_cast<int>(faces_.size()); ++face) {
     const PressedFace& between = faces_[static_cast<std::size_t>(face)];
-    if (face == lower || !(between.weight > 0)) continue;
+    if (face == lower || !(between.weight > upright)) continue;
     for (int i = 2; i < between.polygon.count; ++i) {
       Triangle triangle;
       const int other = project(face, i, lower, triangle);

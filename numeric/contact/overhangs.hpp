@@ -9,6 +9,10 @@
 
 namespace clatter::numeric::inline contact {
 
+/// Faces whose unit area has less of a vertical component than this count as upright: where they meet the lower face is
+/// rounding, and what presses on them is a part of 1e-10 of that on a level face.
+inline constexpr double upright = 1e-10;
+
 /// A face below the ground and the vertical component of its unit area: positive where it looks down.
 struct PressedFace {
   ContactPolygon polygon;

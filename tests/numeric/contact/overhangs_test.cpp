@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "numeric/contact/overhangs.hpp"
+
+#include <boost/test/unit_test.hpp>
+#include <cmath>
+#include <random>
+#include <vector>
+
+#include "numeric/contact/contact_load.hpp"
+#include "tests/numeric/bodies.hpp"
+
+namespace {
+
+using namespace clatter::numeric;
+using namespace clatter::numeric::test;
+
+constexpr double relative = 1e-12;   ///< integrals are right to 1e-13 of the normal force
+constexpr double of_columns = 3e-3;  ///< 500 × 500 columns, of which those at edges count in full or not at all
+
+class Random {
+ public:
+  explicit Random(unsigned seed) : random_(seed) {}
+  double operator()(double low, double high) { return std::uniform_real_distribution(low, high)(random_); }
+  Vector3 vector() { return {(*this)(-1, 1), (*this)(-1, 1), (*this)(-1, 1)}; }
+
+ private:
+  std::mt19937 random_;
+};
+
+Mesh tetrahedron(Random& random) {
+  Mesh mesh;
+  Element element{.shape = ElementShape::tetrahedron};
+  double volume = 0;
+  while (!(std::fabs(volume) > 0.1)) {
+    mesh.nodes = {random.vector(), random.vector(), random.vector(), random.vector()};
+    const Vector3& origin = mesh.nodes[0];
+    volume = (mesh.nodes[1] - origin).cross(mesh.nodes[2] - origin).dot(mesh.nodes[3] - origin);
+  }
+  element.nodes = {0, 1, 2, 3, -1, -1, -1, -1};
+  if (volume < 0) std::swap(element.nodes[1], element.nodes[2]);
+  mesh.elements = {element};
+  return mesh;
+}
+
+GroundView view_of(const Body& body, const Eigen::Quaterniond& attitude, double depth, const Vector3& velocity,
+                   const Vector3& rotation) {
+  MotionState state;
+  state.attitude = attitude;
+  state = on_ground(body, state);
+  const Eigen::Quaterniond back = attitude.conjugate();
+  GroundView view;
+  view.reference = {back * Vector3::UnitZ(), state.centre.z()};
+  view.sink = -depth;
+  view.vertical_speed = velocity.z();
+  view.angular_velocity = back * rotation;
+  view.east = back * Vector3::UnitX();
+  view.north = back * Vector3::UnitY();
+  view.east_speed = velocity.x();
+  view.north_speed = velocity.y();
+  return view;
+}
+
+/// A body of one element that goes into the ground by a corner.
+struct Corner {
+  Body body;
+  GroundView view;
+  Ground ground;
+};
+
+Corner random_corner(Random& random) {
+  Body body(tetrahedron(random));
+  const Vector3 axis = random.vector();
+  const Eigen::Quaterniond attitude(Eigen::AngleAxisd(random(0, 3), axis.normalized()));
+  const GroundView view = view_of(body, attitude, random(0.01, 0.5), random.vector(), 3 * random.vector());
+  return {std::move(body), view, {.stiffness = 1, .damping = random(0, 0.5), .area = AreaMeasure::projected}};
+}
+
+Vector3 force_of(const GroundView& view, const SlipLoad& load) {
+  return load.east * view.east + load.north * view.north;
+}
+
+/// Power that friction takes, over μ.
+double dissipated(const GroundView& view, const SlipLoad& load) {
+  return -load.east * view.east_speed - load.north * view.north_speed - load.moment.dot(view.angular_velocity);
+}
+
+/// Friction over columns of the ground, each found by where its line meets the faces of the tetrahedron.
+Vector3 friction_of_columns(const Corner& corner) {
+  const GroundView& view = corner.view;
+  const Facets& facets = corner.body.facets();
+  const double size = corner.body.radius();
+  constexpr int columns = 500;
+  const double side = 2 * size / columns;
+  Vector3 sum = Vector3::Zero();
+  const Vector3 up = view.normal();
+  for (int i = 0; i < columns; ++i) {
+    for (int j = 0; j < columns; ++j) {
+      const Vector3 foot = ((i + 0.5) * side - size) * view.east + ((j + 0.5) * side - size) * view.north;
+      double low = -1e9, high = 1e9;  // heights along `up` from the foot, within all faces
+      for (const Facet& facet : facets.facets) {
+        const Vector3& u = facets.vertices[static_cast<std::size_t>(
+            facets.corners[static_cast<std::size_t>(facets.loops[static_cast<std::size_t>(facet.begin)].begin)])];
+        const double slope = facet.normal.dot(up), at = facet.normal.dot(u - foot) / slope;
+        (slope < 0 ? low : high) = slope < 0 ? std::max(low, at) : std::min(high, at);
+      }
+      if (!(low < high)) continue;
+      const Vector3 bottom = foot + low * up, top = foot + high * up;
+      const double depth = -view.height(bottom), above = std::max(-view.height(top), 0.0);
+      if (!(depth > 0)) continue;
+      const Vector3 turning = view.angular_velocity.cross(bottom);
+      const double rate = -(view.vertical_speed + turning.dot(up));
+      const double pressure = std::max(corner.ground.stiffness + corner.ground.damping * rate, 0.0) * (depth - above);
+      const Vector3 slip = turning + view.east_speed * view.east + view.north_speed * view.north;
+      const Vector3 along = slip - slip.dot(up) * up;
+      sum -= pressure * side * side * along.normalized();
+    }
+  }
+  return sum;
+}
+
+/// Boxes of 1 × 1 × 0.1, each at its place in a grid.
+Mesh blocks(const std::vector<std::array<int, 3>>& cells) {
+  Mesh mesh;
+  constexpr int side = 4;  // nodes along each axis
+  for (int z = 0; z < side; ++z) {
+    for (int y = 0; y < side; ++y) {
+      for (int x = 0; x < side; ++x) mesh.nodes.emplace_back(x, y, 0.1 * z);
+    }
+  }
+  for (const auto& [x, y, z] : cells) {
+    const int base = x + side * (y + side * z), over = side * side;
+    Element element{.shape = ElementShape::hexahedron};
+    element.nodes = {base,        base + 1,        base + side + 1,        base + side,
+                     base + over, base + over + 1, base + over + side + 1, base + over + side};
+    mesh.elements.push_back(element);
+  }
+  return mesh;
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(friction_of_faces_that_look_up_is_bounded_by_the_normal_force_and_takes_energy) {
+  Random random(7);
+  int looking_up = 0;
+  for (int i = 0; i < 90; ++i) {
+    Corner corner = random_corner(random);
+    corner.ground.sliding_friction = corner.ground.static_friction = 1;
+    ContactLoader loader(corner.body, corner.ground);
+    const ContactLoad load = loader.load(corner.view);
+    if (!(load.force > 0)) continue;
+    for (const Facet& facet : corner.body.facets().facets) looking_up += facet.normal.dot(corner.view.normal()) > 0;
+    for (const double regularisation : {0.0, 0.1}) {
+      for (const bool planar : {false, true}) {
+        const SlipField field{.planar = planar, .regularisation = regularisation};
+        const SlipLoad friction = loader.slip_load(corner.view, field);
+        BOOST_TEST(std::hypot(friction.east, planar ? 0 : friction.north) <= load.force * (1 + relative));
+        if (!planar) BOOST_TEST(dissipated(corner.view, friction) >= -relative * load.force);
+      }
+    }
+    const SlipField flat{.kind = SlipField::Kind::turning, .centre = load.pressure_centre(), .east = 0.1, .spin = 1};
+    BOOST_TEST(force_of(corner.view, loader.slip_load(corner.view, flat)).norm() <= load.force * (1 + relative));
+  }
+  BOOST_TEST(looking_up > 60);
+}
+
+BOOST_AUTO_TEST_CASE(friction_is_that_of_columns_each_pressed_by_the_difference_of_its_ends) {
+  Random random(11);
+  for (int seen = 0; seen < 5;) {
+    Corner corner = random_corner(random);
+    corner.ground.sliding_friction = corner.ground.static_friction = 1;
+    ContactLoader loader(corner.body, corner.ground);
+    const ContactLoad load = loader.load(corner.view);
+    if (!(load.force > 0.02)) continue;  // a patch of many columns
+    ++seen;
+    const Vector3 found = force_of(corner.view, loader.slip_load(corner.view, {}));
+    BOOST_TEST((found - friction_of_columns(corner)).norm() <= of_columns * load.force);
+  }
+}
+
+/// Two shelves above each other on one wall are the wall and the shelves, each by itself.
+BOOST_AUTO_TEST_CASE(a_face_that_looks_up_leans_on_the_next_face_below_it) {
+  const std::vector<std::array<int, 3>> wall{{0, 0, 0}, {0, 0, 1}, {0, 0, 2}}, low{{1, 0, 0}, {2, 0, 0}},
+      high{{1, 0, 2}, {2, 0, 2}};
+  std::vector<std::array<int, 3>> all = wall;
+  all.insert(all.end(), low.begin(), low.end());
+  all.insert(all.end(), high.begin(), high.end());
+  const Ground ground{
+      .stiffness = 1, .damping = 0.01, .static_friction = 1, .sliding_friction = 1, .area = AreaMeasure::projected};
+  const Vector3 velocity(0.3, -0.2, -0.1), rotation(2, 3, 0.5), centre(1.5, 0.5, 0.15);
+  const auto friction_of = [&](const std::vector<std::array<int, 3>>& cells) {
+    Mesh mesh = blocks(cells);
+    const MassProperties properties = mass_properties(mesh);
+    const Body body(mesh);
+    ContactLoader loader(body, ground);
+    GroundView view;
+    view.reference = {Vector3::UnitZ(), properties.centre.z() - 0.4};
+    const Vector3 at = velocity + rotation.cross(properties.centre - centre);
+    view.vertical_speed = at.z();
+    view.east_speed = at.x();
+    view.north_speed = at.y();
+    view.angular_velocity = rotation;
+    static_cast<void>(loader.load(view));
+    const SlipLoad load = loader.slip_load(view, {});
+    return Vector3(load.east, load.north,
+                   load.moment.z() + (properties.centre.x() * load.north - properties.centre.y() * load.east));
+  };
+  const Vector3 whole = friction_of(all), parts = friction_of(wall) + friction_of(low) + friction_of(high);
+  BOOST_TEST((whole - parts).norm() <= 1e-10 * parts.norm());
+}
