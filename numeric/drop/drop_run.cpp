@@ -259,6 +259,7 @@ class Run {
     n.impulse = body_.mass() * (after.velocity - state_.velocity - contact.duration * contact_gravity_.acceleration());
     n.peak_force = contact.peak_force;
     n.peak_time = contact.peak_time;
+    n.indentation = contact.indentation;
     n.velocity_after = after.velocity;
     n.angular_velocity_after = after.attitude * after.angular_velocity;
     n.energy_before = mechanical_energy(body_, state_, gravity_);

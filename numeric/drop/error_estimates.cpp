@@ -39,10 +39,11 @@ constexpr Vector3 ImpactNumbers::*vectors[] = {&ImpactNumbers::impulse, &ImpactN
 template <class Use>
 void for_each_number(const ImpactNumbers& a, const ImpactNumbers& b, ImpactNumbers& out, Use&& use) {
   using Numbers = ImpactNumbers;
-  for (const auto member : {&Numbers::start, &Numbers::duration, &Numbers::inclination, &Numbers::contact_angle,
-                            &Numbers::approach_speed, &Numbers::restitution, &Numbers::peak_force, &Numbers::peak_time,
-                            &Numbers::energy_before, &Numbers::energy_after, &Numbers::energy_loss,
-                            &Numbers::work_damping, &Numbers::work_friction, &Numbers::work_released}) {
+  for (const auto member :
+       {&Numbers::start, &Numbers::duration, &Numbers::inclination, &Numbers::contact_angle, &Numbers::approach_speed,
+        &Numbers::restitution, &Numbers::peak_force, &Numbers::peak_time, &Numbers::indentation,
+        &Numbers::energy_before, &Numbers::energy_after, &Numbers::energy_loss, &Numbers::work_damping,
+        &Numbers::work_friction, &Numbers::work_released}) {
     out.*member = use(a.*member, b.*member);
   }
   for (const auto member : vectors) {
@@ -54,7 +55,7 @@ void for_each_number(const ImpactNumbers& a, const ImpactNumbers& b, ImpactNumbe
 void widen(const ImpactNumbers& a, const ImpactNumbers& b, ImpactNumbers& error) {
   using Numbers = ImpactNumbers;
   const double relative = least_part * error.impulse.norm() / a.impulse.norm();
-  for (const auto member : {&Numbers::duration, &Numbers::restitution, &Numbers::peak_force}) {
+  for (const auto member : {&Numbers::duration, &Numbers::restitution, &Numbers::peak_force, &Numbers::indentation}) {
     const double least = relative * std::fabs(a.*member);
     if (error.*member < least) error.*member = least;
   }
@@ -91,6 +92,7 @@ void add_rounding(const Body& body, const ImpactRecord& row, ImpactNumbers& erro
   // Heights are known to the rounding of the body's size, and touch-down and lift-off to that over the speed.
   const double separation = n.approach_speed * (n.restitution > 0 ? std::min(n.restitution, 1.0) : 1);
   add(error.duration, body.radius() / separation);
+  add(error.indentation, body.radius());
   if (n.start > 0) add(error.start, body.radius() / n.approach_speed);
   // The time of a flat maximum is known to the root of what its height is known to.
   error.peak_time += std::sqrt(part) * n.duration;

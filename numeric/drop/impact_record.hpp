@@ -22,6 +22,7 @@ struct ImpactNumbers {
   Vector3 impulse = Vector3::Zero();  ///< of the contact force, world [N·s]
   double peak_force = 0;              ///< largest normal force [N]
   double peak_time = 0;               ///< when, after this touch-down [s]
+  double indentation = 0;             ///< greatest depth of a point of the body below the ground [m]
   Vector3 velocity_after = Vector3::Zero();          ///< world [m/s]
   Vector3 angular_velocity_after = Vector3::Zero();  ///< world [rad/s]
   double energy_before = 0;                          ///< translational + rotational + potential (m g z) [J]

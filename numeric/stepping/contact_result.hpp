@@ -49,6 +49,7 @@ struct ContactResult {
   double energy_stored = 0;                                       ///< in the ground's springs at the end [J]
   double peak_force = 0;                                          ///< largest F_n [N]
   double peak_time = 0;                                           ///< after touch-down [s]
+  double indentation = 0;                                         ///< largest depth of a point below the ground [m]
   FrictionMode mode = FrictionMode::frictionless;
   int touches = 0;
   bool submerged = false;  ///< see ImpactRecord

@@ -107,8 +107,8 @@ std::optional<ContactEnding> ending_on_the_ground(const ContactSystem& system, c
 }  // namespace
 
 ContactRun::ContactRun(ContactSystem& system, Stepper& stepper)
-    : system_(system), step_(system, stepper), steps_(step_), events_(step_), peak_(step_), friction_(system),
-      touches_(system.body()) {}
+    : system_(system), step_(system, stepper), steps_(step_), events_(step_), peak_(step_), deepest_(step_),
+      friction_(system), touches_(system.body()) {}
 
 ContactResult ContactRun::run(const MotionState& touch, const Vector3& point, const ContactControl& control,
                               const ContactObserver& observer, const StepObserver& steps) {
@@ -138,6 +138,7 @@ void ContactRun::begin(const MotionState& touch, const Vector3& point) {
   steps_.begin(control_->steps, scales, control_->evaluation_limit);
   events_.begin(scales, control_->steps.tolerance);
   peak_.begin();
+  deepest_.begin();
   local_slip_.begin(control_->least_local_slip * scales.energy / scales.depth);
   touches_.begin(point);
   switches_ = 0;
@@ -206,6 +207,7 @@ void ContactRun::accept(const ContactInstant& next) {
   result_.submerged = result_.submerged || system_.is_submerged(next.state);
   const ContactInstant* peak = peak_.look(now_, next);
   if (peak && *observer_) (*observer_)(*peak);
+  deepest_.look(now_, next);
   if (shown_->show) show_step(next);
   now_ = next;
   friction_.follow(now_);
@@ -234,6 +236,7 @@ void ContactRun::collect() {
   result_.energy_stored = now_.diagnosis.load.energy;
   result_.peak_force = peak_.force();
   result_.peak_time = peak_.time();
+  result_.indentation = deepest_.depth();
   result_.mode = friction_.end(now_);
   result_.local_slip = local_slip_.impulse();
   result_.touches = std::max(touches_.touches(), 1);

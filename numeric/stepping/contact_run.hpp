@@ -48,7 +48,7 @@ struct StepObserver {
 ///         else accept
 ///     until lift-off, rest, a limit, or the observer ends it
 ///
-///     accept: count touches;  look for a peak of F_n;  now ← trial;  slip's direction follows
+///     accept: count touches;  look for a peak of F_n and of depth;  now ← trial;  slip's direction follows
 class ContactRun {
  public:
   ContactRun(ContactSystem& system, Stepper& stepper);
@@ -71,6 +71,7 @@ class ContactRun {
   StepControl steps_;
   EventLocator events_;
   ForcePeak peak_;
+  DeepestPoint deepest_;
   FrictionPhases friction_;
   TouchCounter touches_;
   LocalSlipEstimate local_slip_;

@@ -17,6 +17,28 @@ struct Depth {
   double value, rate;  ///< [m], [m/s]
 };
 
+/// The cubic over a step, 0 at its beginning.
+struct StepCubic {
+  double slope, end_slope;  ///< rates times the length of the step
+  double rise;              ///< value at the end
+};
+
+/// Where in the step, from 0 to 1, the cubic has a maximum: p′(s) = slope + 2 b s + 3 a s² falls through 0 there once;
+/// 0 where it has none inside.
+double place_of_top(const StepCubic& p) {
+  if (!(p.slope >= 0) || !(p.end_slope <= 0) || p.slope == p.end_slope) return 0;
+  const double a = p.slope + p.end_slope - 2 * p.rise, b = 3 * p.rise - 2 * p.slope - p.end_slope;
+  const double root = std::sqrt(std::max(b * b - 3 * a * p.slope, 0.0));
+  const double s = b <= 0 ? p.slope / (root - b) : (-b - root) / (3 * a);
+  return s > 0 && s < 1 ? s : 0;
+}
+
+/// What the cubic rises to at the part s of the step.
+double rise_to(const StepCubic& p, double s) {
+  const double a = p.slope + p.end_slope - 2 * p.rise, b = 3 * p.rise - 2 * p.slope - p.end_slope;
+  return s * (p.slope + s * (b + s * a));
+}
+
 /// Of the deepest vertex; the load looks at no facet above the ground.
 Depth deepest_point(const ContactSystem& system, const ContactInstant& at) {
   const ContactLoad& load = at.diagnosis.load;
@@ -100,24 +122,33 @@ void ForcePeak::note(const ContactInstant& at) {
 const ContactInstant* ForcePeak::look(const ContactInstant& now, const ContactInstant& next) {
   note(next);
   const double h = next.time - now.time;
-  const double slope = h * now.diagnosis.force_rate, end_slope = h * next.diagnosis.force_rate;
-  if (!(slope >= 0) || !(end_slope <= 0) || slope == end_slope) return nullptr;
-  const double rise = next.diagnosis.load.force - now.diagnosis.load.force;
-  // p′(s) = slope + 2 b s + 3 a s², which falls through 0 once in (0, 1].
-  const double a = slope + end_slope - 2 * rise, b = 3 * rise - 2 * slope - end_slope;
-  const double root = std::sqrt(std::max(b * b - 3 * a * slope, 0.0));
-  const double s = b <= 0 ? slope / (root - b) : (-b - root) / (3 * a);
-  if (!(s > 0 && s < 1)) return nullptr;
-  const double top = now.diagnosis.load.force + s * (slope + s * (b + s * a));
+  const StepCubic cubic{h * now.diagnosis.force_rate, h * next.diagnosis.force_rate,
+                        next.diagnosis.load.force - now.diagnosis.load.force};
+  const double s = place_of_top(cubic);
+  if (s == 0) return nullptr;
+  const double top = now.diagnosis.load.force + rise_to(cubic, s);
   if (!(top > 0.9 * force_) || !step_.take(now, s * h, trial_)) return nullptr;
   note(trial_);
   inside_ = trial_;
   const double at_trial = h * trial_.diagnosis.force_rate;
-  const double other_s = at_trial > 0 ? 1 : 0, other = at_trial > 0 ? end_slope : slope;
+  const double other_s = at_trial > 0 ? 1 : 0, other = at_trial > 0 ? cubic.end_slope : cubic.slope;
   const double better = s - at_trial * (other_s - s) / (other - at_trial);
   if (better > 0 && better < 1 && step_.take(now, better * h, trial_)) note(trial_);
   if (trial_.time == time_) inside_ = trial_;
   return inside_.time == time_ ? &inside_ : nullptr;
+}
+
+void DeepestPoint::look(const ContactInstant& now, const ContactInstant& next) {
+  const ContactLoad &from = now.diagnosis.load, &to = next.diagnosis.load;
+  depth_ = std::max(depth_, to.deepest);
+  const double h = next.time - now.time, begin = std::max(from.deepest, 0.0);
+  const StepCubic cubic{h * from.deepest_rate, h * to.deepest_rate, to.deepest - begin};
+  const double s = place_of_top(cubic);
+  if (s == 0 || !(begin + rise_to(cubic, s) > 0.9 * depth_) || !step_.take(now, s * h, trial_)) return;
+  const double depth = trial_.diagnosis.load.deepest, slope = h * trial_.diagnosis.load.deepest_rate;
+  // The rate falls along the line from here to the end of the step that lies beyond the maximum.
+  const double fall = slope > 0 ? (slope - cubic.end_slope) / (1 - s) : (cubic.slope - slope) / s;
+  depth_ = std::max(depth_, fall > 0 ? depth + slope * slope / (2 * fall) : depth);
 }
 
 }  // namespace clatter::numeric::inline stepping

@@ -63,4 +63,24 @@ class ForcePeak {
   double force_ = 0, time_ = 0;
 };
 
+/// The largest depth of a vertex below the ground.
+class DeepestPoint {
+ public:
+  explicit DeepestPoint(ContactStep& step) : step_(step) {}
+
+  void begin() { depth_ = 0; }
+
+  /// Looks for a larger depth in the accepted step from `now` to `next`: at its end, and at a maximum inside it, which
+  /// the cubic through the depths and their rates at both ends places.  The depth of the numerical solution there is
+  /// carried on to the maximum by the parabola of its rate, so that its error is of third order in the time's.
+  void look(const ContactInstant& now, const ContactInstant& next);
+
+  [[nodiscard]] double depth() const { return depth_; }  ///< largest δ so far [m]
+
+ private:
+  ContactStep& step_;
+  ContactInstant trial_;
+  double depth_ = 0;
+};
+
 }  // namespace clatter::numeric::inline stepping

@@ -25,6 +25,7 @@ inline constexpr NamedNumber named_numbers[] = {{"start", &ImpactNumbers::start}
                                                 {"restitution", &ImpactNumbers::restitution},
                                                 {"peak_force", &ImpactNumbers::peak_force},
                                                 {"peak_time", &ImpactNumbers::peak_time},
+                                                {"indentation", &ImpactNumbers::indentation},
                                                 {"energy_before", &ImpactNumbers::energy_before},
                                                 {"energy_after", &ImpactNumbers::energy_after},
                                                 {"energy_loss", &ImpactNumbers::energy_loss},

@@ -3,12 +3,14 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
 
 #include "numeric/drop/error_estimates.hpp"
+#include "validation/output/number.hpp"
 #include "validation/plan/cost_table.hpp"
 #include "validation/plan/symmetry.hpp"
 #include "validation/plan/tolerance_search.hpp"
@@ -184,6 +186,37 @@ std::string submersion_warning(const Simulation& run) {
   return "the whole body sinks below the ground in impact " + impacts + ": a foundation below it is no model of that";
 }
 
+/// Least extent of the body along its axes and the principal axes of its inertia [m].
+double least_extent(const numeric::Body& body) {
+  const Eigen::SelfAdjointEigenSolver<numeric::Matrix3> principal(body.inertia());
+  double least = std::numeric_limits<double>::infinity();
+  for (const numeric::Matrix3& axes : {numeric::Matrix3(numeric::Matrix3::Identity()), principal.eigenvectors()}) {
+    numeric::Vector3 low = numeric::Vector3::Constant(least), high = -low;
+    for (const numeric::Vector3& vertex : body.facets().vertices) {
+      const numeric::Vector3 at = axes.transpose() * vertex;
+      low = low.cwiseMin(at);
+      high = high.cwiseMax(at);
+    }
+    least = std::min(least, (high - low).minCoeff());
+  }
+  return least;
+}
+
+constexpr double deep_part = 0.1;  ///< of the least extent: deeper, the body and not its skin is in the ground
+
+/// A warning that tells the deepest impact where it is deep against the body; empty: none is.
+std::string depth_warning(const numeric::Body& body, const Simulation& run) {
+  const auto deepest =
+      std::ranges::max_element(run.impacts, {}, [](const numeric::ImpactRecord& row) { return row.value.indentation; });
+  if (deepest == run.impacts.end()) return "";
+  const double depth = deepest->value.indentation, extent = least_extent(body);
+  if (!(depth > deep_part * extent)) return "";
+  return fmt::format(
+      "the body goes {} m into the ground in impact {}, more than a tenth of its least extent, {} m: a bed of springs "
+      "is no model of that",
+      significant(depth, 3), deepest - run.impacts.begin() + 1, significant(extent, 3));
+}
+
 }  // namespace
 
 std::string planar_warning(const numeric::Body& body, const numeric::World& world, const numeric::MotionState& start) {
@@ -205,8 +238,9 @@ PlannedRun run_to_digits(const numeric::Body& body, const numeric::World& world,
   }
   const std::string out_of_plane = planar_warning(body, world, start);
   if (!out_of_plane.empty()) planned.warnings.push_back(out_of_plane);
-  const std::string sunk = submersion_warning(planned.run);
+  const std::string sunk = submersion_warning(planned.run), deep = depth_warning(body, planned.run);
   if (!sunk.empty()) planned.warnings.push_back(sunk);
+  else if (!deep.empty()) planned.warnings.push_back(deep);
   return planned;
 }
 

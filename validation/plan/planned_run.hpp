@@ -20,7 +20,7 @@ struct PlannedRun {
   /// The first impacts, before rounding errors have grown beyond what is asked, or a second run goes another way;
   /// without amplification, before estimated errors are more than asked.
   int known_impacts = 0;
-  std::vector<std::string> warnings;  ///< of what the run leaves out although the scene has it, and of bodies that sink
+  std::vector<std::string> warnings;  ///< of what the run leaves out although the scene has it, and of bodies that go deep
   MotionNumbers sizes{};              ///< of all impacts, against which a number counts as zero; 0 without impacts
 };
 

@@ -73,6 +73,8 @@ constexpr ImpactQuantity all[]{
              force_of_contact, number_at<&Numbers::peak_force>),
     quantity("peak_time", "peak t", "s", "when, after touch-down", Scale::time, force_of_contact,
              number_at<&Numbers::peak_time>),
+    quantity("indentation", "depth", "m", "greatest depth of a point of the body below the ground", Scale::none,
+             simulator_with_errors, number_at<&Numbers::indentation>),
     quantity("velocity_after", "Vₜ V_y Vₙ", "m/s", "of the centre of mass after the impact, world frame", Scale::speed,
              all_and_tail, number_at<&Numbers::velocity_after>),
     quantity("angular_velocity_after", "ω_x Ω ω_z", "rad/s", "after the impact, world frame", Scale::rate, all_and_tail,

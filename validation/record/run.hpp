@@ -34,6 +34,7 @@ struct Numbers {
   EntryVector impulse{};         ///< of the ground [N·s]; an error in space: each the bound on the vector's length
   double peak_force = 0;         ///< [N]
   double peak_time = 0;          ///< after touch-down [s]
+  double indentation = 0;        ///< greatest depth of a point of the body below the ground [m]
   EntryVector velocity_after{};  ///< of the centre of mass [m/s]
   EntryVector angular_velocity_after{};  ///< [rad/s]
   double energy_before = 0;              ///< translational, rotational and potential [J]

@@ -16,12 +16,15 @@ Totals totals(const Run& run) {
     sums.last_start = {value.start, error.start};
     if (is_first) sums.first_peak = peak;
     sums.largest_peak = is_first ? peak : larger(sums.largest_peak, peak);
+    const Estimated depth{value.indentation, error.indentation};
+    sums.largest_depth = is_first ? depth : larger(sums.largest_depth, depth);
   }
   sums.normal_impulse += run.impulse_between;
   if (run.tail) sums.normal_impulse += {run.tail->sum.value.impulse[2], run.tail->sum.error.impulse[2]};
   if (run.total_normal_impulse) sums.normal_impulse = *run.total_normal_impulse;
   if (sums.predictable) return sums;
-  for (Estimated* sum : {&sums.normal_impulse, &sums.energy_loss, &sums.last_start, &sums.largest_peak})
+  for (Estimated* sum :
+       {&sums.normal_impulse, &sums.energy_loss, &sums.last_start, &sums.largest_peak, &sums.largest_depth})
     sum->error = unknown_error;
   return sums;
 }

@@ -19,6 +19,7 @@ struct Totals {
   Estimated last_start;      ///< touch-down of the last impact, after that of the first [s]
   Estimated first_peak;      ///< peak force of the first impact [N]; the continuous model's
   Estimated largest_peak;    ///< [N]; likewise
+  Estimated largest_depth;   ///< greatest indentation [m]; likewise
 };
 
 [[nodiscard]] Totals totals(const Run& run);

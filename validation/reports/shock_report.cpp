@@ -149,6 +149,20 @@ void add_sensitivity(const ShockRow* row, Row& cells, Row& errors) {
   errors.emplace_back(error_or_nothing(*row->sensitivity));
 }
 
+/// How deep the body goes in the impact, which is no matter of the probe.
+void add_indentation(const ShockRun& run, int impact, Row& cells, Row& errors) {
+  const auto place = static_cast<std::size_t>(impact - 1);
+  if (!run.continuous || place >= run.continuous->planned.run.impacts.size()) {
+    cells.emplace_back();
+    errors.emplace_back();
+    return;
+  }
+  const numeric::ImpactRecord& row = run.continuous->planned.run.impacts[place];
+  const Estimated depth{row.value.indentation, row.error.indentation};
+  cells.push_back(known_cell(depth, {run.scene.accuracy.digits, 0}));
+  errors.emplace_back(error_or_nothing(depth));
+}
+
 Row row_of(const ShockRun& run, int impact, std::size_t probe) {
   const ShockRow* const continuous = run.continuous ? row_at(run.continuous->rows, impact, probe) : nullptr;
   const ShockRow* const discrete = row_at(run.discrete, impact, probe);
@@ -162,6 +176,7 @@ Row row_of(const ShockRun& run, int impact, std::size_t probe) {
   cells.push_back(continuous ? Cell(continuous->duration, run.scene.accuracy.digits) : Cell());
   add_numbers(run, continuous, false, cells, errors);
   add_sensitivity(continuous, cells, errors);
+  add_indentation(run, impact, cells, errors);
   add_numbers(run, discrete, true, cells, errors);
   cells.push_back(continuous ? Cell(continuous->closure, 2) : Cell());
   cells.emplace_back(first->predictable);
@@ -435,6 +450,7 @@ std::vector<Column> shock_columns() {
   for (const ShockQuantity& quantity : quantities) add(column_of(quantity, false));
   add({"sensitivity", "∂", "",
        "∂ ln(peak)/∂ ln k_G with c_G/k_G held: 1/2 for a face, 1/3 for an edge, 1/4 for a corner that lands alone"});
+  add({"indentation", "depth", "m", "greatest depth of a point of the body below the ground"});
   for (const ShockQuantity& quantity : quantities) {
     if (quantity.in_discrete) add(column_of(quantity, true));
   }

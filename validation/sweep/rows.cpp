@@ -26,6 +26,8 @@ constexpr SceneNumber scene_numbers[]{
     {"total_normal_impulse", "N·s", "sum of the normal impulses", &Totals::normal_impulse},
     {"first_peak_force", "N", "peak force of the first impact", &Totals::first_peak, true},
     {"largest_peak_force", "N", "largest peak force", &Totals::largest_peak, true},
+    {"largest_indentation", "m", "greatest depth of a point of the body below the ground", &Totals::largest_depth,
+     true},
     {"energy_loss", "J", "energy lost in all impacts listed", &Totals::energy_loss},
     {"last_start", "s", "touch-down of the last impact, after that of the first", &Totals::last_start}};
 

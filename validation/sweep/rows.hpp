@@ -46,7 +46,8 @@ struct RowLayout {
                                                             int impacts);
 
 /// Index and swept keys, then per scene
-///     impacts, outcome, total_normal_impulse [N·s], first_peak_force, largest_peak_force [N] (continuous model),
+///     impacts, outcome, total_normal_impulse [N·s], first_peak_force, largest_peak_force [N] and
+///     largest_indentation [m] (continuous model),
 ///     energy_loss [J] and last_start [s] over the impacts listed, predictable, the columns asked for, of each probe
 ///     the largest change of its velocity over an impact [m/s] and which impact that is, the error of each of these
 ///     numbers, reason;
