@@ -57,6 +57,14 @@ struct ContactSystem::Friction {
   AlongGround hold;  ///< see ContactDiagnosis
 };
 
+/// What sticking takes: force and couple are linear in the couple C, force + C force_by_couple holds the centre, and C
+/// = couple holds the spin too.
+struct ContactSystem::Hold {
+  AlongGround force;            ///< [N]
+  AlongGround force_by_couple;  ///< [1/m]
+  double couple = 0;            ///< about the vertical [N·m]
+};
+
 namespace {
 
 constexpr double unit_rounding = 1e-9;  ///< of the square of an attitude's norm: what users may have rounded
@@ -98,6 +106,23 @@ AlongGround solve(const AlongGround& by_east, const AlongGround& by_north, const
   if (!(std::fabs(determinant) > 0)) return {};
   return AlongGround{b.east * q.north - b.north * q.east, b.north * p.east - b.east * p.north} *
          (1 / (size * determinant));
+}
+
+/// The part of a couple, from 0 to 1, at which |a + part b|² + part² c² = 1; 1 where that is less, 0 where |a| is more.
+double part_within(const AlongGround& a, const AlongGround& b, double c) {
+  const double square = b.dot(b) + c * c, mixed = a.dot(b), left = 1 - a.dot(a);
+  if (square + 2 * mixed <= left) return 1;
+  if (!(left > 0)) return 0;
+  const double root = std::sqrt(mixed * mixed + square * left);
+  return mixed > 0 ? left / (mixed + root) : (root - mixed) / square;
+}
+
+/// Root mean square of the distance of what presses from the centre, along the ground.
+double patch_radius(const LoadRates& rates, const Vector3& normal, const Vector3& centre) {
+  const Matrix3& squares = rates.rates.depth_position_squared;
+  const double square = (squares.trace() - normal.dot(squares * normal)) / rates.load.depth;
+  const double up = normal.dot(centre);
+  return std::sqrt(std::max(square - (centre.squaredNorm() - up * up), 0.0));
 }
 
 AlongGround unit_slip(const AlongGround& slip, const FrictionPhase& phase, bool planar) {
@@ -216,13 +241,14 @@ void ContactSystem::evaluate(const ContactState& y, const FrictionPhase& phase, 
                 at.centre,
                 at.slip,
                 at.normal.dot(omega),
+                presses && !planar_ ? patch_radius(rates, at.normal, at.centre) : 0,
                 friction.moment - at.centre.cross(along(view, friction.force))};
 }
 
 AlongGround ContactSystem::sticking_force(const ContactState& y) {
   ContactState rate;
   ContactDiagnosis diagnosis;
-  evaluate(y, {.kind = FrictionPhase::Kind::stick, .direction = {}}, rate, &diagnosis, nullptr);
+  evaluate(y, {.kind = FrictionPhase::Kind::stick, .direction = {}, .point = phase_.point}, rate, &diagnosis, nullptr);
   return diagnosis.hold;
 }
 
@@ -317,7 +343,7 @@ ContactSystem::Friction ContactSystem::friction(const Instant& at) {
                   .digits = at.phase.digits,
                   .centre = at.centre,
                   .spin = at.normal.dot(at.view.angular_velocity)};
-  const AlongGround slip = leaning_slip(at.slip, at.phase);
+  const AlongGround slip = at.phase.slow > 0 ? leaning_slip(at.slip, at.phase) : at.slip;
   field.east = slip.east;
   field.north = slip.north;
   return over_patch(at, field);
@@ -327,13 +353,29 @@ ContactSystem::Friction ContactSystem::at_centre(const Instant& at, const AlongG
   return {force, at.centre.cross(along(at.view, force)), -force.dot(at.slip), {}};
 }
 
-/// A point at rest takes no work: where a remaining slip would give some back, none is booked.
-ContactSystem::Friction ContactSystem::in_stick(const Instant& at) const {
-  const AlongGround hold = stick(at);
-  const double bound = stick_coefficient(at.phase) * at.load.force;
-  Friction friction = at_centre(at, bounded(hold, bound));
-  friction.power = std::max(friction.power, 0.0);
-  friction.hold = bounded(hold, 2 * bound);
+/// Friction's couple about the pressure centre of the patch that only turns, for μ = 1.
+double ContactSystem::turning_couple(const Instant& at) {
+  const SlipField field{.kind = SlipField::Kind::turning, .digits = at.phase.digits, .centre = at.centre, .spin = 1};
+  const SlipLoad load = loader_.slip_load(at.view, field);
+  return -at.normal.dot(load.moment - at.centre.cross(along(at.view, {load.east, load.north})));
+}
+
+/// A patch at rest takes no work: where a remaining slip would give some back, none is booked.
+ContactSystem::Friction ContactSystem::in_stick(const Instant& at) {
+  const Hold hold = stick(at);
+  const double mu = stick_coefficient(at.phase), bound = mu * at.load.force;
+  double couple = 0;
+  if (hold.couple != 0) {
+    const double over = 1 / bound;
+    couple = hold.couple * part_within(hold.force * over, hold.force_by_couple * (hold.couple * over),
+                                       hold.couple / (mu * turning_couple(at)));
+  }
+  const AlongGround by_couple = hold.force_by_couple * couple;
+  const AlongGround force{hold.force.east + by_couple.east, hold.force.north + by_couple.north};
+  Friction friction = at_centre(at, bounded(force, bound));
+  friction.moment += couple * at.normal;
+  friction.power = std::max(friction.power - couple * at.normal.dot(at.view.angular_velocity), 0.0);
+  friction.hold = bounded(force, 2 * bound);
   return friction;
 }
 
@@ -353,21 +395,23 @@ ContactSystem::Friction ContactSystem::over_patch(const Instant& at, const SlipF
   return friction;
 }
 
-/// F_n times the condition of stick is linear in F_t:
-///     F_n [F_t/m + α(F_t) × c]_t + [ω × F_n ċ(F_t)]_t = −F_n [g + α₀ × c + ω × (ω × c) + fading v]_t − [ω × F_n ċ₀]_t,
-/// α₀ and ċ₀ being those without friction.  Both sides vanish with F_n, so that neither is divided by F_n.
-AlongGround ContactSystem::stick(const Instant& at) const {
+/// F_n times the condition of stick is linear in F_t and C:
+///     F_n [F_t/m + α(F_t, C) × c]_t + [ω × F_n ċ(F_t, C)]_t = −F_n [g + α₀ × c + ω × (ω × c) + fading v]_t − [ω × F_n
+///     ċ₀]_t,   n·α(F_t, C) = −n·α₀ − fading ω_z,
+/// α₀ and ċ₀ being those without friction.  Both sides of the first vanish with F_n, so that neither is divided by F_n.
+ContactSystem::Hold ContactSystem::stick(const Instant& at) const {
   const GroundView& view = at.view;
   const Vector3& omega = view.angular_velocity;
   const double normal = at.load.force;
   const auto along_ground = [&](const Vector3& point, const AlongGround& rest) {
     return AlongGround{view.east.dot(point) + normal * rest.east, view.north.dot(point) + normal * rest.north};
   };
-  const auto per_force = [&](const AlongGround& unit) {
-    const Vector3 alpha = response(at.centre.cross(along(view, unit)));
+  const auto turned = [&](const Vector3& alpha, const AlongGround& rest) {
     const Vector3 wander = at.wander(at.response(ground_, alpha));
-    return along_ground(normal * alpha.cross(at.centre) + omega.cross(wander), unit * (1 / body_.mass()));
+    return along_ground(normal * alpha.cross(at.centre) + omega.cross(wander), rest);
   };
+  const auto turning_by = [&](const AlongGround& force) { return response(at.centre.cross(along(view, force))); };
+  const auto per_force = [&](const AlongGround& unit) { return turned(turning_by(unit), unit * (1 / body_.mass())); };
   const Vector3 alpha = angular_acceleration(at.moment, omega);
   const Vector3 wander = at.wander(at.changes(ground_, alpha));
   const Vector3 turning = alpha.cross(at.centre) + omega.cross(omega.cross(at.centre));
@@ -375,8 +419,16 @@ AlongGround ContactSystem::stick(const Instant& at) const {
       along_ground(normal * turning + omega.cross(wander),
                    {at.slip.east * at.phase.fading + gravity_.along, at.slip.north * at.phase.fading});
   const AlongGround by_east = per_force({1, 0});
-  if (planar_) return by_east.east != 0 ? AlongGround{-free.east / by_east.east, 0} : AlongGround{};
-  return solve(by_east, per_force({0, 1}), free * -1);
+  if (planar_) return {by_east.east != 0 ? AlongGround{-free.east / by_east.east, 0} : AlongGround{}, {}, 0};
+  const AlongGround by_north = per_force({0, 1});
+  Hold hold{solve(by_east, by_north, free * -1), {}, 0};
+  if (at.phase.point) return hold;
+  const Vector3 by_couple = response(at.normal);
+  hold.force_by_couple = solve(by_east, by_north, turned(by_couple, {}) * -1);
+  const double per_couple = at.normal.dot(by_couple + turning_by(hold.force_by_couple));
+  const double spinning = at.normal.dot(alpha + turning_by(hold.force)) + at.phase.fading * at.normal.dot(omega);
+  if (per_couple > 0) hold.couple = -spinning / per_couple;
+  return hold;
 }
 
 }  // namespace clatter::numeric::inline contact

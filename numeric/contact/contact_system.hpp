@@ -66,8 +66,9 @@ struct FrictionPhase {
   bool turns = false;     ///< local law: the points slip differently, so that none holds by static friction
   /// Slip slower than this has no direction but that above: rounding must not choose it [m/s].
   double slow = 0;
-  /// In stick a remaining slip of the pressure centre fades at this rate [1/s].
+  /// In stick a remaining slip of the pressure centre and a remaining spin fade at this rate [1/s].
   double fading = 0;
+  bool point = false;  ///< the patch counts as a point, whose friction has no couple
 };
 
 /// Numbers of an instant that events and records need.
@@ -80,6 +81,7 @@ struct ContactDiagnosis {
   Vector3 centre = Vector3::Zero();  ///< of pressure, body frame [m]
   AlongGround slip;                  ///< velocity of the body there, along the ground [m/s]
   double spin = 0;                   ///< angular velocity about the vertical [rad/s]
+  double patch_radius = 0;           ///< root mean square of the distance from the centre, weighted by depth [m]
   Vector3 couple = Vector3::Zero();  ///< moment of friction about the pressure centre, body frame [N·m]
 };
 
@@ -100,13 +102,18 @@ struct LocalFriction {
 ///     F_c = ∫f_c = F_n e_z + F_t                                      (Eq. 4)
 ///     M′  = ∫u × f_c = ∫f_n u × n′ + (friction's)                      (Eq. 7)
 /// Slip, Eq. 6: F_t = −μ_k F_n d at the pressure centre c, d the direction of the slip velocity there; if the body
-/// spins about the vertical, −μ_k ∫f_n v/|v| over the patch taken as flat, with its moment about the vertical.  (The
-/// slip of its points differs by the turning about the horizontal times their depth too: FrictionLaw::local.) Local
-/// slip: −μ_k ∫f_n v/|v|, v the velocity of each point, with its moment. Stick, Eq. 5: F_t at c such that
-///     d/dt v_t(c) = [V̇ + ω̇ × c + ω × (ω × c) + ω × ċ]_t = 0,   V̇_t = F_t/m + g_t,
+/// spins about the vertical, −μ_k ∫f_n v/|v| over the patch taken as flat, with its moment about the vertical: finite
+/// and continuous where the slip of c is zero.  (The slip of its points differs by the turning about the horizontal
+/// times their depth too: FrictionLaw::local.)  Local slip: −μ_k ∫f_n v/|v|, v the velocity of each point, with its
+/// moment.  Stick, Eq. 5, in which neither c slips nor the patch spins: F_t at c and a couple C about the vertical with
+///     d/dt v_t(c) = [V̇ + ω̇ × c + ω × (ω × c) + ω × ċ]_t = 0,   d/dt ω_z = 0,   V̇_t = F_t/m + g_t,
 /// ċ being the pressure centre's motion over the body, so that c stays at rest although it moves
-/// (or comes to rest, like exp(−fading × time), if it was caught with a little slip left).  |F_t| <= μ_s F_n: stick
-/// that asks for more gets the bound.
+/// (slip and spin that were left when it was caught come to rest, like exp(−fading × time)).  They are within
+///     (|F_t|/μ_s F_n)² + (C/C₀)² <= 1,   C₀ = μ_s ∫f_n |u − c|, that of the patch turning about c,              (1)
+/// which stands for the patch's limit surface.  A couple that asks for more gets what (1) leaves; a force F_t that by
+/// itself asks for more than μ_s F_n gets the bound.  The moment M along the vertical that friction of a patch cannot
+/// give lets it spin: stick is then over as soon as the spin counts (FrictionPhases).  In the plane, and of a patch
+/// that counts as a point, C is 0.
 class ContactSystem {
  public:
   ContactSystem(const Body& body, const Ground& ground, const Gravity& gravity, bool planar);
@@ -177,8 +184,10 @@ class ContactSystem {
   [[nodiscard]] Friction friction(const Instant& at);
   [[nodiscard]] Friction at_centre(const Instant& at, const AlongGround& force) const;
   [[nodiscard]] Friction over_patch(const Instant& at, const SlipField& field);
-  [[nodiscard]] Friction in_stick(const Instant& at) const;
-  [[nodiscard]] AlongGround stick(const Instant& at) const;
+  struct Hold;
+  [[nodiscard]] Friction in_stick(const Instant& at);
+  [[nodiscard]] Hold stick(const Instant& at) const;
+  [[nodiscard]] double turning_couple(const Instant& at);
 
   const Body& body_;
   const Ground& ground_;

@@ -16,10 +16,10 @@ enum class AreaMeasure {
 
 enum class FrictionLaw {
   /// Coulomb's law of a contact patch taken as flat: f_t = −μ_k f_n v/|v|, v the slip of the pressure centre plus the
-  /// spin about the vertical times the distance from it; stick is one unknown resultant at the pressure centre.  The
-  /// discrete model's law, whose contact is a point.  Leaves out the slip of the points from the turning about the
-  /// horizontal times their depth; cannot represent the moment that resists spinning while the pressure centre sticks,
-  /// nor areas that slip while others stick.
+  /// spin about the vertical times the distance from it; a patch that spins slips, even where its pressure centre
+  /// rests.  Stick is one unknown resultant at the pressure centre and one couple about the vertical.  The discrete
+  /// model's law, whose contact is a point or an evenly pressed face.  Leaves out the slip of the points from the turning
+  /// about the horizontal times their depth; cannot represent areas that slip while others stick.
   coulomb,
   /// f_t = −μ_k f_n v / √(v² + v_r²) everywhere.  Represents spin; cannot represent stick: a body on a slope or under
   /// a sustained tangential load creeps, at a speed of up to about v_r.

@@ -83,11 +83,10 @@ bool is_steady(const ContactSystem& system, const ContactInstant& at, double kep
          radius * angular_velocity(at.rate).norm() <= part * g;
 }
 
-/// Sliding without friction or down a slope, or spinning about a pressure centre that sticks, which this law does not
-/// resist.
+/// Sliding without friction or down a slope, or spinning about the pressure centre of a patch that counts as a point.
 bool goes_on_for_ever(const ContactSystem& system, const ContactInstant& at) {
   return slides_down(system, at) || system.ground().sliding_friction == 0 ||
-         system.phase().kind == FrictionPhase::Kind::stick;
+         (system.phase().kind == FrictionPhase::Kind::stick && system.phase().point);
 }
 
 /// At rest, or in a steady motion that no friction will ever stop; nothing where the contact goes on.  A motion is

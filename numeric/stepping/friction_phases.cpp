@@ -64,7 +64,7 @@ constexpr double digits_beyond_tolerance = 3;  ///< of friction over a patch: st
 constexpr double least_spin = 1;               ///< times tolerance and the contact's speed: slip from spin that counts
 constexpr double fading_per_contact = 50;      ///< rate at which stick ends a remaining slip, times the contact time
 constexpr double faint_part = 1e-9;            ///< of the contact's mean force: below it friction switches no more
-constexpr double stopped_part_of_spin = 1e-4;  ///< of the fastest slip from spin: a slower patch counts as stopped
+constexpr double slip_per_spin = 3;            ///< slip over slip from spin, below which both can end
 constexpr double slip_resolution = 100;        ///< times tolerance and the contact's speed: a range of slip that counts
 constexpr double least_resolution = 1e-9;      ///< of that speed
 constexpr double turning_resolution = 1e-13;   ///< of that speed: a range above it comes from turning, not rounding
@@ -102,13 +102,14 @@ void FrictionPhases::begin(const MotionState& touch, const Vector3& point, const
 void FrictionPhases::start(Kind kind, const AlongGround& direction, const ContactInstant& now) {
   assert(kind != Kind::slip || std::fabs(direction.norm() - 1) <= direction_rounding);
   log_.open(sums(now));
-  stopping_speed_ = 0;
   FrictionPhase phase{.kind = kind,
                       .direction = direction,
                       .digits = std::clamp(digits_beyond_tolerance - std::log10(settings_.tolerance), 9.0, 15.0),
                       .slow = slow_slip(),
-                      .fading = fading_per_contact / scales_.time};
+                      .fading = fading_per_contact / scales_.time,
+                      .point = !spin_counts()};
   if (kind == Kind::slip && !system_.planar()) note_variation(phase, now);
+  has_slipped_ = false;
   system_.set_phase(phase);
 }
 
@@ -116,15 +117,22 @@ double FrictionPhases::slow_slip() const {
   return (from_rest_ ? slow_part_at_onset : slow_part) * std::sqrt(settings_.tolerance) * scales_.speed;
 }
 
-/// Whether the patch spins noticeably; returns how fast its farthest point might.  The faster, the less slip needs a
-/// direction from the phase: over the patch it has all of them, and a lean would count as slip.  A lean that ended at
-/// once would switch on and off where friction brings the spin back to that speed.
-double FrictionPhases::note_variation(FrictionPhase& phase, const ContactInstant& now) const {
-  if (settings_.point_friction) return 0;
+/// Slip of the patch from spin that is slower can stick [m/s].  Within fewer steps of fixed length friction would
+/// overshoot.
+double FrictionPhases::slow_spin() const {
+  const double by_steps = steps_of_range * system_.ground().sliding_friction * settings_.fixed_step / scales_.time;
+  const bool sticks = system_.phase().kind == Kind::stick;
+  return (sticks ? slow_part * std::sqrt(settings_.tolerance) * scales_.speed : slow_slip()) + by_steps * scales_.speed;
+}
+
+/// Whether the patch spins noticeably.  The faster its farthest point might, the less slip needs a direction from the
+/// phase: over the patch it has all of them, and a lean would count as slip.  A lean that ended at once would switch on
+/// and off where friction brings the spin back to that speed.
+void FrictionPhases::note_variation(FrictionPhase& phase, const ContactInstant& now) const {
+  if (!spin_counts()) return;
   const double spin_speed = std::fabs(system_.vertical_spin(now.state)) * system_.body().radius();
   phase.varies = spin_speed > least_spin * settings_.tolerance * scales_.speed;
   phase.slow = std::max(slow_slip() - spin_speed, 0.0);
-  return spin_speed;
 }
 
 FrictionLog::Sums FrictionPhases::sums(const ContactInstant& now) const {
@@ -138,13 +146,23 @@ bool FrictionPhases::can_end() const {
 }
 
 double FrictionPhases::slip_forward(const ContactInstant& at) const {
-  if (!(at.diagnosis.load.force > 0)) return scales_.speed;
-  return at.diagnosis.slip.dot(system_.phase().direction) - stopping_speed_;
+  const ContactDiagnosis& now = at.diagnosis;
+  const FrictionPhase& phase = system_.phase();
+  if (!(now.load.force > 0) || (!has_slipped_ && phase.varies && phase.slow == 0)) return scales_.speed;
+  const double forward = now.slip.dot(phase.direction), spinning = spin_speed(now);
+  return has_slipped_ ? std::max(forward - slip_per_spin * spinning, spinning - slow_spin()) : forward;
+}
+
+/// Slip of the patch from its spin [m/s].
+double FrictionPhases::spin_speed(const ContactDiagnosis& now) const {
+  return spin_counts() ? std::fabs(now.spin) * now.patch_radius : 0;
 }
 
 double FrictionPhases::stick_reserve(const ContactInstant& at) const {
   const double force = at.diagnosis.load.force;
-  return force > 0 ? system_.stick_coefficient() * force - at.diagnosis.hold.norm() : 0;
+  if (!(force > 0)) return 0;
+  const double bound = system_.stick_coefficient() * force;
+  return std::min(bound - at.diagnosis.hold.norm(), bound * (1 - spin_speed(at.diagnosis) / (2 * slow_spin())));
 }
 
 double FrictionPhases::reserve(const ContactInstant& at) const {
@@ -169,7 +187,9 @@ void FrictionPhases::change(const ContactInstant& at, ContactInstant& now) {
   if (can_hold) {
     start(Kind::stick, {}, now);
   } else {
-    start(Kind::slip, hold.norm() > 0 ? direction_of(hold, -1) : system_.phase().direction, now);
+    const AlongGround& last = system_.phase().direction;
+    const AlongGround any{1, 0};  // a patch that spins without slip
+    start(Kind::slip, hold.norm() > 0 ? direction_of(hold, -1) : last.norm() > 0 ? last : any, now);
   }
   now.diagnosis = system_.diagnose(now.state, now.rate);
 }
@@ -178,16 +198,13 @@ void FrictionPhases::follow(const ContactInstant& now) {
   FrictionPhase phase = system_.phase();
   if (phase.kind != Kind::slip || system_.planar()) return;
   const AlongGround& slip = now.diagnosis.slip;
-  const double speed = slip.norm();
   // Slip that has hardly begun keeps the direction in which it was let go.
   const AlongGround leaning{slip.east + phase.slow * phase.direction.east,
                             slip.north + phase.slow * phase.direction.north};
-  const double size = leaning.norm();
-  if (now.diagnosis.load.force > 0 && size > 0) phase.direction = leaning * (1 / size);
-  const double spin_speed = note_variation(phase, now);
-  // Spin keeps the friction of a slow patch from stopping it in a finite time: it counts as stopped before.
-  const double stopped = stopped_part_of_spin * spin_speed;
-  stopping_speed_ = phase.varies && speed > 2 * stopped ? stopped : 0;
+  if (now.diagnosis.load.force > 0 && leaning.norm() > 0) phase.direction = direction_of(leaning, 1);
+  note_variation(phase, now);
+  const double spinning = spin_speed(now.diagnosis);
+  has_slipped_ = has_slipped_ || slip.norm() > slip_per_spin * spinning || spinning > slow_spin();
   system_.set_phase(phase);
 }
 

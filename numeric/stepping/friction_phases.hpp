@@ -44,9 +44,15 @@ class FrictionLog {
 /// With Coulomb's law one of two laws holds for the resultant F_t at the pressure centre, whose slip is v:
 ///     stick   |F_t| <= μ_s F_n,   F_t such that v = 0                    (Eq. 5)
 ///     slip    F_t = −μ_k F_n d,   d the direction of v                   (Eq. 6)
-/// A phase is over where its reserve falls to 0: μ_s F_n − |F_t| in stick, v·d less a stopping speed in slip.  Stick
-/// that gives way slips against the force that would have held; slip that ends sticks if Eq. 5 then holds, and else
-/// slips against that force too.  Without friction, or with the regularised law, one phase lasts throughout.
+/// A phase is over where its reserve falls to 0: μ_s F_n − |F_t| in stick, v·d in slip.  Stick that gives way slips
+/// against the force that would have held; slip that ends sticks if Eq. 5 then holds, and else slips against that force
+/// too.  Without friction, or with the regularised law, one phase lasts throughout.
+///
+/// A patch that spins cannot stick as a whole: with w = |ω_z| times the patch's radius (ContactDiagnosis::patch_radius)
+/// above the speed w₀ up to which slip is slow (0.1 √tolerance of the contact's, a tenth of that in slip that began at
+/// the touch) it slips, even where its centre rests, with the force and the couple of its points' slip.  Once v·d or w
+/// has exceeded 3 w or w₀, slip is over where w <= w₀ and v·d <= 3 w; a stuck patch slips again where w exceeds 2 w₀.
+/// What is neglected below is the slip of the centre that spin would cause, at most about w.
 class FrictionPhases {
  public:
   struct Settings {
@@ -88,15 +94,18 @@ class FrictionPhases {
   void change_kind(const FrictionPhase& from, FrictionPhase::Kind kind, const AlongGround& direction,
                    ContactInstant& now);
   [[nodiscard]] double slow_slip() const;
-  double note_variation(FrictionPhase& phase, const ContactInstant& now) const;
+  [[nodiscard]] bool spin_counts() const { return !settings_.point_friction && !system_.planar(); }
+  [[nodiscard]] double slow_spin() const;
+  void note_variation(FrictionPhase& phase, const ContactInstant& now) const;
+  [[nodiscard]] double spin_speed(const ContactDiagnosis& now) const;
   [[nodiscard]] FrictionLog::Sums sums(const ContactInstant& now) const;
 
   ContactSystem& system_;
   Settings settings_;
   ContactScales scales_;
   FrictionLog log_;
-  bool from_rest_ = false;     ///< whether the contact began without slip and has not stuck since
-  double stopping_speed_ = 0;  ///< slip at which the slip phase ends [m/s]
+  bool from_rest_ = false;    ///< whether the contact began without slip and has not stuck since
+  bool has_slipped_ = false;  ///< whether a slip phase with spin has come to where it can end
 };
 
 }  // namespace clatter::numeric::inline stepping

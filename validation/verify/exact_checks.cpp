@@ -310,6 +310,36 @@ Measured plastic_level_landing(CaseRuns&) {
   return {sum, worst.value(), Answer::holds, "four bars of 1 kg and 0.2 m, five impacts of each and their sum"};
 }
 
+/// What is left of 10 rad/s of a plate that lands level: −μ P_n c̄ of I, c̄ = r/3 + p²/(6 q) asinh(q/p) + q²/(6 p)
+/// asinh(p/q) the mean distance of a rectangle 2 p × 2 q from its middle, r = √(p² + q²).
+Measured spinning_face(CaseRuns&) {
+  constexpr double p = 0.1, q = 0.05, mass = 1, friction = 0.3, spin = 10, speed = 1;
+  const double arm = std::hypot(p, q) / 3 + p * p / (6 * q) * std::asinh(q / p) + q * q / (6 * p) * std::asinh(p / q);
+  const double exact = spin - friction * 2 * mass * speed * arm / (mass * (p * p + q * q) / 3);
+  const numeric::Body body(numeric::box_mesh({.size = {2 * p, 2 * q, 0.05}, .mass = mass}));
+  WorstError worst;
+  double found = 0;
+  for (const numeric::FrictionLaw law : {numeric::FrictionLaw::local, numeric::FrictionLaw::coulomb}) {
+    for (const double slip : {1e-9, 0.0}) {
+      const numeric::World world{.ground = {.stiffness = 1e8,
+                                            .static_friction = friction,
+                                            .sliding_friction = friction,
+                                            .area = numeric::AreaMeasure::projected,
+                                            .friction = law},
+                                 .gravity = 0};
+      numeric::MotionState start = numeric::touching_state(body, {.inclination = 0, .velocity = {slip, 0, -speed}});
+      start.angular_velocity = {0, 0, spin};
+      const numeric::Request one_impact{.impacts = 1, .error_estimates = false, .amplification = false};
+      found = numeric::simulate(body, world, start, one_impact, {.digits = 8})
+                  .impacts.at(0)
+                  .value.angular_velocity_after.z();
+      worst.take(relative(found, exact));
+    }
+  }
+  return {found, worst.value(), Answer::holds,
+          "each place's own slip, and the patch as a whole; with 1 nm/s of slip and without"};
+}
+
 }  // namespace
 
 Measures exact_measures() {
@@ -330,6 +360,7 @@ Measures exact_measures() {
           {"X15", impulses_close_to_flat},
           {"X16", hardest_blow_of_the_phone},
           {"X23", plastic_level_landing},
+          {"X24", spinning_face},
           {"X17", endless_strikes}};
 }
 
