@@ -6,6 +6,10 @@
 #include "validation/cli/command.hpp"
 #include "validation/cli/options.hpp"
 #include "validation/output/bad_input.hpp"
+#include "validation/output/colours.hpp"
+#include "validation/output/number.hpp"
+#include "validation/output/sink.hpp"
+#include "validation/output/symbols.hpp"
 #include "validation/plan/sequence_method.hpp"
 #include "validation/reports/sequence_picture.hpp"
 #include "validation/reports/sequence_report.hpp"
@@ -37,6 +41,20 @@ Picture picture_of(const PreparedScene& prepared, const DiscreteRun& found, cons
   return picture;
 }
 
+/// As write_report() writes a sequence's report, but row by row: a terminal's colours alone need the whole text.
+void write_rows_of(const PreparedScene& prepared, const DiscreteRun& found, const analytic::space::TiltEffort& tilts,
+                   const OutputChoice& choice) {
+  const bool is_table = choice.style.format == Format::table;
+  if (is_table && choice.path.empty() && shows_colours())
+    return write_report(choice, sequence_report(prepared, found, tilts));
+  Sink sink(choice.path);
+  write_sequence(prepared, found, tilts, choice.style, [&](std::string_view text) {
+    const std::string clean = printable(std::string(text), Lines::kept);
+    sink.write(is_table && choice.style.ascii ? to_ascii(clean) : clean);
+  });
+  sink.commit();
+}
+
 int run_sequence(const SequenceInput& input) {
   const PreparedScene prepared = read_discrete_flags(input.scene);
   const OutputChoice choice = read_output(input.output);
@@ -54,7 +72,7 @@ int run_sequence(const SequenceInput& input) {
   // A table's one line on small tilts does not wait for edges that rattle on; JSON lists every outcome.
   analytic::space::TiltEffort tilts;
   if (choice.style.format != Format::json) tilts.rubs = 20;
-  write_report(choice, sequence_report(prepared, found, tilts));
+  write_rows_of(prepared, found, tilts, choice);
   if (picture) {
     plot.write(*picture, run_words("sequence", "impact sequence, discrete model", prepared.scene, Model::discrete));
   }

@@ -5,6 +5,9 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <stdexcept>
+
+#include "validation/output/long_report.hpp"
 
 namespace clatter::validation::inline output {
 namespace {
@@ -37,7 +40,8 @@ bool is_structured(const Value& value) {
 /// Writes values; `indented` over several lines.
 class Writer {
  public:
-  explicit Writer(bool indented) : indented_(indented) {}
+  /// @param depth  of what is open already
+  explicit Writer(bool indented, std::size_t depth = 0) : indented_(indented), depth_(depth) {}
 
   void write(const Value& value) {
     if (const auto* list = std::get_if<List>(&value.content())) return write_list(*list);
@@ -46,10 +50,9 @@ class Writer {
     else out_ += value.is_nothing() ? "null" : value.text();
   }
   [[nodiscard]] const std::string& text() const { return out_; }
-
- private:
   void begin_line() { out_.append(1, '\n').append(2 * depth_, ' '); }
 
+ private:
   void write_list(const List& list) {
     if (list.empty()) {
       out_ += "[]";
@@ -89,7 +92,7 @@ class Writer {
   }
 
   bool indented_;
-  std::size_t depth_ = 0;  // of what is open
+  std::size_t depth_;  // of what is open
   std::string out_;
 };
 
@@ -105,6 +108,23 @@ std::string compact_json(const Value& value) {
   Writer writer(false);
   writer.write(value);
   return writer.text();
+}
+
+void write_json(const Value& fields, const std::string& list, std::size_t count,
+                const std::function<Value(std::size_t)>& item, const WriteText& write) {
+  const Value* const place = fields.find(list);
+  if (place == nullptr || !std::holds_alternative<List>(place->content()))
+    throw std::invalid_argument("write_json: no list " + list);
+  const std::string whole = json_text(fields), opened = "\n  " + quoted(list) + ": [";
+  const std::size_t cut = whole.find(opened) + opened.size();  // a line of that depth begins nothing but a field
+  write(std::string_view(whole).substr(0, cut));
+  for (std::size_t i = 0; i < count; ++i) {
+    Writer writer(true, 2);
+    writer.begin_line();
+    writer.write(item(i));
+    write((i > 0 ? "," : "") + writer.text());
+  }
+  write((count > 0 ? "\n  " : "") + whole.substr(cut));
 }
 
 }  // namespace clatter::validation::inline output

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "validation/output/json.hpp"
+#include "validation/output/long_report.hpp"
 #include "validation/output/number.hpp"
 #include "validation/output/symbols.hpp"
 #include "validation/output/version.hpp"
@@ -20,11 +21,14 @@ constexpr std::size_t table_width = 80;   // of a terminal
 constexpr std::size_t gap = 2;            // before each column
 constexpr std::size_t least_folded = 20;  // narrower texts are not folded
 
-/// A shown column: its texts, and how wide they stand.
+/// Makes a text printable in the form that is written.
+using Written = std::function<std::string(const std::string&)>;
+
+/// A shown column: which of the grid's it is, and how wide its texts stand.
 struct TableColumn {
+  std::size_t place = 0;
   std::string heading, unit;
   bool words = false;
-  std::vector<std::string> cells;
   std::size_t width = 0;
 
   [[nodiscard]] std::size_t least_width() const {
@@ -33,18 +37,22 @@ struct TableColumn {
 };
 using TableColumns = std::vector<TableColumn>;
 
-TableColumns table_columns(const Grid& grid) {
+std::string cell_text(const Row& row, std::size_t place, const Written& written) {
+  return place < row.size() ? written(shown_text(row[place])) : "";
+}
+
+TableColumns table_columns(const Grid& grid, const RowSource& rows, const Written& written) {
   TableColumns columns;
   for (std::size_t i = 0; i < grid.columns.size(); ++i) {
     const Column& column = grid.columns[i];
     if (!column.shown) continue;
-    TableColumn shown{column.heading, column.unit, column.words, {}};
-    shown.width = std::max(display_width(shown.heading), display_width(shown.unit));
-    for (const Row& row : grid.rows) {
-      shown.cells.push_back(i < row.size() ? shown_text(row[i]) : "");
-      shown.width = std::max(shown.width, display_width(shown.cells.back()));
-    }
-    columns.push_back(std::move(shown));
+    columns.push_back({i, column.heading, column.unit, column.words,
+                       std::max(display_width(column.heading), display_width(column.unit))});
+  }
+  for (std::size_t r = 0; r < rows.count; ++r) {
+    const Row& row = rows.row(r);
+    for (TableColumn& column : columns)
+      column.width = std::max(column.width, display_width(cell_text(row, column.place, written)));
   }
   return columns;
 }
@@ -150,7 +158,7 @@ std::string row_text(const TableColumns& columns, const std::vector<std::string>
   return out;
 }
 
-std::string block_text(const TableColumns& columns, std::size_t rows) {
+void write_block(const TableColumns& columns, const RowSource& rows, const Written& written, const WriteText& write) {
   std::vector<std::string> headings, units;
   for (const TableColumn& column : columns) {
     headings.push_back(column.heading);
@@ -159,30 +167,30 @@ std::string block_text(const TableColumns& columns, std::size_t rows) {
   const bool has_units = std::ranges::any_of(units, [](const std::string& unit) { return !unit.empty(); });
   std::string out = row_text(columns, headings) + (has_units ? row_text(columns, units) : "") + std::string(gap, ' ');
   for (std::size_t i = gap; i < total_width(columns); ++i) out += "─";
-  out += "\n";
-  for (std::size_t row = 0; row < rows; ++row) {
+  write(out + "\n");
+  for (std::size_t r = 0; r < rows.count; ++r) {
+    const Row& row = rows.row(r);
     std::vector<std::string> cells;
-    for (const TableColumn& column : columns) cells.push_back(column.cells[row]);
-    out += row_text(columns, cells);
+    for (const TableColumn& column : columns) cells.push_back(cell_text(row, column.place, written));
+    write(row_text(columns, cells));
   }
-  return out;
 }
 
 /// Heading, unit, a rule, and a line for each row.  Where that is wider than `table_width`, texts are folded at blanks;
 /// if columns still do not fit beside each other, the rest of them follow in further blocks, each of which begins with
 /// the grid's leading columns again.
-std::string aligned_grid(const Grid& grid) {
-  TableColumns columns = table_columns(grid);
+void write_aligned_grid(const Grid& grid, const RowSource& rows, const Written& written, const WriteText& write) {
+  const TableColumns whole = table_columns(grid, rows, written);
+  TableColumns columns = whole;
   fold_words(columns);
-  if (total_width(columns) <= table_width) return block_text(columns, grid.rows.size());
-  std::string out;
-  for (const TableColumns& block : blocks_of(table_columns(grid), grid.leading)) {
-    out += (out.empty() ? "" : "\n") + block_text(block, grid.rows.size());
+  if (total_width(columns) <= table_width) return write_block(columns, rows, written, write);
+  bool is_first = true;
+  for (const TableColumns& block : blocks_of(whole, grid.leading)) {
+    if (!is_first) write("\n");
+    is_first = false;
+    write_block(block, rows, written, write);
   }
-  return out;
 }
-
-using Texts = std::vector<std::vector<std::string>>;
 
 std::vector<std::size_t> shown_columns(const Grid& grid) {
   std::vector<std::size_t> shown;
@@ -192,43 +200,27 @@ std::vector<std::size_t> shown_columns(const Grid& grid) {
   return shown;
 }
 
-/// Heading, unit and cell texts of the shown columns.
-Texts shown_texts(const Grid& grid, const std::vector<std::size_t>& shown) {
-  Texts texts(2);
-  for (const std::size_t i : shown) {
-    texts[0].push_back(grid.columns[i].heading);
-    texts[1].push_back(grid.columns[i].unit);
-  }
-  for (const Row& row : grid.rows) {
-    auto& line = texts.emplace_back();
-    for (const std::size_t i : shown) line.push_back(i < row.size() ? shown_text(row[i]) : "");
-  }
-  return texts;
-}
-
 std::vector<std::string> head_lines(const Report& report) {
   std::vector<std::string> lines{report.title};
   lines.insert(lines.end(), report.head.begin(), report.head.end());
   return lines;
 }
 
-std::string aligned(const Report& report) {
-  std::string out;
-  for (const auto& line : head_lines(report)) out += wrapped(line) + "\n";
-  out += aligned_grid(report.table());
-  for (const auto& line : report.notes) out += wrapped(line) + "\n";
+void write_aligned(const Report& report, const RowSource& rows, const Written& written, const WriteText& write) {
+  for (const auto& line : head_lines(report)) write(wrapped(line) + "\n");
+  write_aligned_grid(report.grid, rows, written, write);
+  for (const auto& line : report.notes) write(wrapped(line) + "\n");
   for (const auto& [what, command] : report.commands)
-    out += what + ":\n  " + folded_command(command, "    ", 77) + "\n";
-  return out;
+    write(what + ":\n  " + folded_command(command, "    ", 77) + "\n");
 }
 
-/// What stands in a table of the report, each text as `written` makes it.
-Report shown_report(const Report& report, const std::function<std::string(const std::string&)>& written) {
+/// What stands about the rows of a table of the report, each text as `written` makes it.
+Report shown_report(const Report& report, const Written& written) {
   Report shown;
   shown.title = written(report.title);
   shown.head = report.head;
   shown.notes = report.notes;
-  shown.grid = report.table();
+  shown.grid = {report.table().columns, {}, report.table().leading};
   shown.commands = report.commands;
   for (auto* lines : {&shown.head, &shown.notes}) {
     for (auto& line : *lines) line = written(line);
@@ -237,9 +229,6 @@ Report shown_report(const Report& report, const std::function<std::string(const 
   for (Column& column : shown.grid.columns) {
     column.heading = written(column.heading);
     column.unit = written(column.unit);
-  }
-  for (Row& row : shown.grid.rows) {
-    for (Cell& cell : row) cell.shown = written(shown_text(cell));
   }
   return shown;
 }
@@ -253,24 +242,24 @@ std::string markdown_lines(const std::vector<std::string>& lines) {
   return out;
 }
 
-std::string markdown(const Report& report) {
-  const Grid& grid = report.table();
+void write_markdown(const Report& report, const RowSource& rows, const Written& written, const WriteText& write) {
+  const Grid& grid = report.grid;
   const std::vector<std::size_t> columns = shown_columns(grid);
-  const Texts texts = shown_texts(grid, columns);
   std::string out = markdown_lines(head_lines(report)) + "\n|";
-  for (std::size_t i = 0; i < texts[0].size(); ++i) {
-    out += " " + texts[0][i] + (texts[1][i].empty() ? "" : " [" + texts[1][i] + "]") + " |";
+  for (const std::size_t i : columns) {
+    const Column& column = grid.columns[i];
+    out += " " + column.heading + (column.unit.empty() ? "" : " [" + column.unit + "]") + " |";
   }
   out += "\n|";
   for (const std::size_t column : columns) out += grid.columns[column].words ? ":---|" : "---:|";
-  out += "\n";
-  for (std::size_t row = 2; row < texts.size(); ++row) {
-    out += "|";
-    for (const auto& cell : texts[row]) out += " " + cell + " |";
-    out += "\n";
+  write(out + "\n");
+  for (std::size_t r = 0; r < rows.count; ++r) {
+    const Row& row = rows.row(r);
+    std::string line = "|";
+    for (const std::size_t i : columns) line += " " + cell_text(row, i, written) + " |";
+    write(line + "\n");
   }
-  out += "\n";
-  return out + markdown_lines(notes_and_commands(report));
+  write("\n" + markdown_lines(notes_and_commands(report)));
 }
 
 /// A number below zero begins with a minus sign, not with a hyphen.
@@ -279,21 +268,27 @@ std::string latex_cell(const std::string& text) {
   return is_negative ? "$-$" + to_latex(text.substr(1)) : to_latex(text);
 }
 
-std::string latex(const Report& report) {
-  const Grid& grid = report.table();
-  const Texts texts = shown_texts(grid, shown_columns(grid));
+void write_latex(const Report& report, const RowSource& rows, const Written& written, const WriteText& write) {
+  const Grid& grid = report.grid;
+  const std::vector<std::size_t> columns = shown_columns(grid);
+  const auto line_of = [&](const std::function<std::string(std::size_t)>& text) {
+    std::string line;
+    for (const std::size_t i : columns)
+      line += (line.empty() && i == columns.front() ? "" : " & ") + latex_cell(text(i));
+    return line + " \\\\\n";
+  };
   std::string out;
   for (const auto& line : head_lines(report)) out += "% " + line + "\n";
   out += "\\begin{tabular}{";
-  for (const std::size_t column : shown_columns(grid)) out += grid.columns[column].words ? 'l' : 'r';
-  out += "}\n\\hline\n";
-  for (std::size_t row = 0; row < texts.size(); ++row) {
-    for (std::size_t i = 0; i < texts[row].size(); ++i) out += (i ? " & " : "") + latex_cell(texts[row][i]);
-    out += row == 1 ? " \\\\\n\\hline\n" : " \\\\\n";
+  for (const std::size_t column : columns) out += grid.columns[column].words ? 'l' : 'r';
+  out += "}\n\\hline\n" + line_of([&](std::size_t i) { return grid.columns[i].heading; });
+  write(out + line_of([&](std::size_t i) { return grid.columns[i].unit; }) + "\\hline\n");
+  for (std::size_t r = 0; r < rows.count; ++r) {
+    const Row& row = rows.row(r);
+    write(line_of([&](std::size_t i) { return cell_text(row, i, written); }));
   }
-  out += "\\hline\n\\end{tabular}\n";
-  for (const auto& line : notes_and_commands(report)) out += "% " + line + "\n";
-  return out;
+  write("\\hline\n\\end{tabular}\n");
+  for (const auto& line : notes_and_commands(report)) write("% " + line + "\n");
 }
 
 /// "NAME [UNIT]: MEANING".
@@ -318,6 +313,18 @@ std::string units_line(const std::vector<Column>& columns) {
   std::string line;
   for (std::size_t i = 0; i < units.size(); ++i) line += (i == 0 ? "units: " : "; ") + names[i] + " [" + units[i] + "]";
   return line;
+}
+
+std::string csv_row(const Row& row) {
+  std::string out;
+  for (std::size_t i = 0; i < row.size(); ++i) {
+    const auto* text = std::get_if<std::string>(&row[i].value.content());
+    if (i > 0) out += ',';
+    if (text) out += csv_text(*text);
+    else if (const double* number = row[i].value.number()) append_number(out, *number);
+    else out += row[i].value.text();
+  }
+  return out + '\n';
 }
 
 }  // namespace
@@ -445,16 +452,7 @@ std::string csv_head(const Report& report, bool bare) {
 
 std::string csv_rows(const std::vector<Row>& rows) {
   std::string out;
-  for (const Row& row : rows) {
-    for (std::size_t i = 0; i < row.size(); ++i) {
-      const auto* text = std::get_if<std::string>(&row[i].value.content());
-      if (i > 0) out += ',';
-      if (text) out += csv_text(*text);
-      else if (const double* number = row[i].value.number()) append_number(out, *number);
-      else out += row[i].value.text();
-    }
-    out += '\n';
-  }
+  for (const Row& row : rows) out += csv_row(row);
   return out;
 }
 
@@ -477,19 +475,34 @@ Value row_objects(const Grid& grid) {
   return rows;
 }
 
-std::string report_text(const Report& report, const TextStyle& style) {
-  if (style.format == Format::json) return json_text(report.fields);
-  if (style.format == Format::csv) return csv_text(report, style.bare);
+void write_rows(const Report& report, const RowSource& rows, const TextStyle& style, const WriteText& write) {
+  if (style.format == Format::csv) {
+    write(csv_head(report, style.bare));
+    for (std::size_t r = 0; r < rows.count; ++r) write(csv_row(rows.row(r)));
+    return;
+  }
   const bool ascii = style.ascii && style.format == Format::table;
-  const Report shown = shown_report(report, [&](const std::string& text) {
+  const Written written = [&](const std::string& text) {
     const std::string clean = printable(text);
     return ascii ? to_ascii(clean) : clean;
-  });
+  };
+  const Report shown = shown_report(report, written);
   switch (style.format) {
-    case Format::markdown: return markdown(shown);
-    case Format::latex: return latex(shown);
-    default: return ascii ? to_ascii(aligned(shown)) : aligned(shown);
+    case Format::markdown: return write_markdown(shown, rows, written, write);
+    case Format::latex: return write_latex(shown, rows, written, write);
+    default: break;
   }
+  write_aligned(shown, rows, written,
+                [&](std::string_view text) { write(ascii ? to_ascii(std::string(text)) : text); });
+}
+
+std::string report_text(const Report& report, const TextStyle& style) {
+  if (style.format == Format::json) return json_text(report.fields);
+  const std::vector<Row>& rows = style.format == Format::csv ? report.grid.rows : report.table().rows;
+  std::string text;
+  write_rows(report, {rows.size(), [&](std::size_t i) -> const Row& { return rows[i]; }}, style,
+             [&](std::string_view piece) { text += piece; });
+  return text;
 }
 
 }  // namespace clatter::validation::inline output

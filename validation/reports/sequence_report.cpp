@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
 #include <optional>
 #include <utility>
@@ -148,38 +149,34 @@ const char* convention_words(const space::GroupImpact& group) {
   return group.is_whole ? "the body rebounds as a whole" : "the ground pushes at the nearest place of the corners";
 }
 
-using OutcomeSets = std::vector<std::optional<space::OutcomeSet>>;
+using OutcomeSets = std::map<std::size_t, space::OutcomeSet>;
 
-/// What small tilts make of the rows in which several corners arrive together; nothing for the other rows.
+/// What small tilts make of the rows in which several corners arrive together, by the rows' places.
 OutcomeSets outcome_sets(const PreparedScene& prepared, const DiscreteRun& found, const space::TiltEffort& most) {
   OutcomeSets sets;
   const auto* const sequence = std::get_if<space::Sequence>(&found.sequence);
   if (sequence == nullptr) return sets;
   const auto& drop = std::get<space::Drop>(prepared.drop);
-  for (const space::ImpactRow& row : sequence->rows) {
-    auto& set = sets.emplace_back();
-    if (row.group && row.held == 0) set = tilted_outcomes(drop.body, row.before, row.corners, drop.law, most);
+  for (std::size_t i = 0; i < sequence->rows.size(); ++i) {
+    const space::ImpactRow& row = sequence->rows[i];
+    if (row.group && row.held == 0) sets[i] = tilted_outcomes(drop.body, row.before, row.corners, drop.law, most);
   }
   return sets;
 }
 
 /// The first rows in which several corners arrive together.
 void add_group_notes(const DiscreteRun& found, const OutcomeSets& sets, std::vector<std::string>& notes) {
-  const auto landings = std::ranges::count_if(sets, [](const auto& set) { return set.has_value(); });
-  std::ptrdiff_t told = 0;
-  for (std::size_t i = 0; i < sets.size(); ++i) {
-    if (!sets[i]) continue;
+  std::size_t told = 0;
+  for (const auto& [i, set] : sets) {
     if (++told > most_notes) {
-      notes.push_back(fmt::format("{} further landings like these are in JSON", landings - most_notes));
+      notes.push_back(fmt::format("{} further landings like these are in JSON", sets.size() - most_notes));
       return;
     }
     const space::ImpactRow& row = std::get<space::Sequence>(found.sequence).rows[i];
     const double speed = std::max(row.before.velocity.norm(), row.approach_speed);
     std::string words =
         fmt::format("impact {}: {}, {}", i + 1, landing_words(row.corners), convention_words(*row.group));
-    if (sets[i]->velocity_spread > 1e-6 * speed || !sets[i]->is_complete()) {
-      words += ", by convention; " + tilt_words(*sets[i]);
-    }
+    if (set.velocity_spread > 1e-6 * speed || !set.is_complete()) words += ", by convention; " + tilt_words(set);
     notes.push_back(words);
   }
 }
@@ -254,24 +251,19 @@ Value outcome_fields(const Scene& scene, const space::ImpactRow& row, const spac
                        {"order", order_value(scene, row, impact)}};
 }
 
-/// Adds to the impacts of several corners what small tilts make of them.
-void add_outcomes(const Scene& scene, const DiscreteRun& found, const OutcomeSets& sets, Value::List& impacts) {
-  for (std::size_t i = 0; i < sets.size(); ++i) {
-    if (!sets[i]) continue;
-    const space::OutcomeSet& set = *sets[i];
-    const space::ImpactRow& row = std::get<space::Sequence>(found.sequence).rows[i];
-    Value::List outcomes;
-    for (const space::TiltedOutcome& outcome : set.outcomes) outcomes.push_back(outcome_fields(scene, row, outcome));
-    impacts[i]["convention"] = convention_words(*row.group);
-    impacts[i]["convention_share"] = set.convention_share;
-    impacts[i]["outcomes"] = outcomes;
-    impacts[i]["outcomes_vary"] = set.varies;
-    impacts[i]["outcomes_complete"] = set.is_complete();
-    impacts[i]["outcomes_open_share"] = set.open_share;
-    impacts[i]["outcomes_range"] = Value::Fields{{"velocity_after", numbers_of(set.range.velocity)},
-                                                 {"angular_velocity_after", numbers_of(set.range.angular_velocity)},
-                                                 {"energy_loss", set.range.energy_loss}};
-  }
+/// Adds to the impact of several corners what small tilts make of it.
+void add_outcomes(const Scene& scene, const space::ImpactRow& row, const space::OutcomeSet& set, Value& impact) {
+  Value::List outcomes;
+  for (const space::TiltedOutcome& outcome : set.outcomes) outcomes.push_back(outcome_fields(scene, row, outcome));
+  impact["convention"] = convention_words(*row.group);
+  impact["convention_share"] = set.convention_share;
+  impact["outcomes"] = outcomes;
+  impact["outcomes_vary"] = set.varies;
+  impact["outcomes_complete"] = set.is_complete();
+  impact["outcomes_open_share"] = set.open_share;
+  impact["outcomes_range"] = Value::Fields{{"velocity_after", numbers_of(set.range.velocity)},
+                                           {"angular_velocity_after", numbers_of(set.range.angular_velocity)},
+                                           {"energy_loss", set.range.energy_loss}};
 }
 
 /// How friction acts on corners that stay on the ground.
@@ -386,6 +378,70 @@ double reach_of(const DiscreteDrop& drop) {
   return std::visit([](const auto& one) { return one.body.reach(); }, drop);
 }
 
+/// The report without its rows, which are made one at a time; all of it must outlive this.
+class SequenceRows {
+ public:
+  SequenceRows(const PreparedScene& prepared, const DiscreteRun& found, const space::TiltEffort& tilts)
+      : prepared_(prepared), found_(found),
+        sets_(outcome_sets(prepared, found, tilts)), digits_{.digits = prepared.scene.accuracy.digits,
+                                                             .scales = scales_of(found.run, reach_of(prepared.drop))},
+        report_(begun()) {}
+
+  [[nodiscard]] const Report& report() const { return report_; }
+  [[nodiscard]] std::size_t impacts() const { return found_.run.impacts.size(); }
+  /// A row for each impact, and one for the tail.
+  [[nodiscard]] std::size_t count() const { return impacts() + (found_.run.tail ? 1 : 0); }
+
+  [[nodiscard]] Row row(std::size_t i) const {
+    const Run& run = found_.run;
+    const bool is_tail = i == impacts();
+    Row row = impact_row(is_tail ? run.tail->sum : run.impacts[i], run.model, digits_);
+    if (is_tail) row[0].shown = "…";
+    else if (!run.impacts[i].predictable) row[0].shown = fmt::format("{}?", run.impacts[i].n);
+    return row;
+  }
+
+  /// An impact of JSON.
+  [[nodiscard]] Value impact(std::size_t i) const {
+    Value impact = row_object(report_.grid.columns, row(i));
+    const auto set = sets_.find(i);
+    if (set != sets_.end())
+      add_outcomes(prepared_.scene, std::get<space::Sequence>(found_.sequence).rows[i], set->second, impact);
+    return impact;
+  }
+
+ private:
+  [[nodiscard]] Report begun() const;
+
+  const PreparedScene& prepared_;
+  const DiscreteRun& found_;
+  OutcomeSets sets_;
+  ImpactDigits digits_;
+  Report report_;
+};
+
+Report SequenceRows::begun() const {
+  const Scene& scene = prepared_.scene;
+  const Run& run = found_.run;
+  const double approach = first_approach_speed(prepared_.drop);
+  const bool in_space = run.model == RunModel::space;
+  Report report = begun_report(
+      "sequence", in_space ? "impact sequence, discrete model in space" : "impact sequence, discrete model");
+  report.head = scene_head(scene, Model::discrete, approach);
+  report.remarks = {totals_line(totals(run))};
+  report.notes = notes_of(prepared_, found_, sets_);
+  report.fields["model"] = "discrete";
+  report.fields["scene"] = scene_value(scene, Model::discrete, approach);
+  report.fields["body"] = body_value(scene, Model::discrete);
+  report.grid.columns = columns_of(prepared_, run);
+  report.fields["impacts"] = Value::List{};
+  add_results(scene, run, report.fields);
+  if (const auto* const sequence = std::get_if<space::Sequence>(&found_.sequence)) {
+    add_end(scene, std::get<space::Drop>(prepared_.drop), *sequence, report.fields);
+  }
+  return report;
+}
+
 }  // namespace
 
 std::vector<Column> sequence_columns(bool friction, bool loses) {
@@ -397,37 +453,24 @@ std::vector<Column> sequence_columns(bool friction, bool loses) {
 }
 
 Report sequence_report(const PreparedScene& prepared, const DiscreteRun& found, const space::TiltEffort& tilts) {
-  const Scene& scene = prepared.scene;
-  const Run& run = found.run;
-  const double approach = first_approach_speed(prepared.drop);
-  const bool in_space = run.model == RunModel::space;
-  Report report = begun_report(
-      "sequence", in_space ? "impact sequence, discrete model in space" : "impact sequence, discrete model");
-  report.head = scene_head(scene, Model::discrete, approach);
-  report.remarks = {totals_line(totals(run))};
-  const OutcomeSets sets = outcome_sets(prepared, found, tilts);
-  report.notes = notes_of(prepared, found, sets);
-  report.fields["model"] = "discrete";
-  report.fields["scene"] = scene_value(scene, Model::discrete, approach);
-  report.fields["body"] = body_value(scene, Model::discrete);
-  report.grid.columns = columns_of(prepared, run);
-  const ImpactDigits digits{.digits = scene.accuracy.digits, .scales = scales_of(run, reach_of(prepared.drop))};
-  for (const Impact& impact : run.impacts) {
-    report.grid.rows.push_back(impact_row(impact, run.model, digits));
-    if (!impact.predictable) report.grid.rows.back()[0].shown = fmt::format("{}?", impact.n);
-  }
-  auto impacts = std::get<Value::List>(row_objects(report.grid).content());
-  add_outcomes(scene, found, sets, impacts);
-  report.fields["impacts"] = std::move(impacts);
-  add_results(scene, run, report.fields);
-  if (const auto* const sequence = std::get_if<space::Sequence>(&found.sequence)) {
-    add_end(scene, std::get<space::Drop>(prepared.drop), *sequence, report.fields);
-  }
-  if (run.tail) {
-    report.grid.rows.push_back(impact_row(run.tail->sum, run.model, digits));
-    report.grid.rows.back()[0].shown = "…";
-  }
+  const SequenceRows rows(prepared, found, tilts);
+  Report report = rows.report();
+  for (std::size_t i = 0; i < rows.count(); ++i) report.grid.rows.push_back(rows.row(i));
+  for (std::size_t i = 0; i < rows.impacts(); ++i) report.fields["impacts"].push_back(rows.impact(i));
   return report;
+}
+
+void write_sequence(const PreparedScene& prepared, const DiscreteRun& found, const space::TiltEffort& tilts,
+                    const TextStyle& style, const WriteText& write) {
+  const SequenceRows rows(prepared, found, tilts);
+  if (style.format == Format::json) {
+    write_json(
+        rows.report().fields, "impacts", rows.impacts(), [&](std::size_t i) { return rows.impact(i); }, write);
+    return;
+  }
+  Row row;
+  write_rows(rows.report(), {rows.count(), [&](std::size_t i) -> const Row& { return row = rows.row(i); }}, style,
+             write);
 }
 
 }  // namespace clatter::validation::inline reports

@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "validation/output/long_report.hpp"
 #include "validation/output/report.hpp"
 #include "validation/plan/sequence_method.hpp"
 
@@ -16,5 +17,9 @@ namespace clatter::validation::inline reports {
 /// @param tilts  how far the outcomes of small tilts are followed, which JSON lists and tables only sum up
 [[nodiscard]] Report sequence_report(const PreparedScene& prepared, const DiscreteRun& found,
                                      const analytic::space::TiltEffort& tilts = {});
+/// The text of that report, whose rows are written as they are made: a run of a million impacts needs no more memory
+/// than the impacts.
+void write_sequence(const PreparedScene& prepared, const DiscreteRun& found, const analytic::space::TiltEffort& tilts,
+                    const TextStyle& style, const WriteText& write);
 
 }  // namespace clatter::validation::inline reports
