@@ -56,6 +56,8 @@ int compare_one(const Scene& scene, const OutputChoice& choice, PlotFile& plot) 
   const Comparison comparison = compare_models(scene, scene.make_body());
   write_report(choice, comparison_report(scene, comparison));
   if (comparison.impacts.empty()) plot.leave_out("no impact");
+  else if (!comparison.parted.are_one(1) && !comparison.impacts.front().has_landing())
+    plot.leave_out(comparison.parted.reason);
   else if (plot.is_wanted())
     plot.write(comparison_picture(scene, comparison), run_words("compare", comparison_summary, scene));
   if (!comparison.agrees()) return check_failed;

@@ -35,13 +35,36 @@ MapFile file_kind(const std::string& path) {
   throw BadInput(fmt::format("--output {}: must end in .png, .npy or .csv", path));
 }
 
+/// Tells whether all pixels of a map have one value: then its keys, its class or run.impacts hide what it should show.
+class OneValue {
+ public:
+  void add(const std::string& value) {
+    if (count_++ == 0) value_ = value;
+    is_one_ = is_one_ && value == value_;
+  }
+  /// Empty where they differ.
+  /// @param all  the value of pixels all of whose samples are of the class
+  [[nodiscard]] std::string words(const MapPlan& plan, const std::string& all) const {
+    if (!is_one_ || count_ < 2) return "";
+    const std::string wanted = fmt::format("{}={}", plan.quantity->name, plan.wanted);
+    if (plan.counts() && value_ == "0") return "no drop of any pixel has " + wanted;
+    if (plan.counts() && value_ == all) return "each drop of every pixel has " + wanted;
+    return plan.counts() ? "" : fmt::format("all pixels have the same {}: {}", plan.quantity->name, value_);
+  }
+
+ private:
+  std::string value_;
+  long long count_ = 0;
+  bool is_one_ = true;
+};
+
 /// The file of a map, whose rows are kept in FILE.part until all are there.
 class MapOutput {
  public:
   MapOutput(const MapInput& input, const MapPlan& plan)
       : plan_(plan), path_(*input.output), kind_(file_kind(path_)),
         file_(path_, {csv_head(plan.report(), false), plan.rows}, input.restart) {
-    if (!is_csv()) file_.with_rows([this](std::string_view rows) { keep_all(rows); });
+    file_.with_rows([this](std::string_view rows) { keep_all(rows); });
   }
 
   [[nodiscard]] bool is_csv() const { return kind_ == MapFile::csv; }
@@ -49,11 +72,13 @@ class MapOutput {
 
   void write(const RangeRows& rows) {
     file_.write(rows.text, rows.scenes);
-    if (!is_csv()) keep_all(rows.text);
+    keep_all(rows.text);
   }
 
   /// The part goes last: a picture that fails to be drawn or written needs it again.
   void commit() {
+    if (const std::string words = value_.words(plan_, is_csv() ? "1" : std::to_string(plan_.samples)); !words.empty())
+      say(words);
     if (is_csv()) return file_.commit();
     const std::string made = kind_ == MapFile::png ? map_picture(plan_, image_) : map_array(plan_, image_);
     const long long open = image_.open();
@@ -73,13 +98,20 @@ class MapOutput {
  private:
   void keep_all(std::string_view rows) {
     for (; !rows.empty(); rows.remove_prefix(rows.find('\n') + 1)) {
-      image_.rows.push_back(read_map_row(std::string(rows.substr(0, rows.find('\n') + 1))));
+      const std::vector<MapPixel> row = read_map_row(std::string(rows.substr(0, rows.find('\n') + 1)));
+      if (is_csv()) {
+        value_.add(row[2].value);  // after the two keys
+        continue;
+      }
+      for (const MapPixel& pixel : row) value_.add(pixel.value);
+      image_.rows.push_back(row);
     }
   }
 
   const MapPlan& plan_;
   std::string path_;
   MapFile kind_;
+  OneValue value_;
   MapImage image_;
   SweepFile file_;
 };
@@ -131,12 +163,13 @@ constexpr const char* map_footer =
     "Example: clatter map --over drop.angle_deg=0:60 --over impact.restitution=0:1 --quantity impacts --output "
     "map.png\n"
     "Example: clatter map phone-corner --over drop.height=0.5:2 --over impact.restitution=0.2:0.9 "
-    "--set drop.attitude=uniform --samples 200 --quantity impacts=3 --size 80x60 --output phone.png\n"
+    "--set drop.attitude=uniform --samples 50 --quantity hardest=1 --size 40x30 --output phone.png\n"
     "Without SCENE a thin rod drops. Each pixel is the drop at its middle, by the discrete model; curves are the folds "
     "of clatter regimes,\n"
-    "computed as such. Planar drops without friction, or with an impulse ratio, take the batch, millions in a second.\n"
-    "Up to 100 impacts are followed unless run.impacts is given. A pixel that rounding or a fold leaves open is marked "
-    "and counted.\n"
+    "computed as such. Planar drops without friction, or with an impulse ratio, take the batch: a core does millions\n"
+    "in a second without gravity, thousands with it. Drops in space and with friction are run one by one.\n"
+    "Up to 100 impacts are followed unless run.impacts is given, of a class of counts as many as tell it. A pixel\n"
+    "that rounding or a fold leaves open is marked and counted.\n"
     "With --samples N each pixel is the part of N drops that are of the class, random in what --set KEY=LOW:HIGH "
     "leaves open; CSV and\n"
     "NPY have Wilson's interval beside it. An interrupted map goes on when the same command is given again.";

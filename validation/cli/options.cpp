@@ -33,6 +33,8 @@ OutputChoice read_output(const OutputTexts& texts) {
     choice.style.format =
         static_cast<Format>(read_name_option("--format", *texts.format, {"table", "csv", "json", "markdown", "latex"}));
   }
+  if (texts.ascii && choice.style.format != Format::table) throw BadInput("--ascii: is for tables, --format table");
+  if (texts.bare && choice.style.format != Format::csv) throw BadInput("--bare: is for CSV, --format csv");
   return choice;
 }
 

@@ -57,7 +57,7 @@ SweepRequest sweep_of(const ReportInput& input, const Attitudes& attitudes) {
   SweepRequest request{.file = input.scene.source,
                        .text = {},
                        .sets = {"drop.attitude=26", "run.digits=3"},
-                       .probes = discrete ? input.probes : std::vector<std::string>{},
+                       .probes = input.probes,
                        .random = std::to_string(attitudes.drops),
                        .seed = {},
                        .scatter = attitudes.scatter,
@@ -88,7 +88,7 @@ std::string worst_html(const ReportInput& input, const Attitudes& attitudes, con
   SweepPlan plan = read_sweep_plan(request);
   plan.packed = true;
   const SweepBody body = plan.body_values.empty() ? make_sweep_body(plan, plan.scene) : SweepBody{};
-  Summary summary(sweep_columns(plan.layout), plan.layout.swept.size(), plan.points);
+  Summary summary(plan.layout, plan.points);
   RangeQueue queue({0, plan.points.count()}, range_size(plan));
   SweepHooks hooks;
   hooks.write = [&](const RangeRows& rows) { summary.add(rows.text); };
@@ -102,10 +102,10 @@ std::string worst_html(const ReportInput& input, const Attitudes& attitudes, con
       report, [&](long long index) { return plan.command_of(index); },
       [&](long long place) { return plan.attitude_name(place); });
   // Of the commands that show extremes those of the hardest blows; without a file none could name the scene.
+  std::vector<std::string> hardest{"largest hardest_impulse_normal"};
+  for (const Probe& probe : plan.layout.probes) hardest.push_back("largest " + ranking_column(plan.layout, probe));
   std::erase_if(report.commands, [&](const NamedCommand& one) {
-    const bool of_probe =
-        one.what.starts_with(fmt::format("largest {}", shock_column)) && !one.what.ends_with("_impact");
-    return request.file.empty() || (one.what != "largest hardest_impulse_normal" && !of_probe);
+    return request.file.empty() || std::ranges::find(hardest, one.what) == hardest.end();
   });
   if (!request.file.empty()) commands.push_back(sweep_command_of(request));
   return fmt::format(
@@ -216,11 +216,25 @@ std::string accuracy_html(const Scene& scene, const ShockRun& run) {
   return handout_list(items);
 }
 
+/// Refuses options of the worst attitudes where the page has none.
+void require_worst_attitudes(const ReportInput& input, const Scene& scene) {
+  const bool is_box = scene.body.shape == BodyScene::Shape::box, has_none = input.drops == "0";
+  const std::pair<const char*, const std::optional<std::string>*> options[]{
+      {"--drops", &input.drops}, {"--scatter", &input.scatter}, {"--threads", &input.threads}};
+  for (const auto& [name, given] : options) {
+    if (*given && !is_box)
+      throw BadInput(fmt::format("{} {}: is for a box, whose worst attitudes are looked for", name, **given));
+    if (*given && has_none && given != &input.drops)
+      throw BadInput(fmt::format("{} {}: changes nothing with --drops 0", name, **given));
+  }
+}
+
 std::string page_of(const ReportInput& input, const CooperativeInterrupt& interrupt) {
   const Scene scene = shock_scene(input);
   const Model model = model_of(input);
   const std::vector<Probe> probes = probes_of(input);
   Attitudes attitudes;
+  require_worst_attitudes(input, scene);
   if (input.drops) attitudes.drops = read_integer_option("--drops", *input.drops, 0, 1'000'000);
   if (input.scatter) attitudes.scatter = *input.scatter;
   const ShockView view = view_of(input);

@@ -69,6 +69,8 @@ std::vector<Probe> probes_of(const ShockInput& input) {
 }
 
 ShockRequest request_of(const ShockInput& input) {
+  if (input.no_sensitivity && model_of(input) == Model::discrete)
+    throw BadInput("--no-sensitivity: the discrete model has no peaks, whose sensitivity it leaves out");
   ShockRequest request{.continuous = model_of(input) == Model::continuous, .sensitivity = !input.no_sensitivity};
   if (input.frequencies) read_frequencies(*input.frequencies, request);
   if (input.quality) request.quality = quality_of(*input.quality);

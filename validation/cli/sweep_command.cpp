@@ -96,7 +96,7 @@ class SweepOutput {
         random_(input.request.random.has_value()), shortfalls_(plan.layout, plan.packed) {
     report_ = plan.report();
     const std::string head = csv_head(report_, style_.bare);
-    if (input.request.summary) summary_.emplace(sweep_columns(plan.layout), plan.layout.swept.size(), plan.points);
+    if (input.request.summary) summary_.emplace(plan.layout, plan.points);
     if (writes_file(input)) {
       file_.emplace(*input.output, SweepFileForm{head, plan.points.count()}, input.restart);
       file_->with_rows([this](std::string_view rows) {
@@ -181,8 +181,13 @@ class SweepOutput {
       if (!holds_texts(rows.grid, asked.column.name) && view.quantities.size() < most_panels)
         view.quantities.push_back(asked.column.name);
     }
+    std::vector<std::string> others = plan_.layout.named;
     for (const Probe& probe : plan_.layout.probes) {
-      if (view.quantities.size() < most_panels) view.quantities.push_back(std::string(shock_column) + probe.name);
+      const std::string name = ranking_column(plan_.layout, probe);
+      if (std::ranges::find(others, name) == others.end()) others.push_back(name);
+    }
+    for (const std::string& name : others) {
+      if (!holds_texts(rows.grid, name) && view.quantities.size() < most_panels) view.quantities.push_back(name);
     }
     if (view.quantities.empty()) view.quantities = {"impacts", "total_normal_impulse", "energy_loss"};
     plot_.write(sweep_rows_picture(rows, view), {rows.title});
@@ -309,8 +314,10 @@ void add_request_options(Command& command, SweepRequest& request) {
   command.add({.name = "--probe",
                .target = &request.probes,
                .type = "NAME:X,Y,Z",
-               .help = "discrete model: columns for the largest change of velocity of this point of the body [m], and "
-                       "its impact; may be repeated (else [[probe]] in the scene file)",
+               .help =
+                   "columns for the largest change of velocity of this point of the body [m], and its impact; in the "
+                   "continuous model also for its peak acceleration, the width of that and its impact, for two more "
+                   "runs of each scene (with --no-errors one); may be repeated (else [[probe]] in the scene file)",
                .repeats = true});
 }
 

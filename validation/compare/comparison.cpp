@@ -42,30 +42,10 @@ bool stops_in_one_model(const SequenceImpact& discrete, numeric::FrictionMode co
   return discrete.nearly_stops && discrete.sticks != sticks(continuous);
 }
 
-/// Whether both models touch down with the same end, or in space with the same corners.
-bool same_contact(const SequenceImpact& discrete, numeric::ContactEnd end, const Vector3& place,
-                  const numeric::Body& body) {
-  if (!discrete.place) return discrete.end == end_name(end);
-  return is_same_place(body, *discrete.place, place);
-}
-
 /// Whether a face turns in the discrete model, while the continuous one, whose friction holds the pressure centre
 /// alone, sticks and lets it spin.
 bool only_spins(const SequenceImpact& discrete, numeric::FrictionMode continuous) {
   return discrete.is_face && !discrete.sticks && continuous == numeric::FrictionMode::stick;
-}
-
-/// What reports call the contact of the continuous model.
-std::string contact_name(const DiscreteSide& side, numeric::ContactEnd end, const Vector3& place,
-                         const numeric::Body& body) {
-  if (!side.in_space) return end_name(end);
-  for (const SequenceImpact& impact : side.impacts) {
-    if (same_contact(impact, end, place, body)) return impact.end;
-  }
-  for (const NamedCorner& corner : side.corners) {
-    if (is_same_place(body, corner.place, place)) return corner.name;
-  }
-  return "several";
 }
 
 /// Why an impact cannot be compared at any stiffness; empty if it can.
@@ -76,12 +56,6 @@ std::string reason_in_principle(const SequenceImpact& impact) {
 /// Whether an ever stiffer ground has numbers to show beside it, if not the same.
 bool has_limit(const SequenceImpact& impact) {
   return impact.follows_open.empty() && (impact.open.empty() || impact.is_face);
-}
-
-std::string contacts_differ(const DiscreteSide& side, const std::string& discrete, const std::string& continuous) {
-  if (!side.in_space) return fmt::format("end {} strikes in one model, end {} in the other", discrete, continuous);
-  if (discrete == continuous) return fmt::format("another point of {} strikes in each model", discrete);
-  return fmt::format("corner {} strikes in the discrete model, corner {} in the continuous one", discrete, continuous);
 }
 
 std::string unpredictable_words(const ImpactRecord& record, bool in_space) {
@@ -100,11 +74,8 @@ std::string reason_against(const Comparison& comparison, const Scene& scene, con
   const ImpactRecord& record = records[i];
   if (!record.predictable) return unpredictable_words(record, side.in_space);
   if (!impact.predictable) return "beyond the predictable: an error of the start has grown too far";
-  if (record.touches > 1 && impact.end != "both") return "another place touches before the first contact has ended";
   if (impact.jams) return "jamming: friction beyond Painlevé's limit drives the contact into the ground";
-  if (!same_contact(impact, record.end, record.place, body)) {
-    return contacts_differ(side, impact.end, comparison.impacts[i].continuous_end);
-  }
+  if (const std::string reason = other_blow(side, impact, record, body); !reason.empty()) return reason;
   if (sticks_in_one_model(scene.world.ground, impact, record.mode)) {
     return "static and sliding friction differ; the discrete model has one coefficient";
   }
@@ -368,6 +339,7 @@ Comparison compare_models(const Scene& scene, const numeric::Body& body) {
   for (std::size_t i = 0; side.in_space && i < count; ++i) {
     comparison.impacts[i].explanation = explanation_of(comparison, scene, body, i);
   }
+  comparison.parted = parted_blows(side, comparison.run.impacts, body);
   comparison.shortfall = shortfall_of(comparison, scene);
   comparison.other_law = other_law_words(scene, comparison.approach_speed);
   return comparison;

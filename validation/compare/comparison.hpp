@@ -8,6 +8,7 @@
 
 #include "numeric/simulate.hpp"
 #include "validation/compare/discrete_side.hpp"
+#include "validation/compare/same_blow.hpp"
 #include "validation/compare/stiff_limit.hpp"
 #include "validation/record/motion_numbers.hpp"
 #include "validation/scene/scene.hpp"
@@ -61,6 +62,7 @@ struct Comparison {
   numeric::Simulation run;
   StiffLimit limit;
   std::vector<ComparedImpact> impacts;
+  PartedBlows parted;  ///< of the run at the scene's own stiffness
   /// Whether there is anything to compare: an impact at the scene's stiffness or a limit.
   [[nodiscard]] bool has_content() const;
   /// Why a number that could not be computed or a limit on the work left one of the models fewer impacts than asked

@@ -13,7 +13,7 @@
 namespace clatter::validation::inline map {
 namespace {
 
-constexpr int most_pixels_across = 20'000;
+constexpr int most_pixels_across = 20'000, most_impacts = 1'000'000;
 constexpr const char* impacts_key = "run.impacts";
 
 bool names_key(const std::string& setting, const std::string& key) { return setting.starts_with(key + "="); }
@@ -38,6 +38,22 @@ void read_size(const std::string& text, MapPlan& plan) {
   }
 }
 
+/// Takes the count of a class of counts, such as 3 or >=3.
+void read_count(const std::string& text, const MapRequest& request, MapPlan& plan) {
+  long long number = 0;
+  if (!read_integer(plan.wanted.substr(plan.wants_at_least() ? 2 : 0), number)) return;
+  if (number >= most_impacts)
+    throw BadInput(fmt::format("--quantity {}: must be a number less than {}", text, most_impacts));
+  plan.wanted_count = static_cast<int>(number);
+  for (const std::string& set : request.sets) {
+    if (!names_key(set, impacts_key)) continue;
+    throw BadInput(
+        fmt::format("--set {}: changes nothing with --quantity {}, for which as many impacts are followed "
+                    "as tell it",
+                    set, text));
+  }
+}
+
 /// A class that no drop can have is refused, or its probability would be told as 0.
 void check_class(const std::string& text, const MapQuantity& quantity, const std::string& wanted) {
   using analytic::BatchEnd;
@@ -59,7 +75,8 @@ void check_class(const std::string& text, const MapQuantity& quantity, const std
                              fmt::join(words, ", "), nearest_name(wanted, words)));
 }
 
-void read_quantity(const std::string& text, bool samples, MapPlan& plan) {
+void read_quantity(const std::string& text, const MapRequest& request, MapPlan& plan) {
+  const bool samples = request.samples.has_value();
   const std::size_t equal = text.find('=');
   std::vector<std::string> names;
   for (const MapQuantity& quantity : map_quantities()) names.emplace_back(quantity.name);
@@ -72,7 +89,18 @@ void read_quantity(const std::string& text, bool samples, MapPlan& plan) {
   if (!samples && equal != std::string::npos) {
     throw BadInput(fmt::format("--quantity {}: a probability needs --samples N", text));
   }
-  if (samples) check_class(text, *plan.quantity, plan.wanted);
+  if (!samples) return;
+  check_class(text, *plan.quantity, plan.wanted);
+  if (std::string_view(plan.quantity->name) == "impacts") read_count(text, request, plan);
+}
+
+/// The hardest impact is one of those that are followed.
+void check_hardest(const MapPlan& plan) {
+  long long number = 0;
+  const bool is_hardest = plan.counts() && std::string_view(plan.quantity->name) == "hardest";
+  if (!is_hardest || !read_integer(plan.wanted, number) || number <= plan.request.limit) return;
+  throw BadInput(
+      fmt::format("--quantity hardest={}: {} impacts are followed, as run.impacts says", number, plan.request.limit));
 }
 
 void check_axes(const MapRequest& request, const MapPlan& plan) {
@@ -192,7 +220,7 @@ MapPlan read_map_plan(const MapRequest& request) {
   read_size(request.size.value_or("800x600"), plan);
   if (request.samples) plan.samples = read_integer_option("--samples", *request.samples, 1, 1'000'000);
   if (request.seed && !request.samples) throw BadInput(fmt::format("--seed {}: is for --samples N", *request.seed));
-  read_quantity(request.quantity.value_or("impacts"), request.samples.has_value(), plan);
+  read_quantity(request.quantity.value_or("impacts"), request, plan);
   try {
     plan.sweep = read_sweep_plan(sweep_request(request));
   } catch (const BadInput& error) {
@@ -203,11 +231,16 @@ MapPlan read_map_plan(const MapRequest& request) {
   const int seed = request.seed ? read_integer_option("--seed", *request.seed, 0, std::numeric_limits<int>::max()) : 1;
   plan.sweep.points = SweepPoints(points.axes(), std::max(1LL, plan.columns * plan.rows * plan.samples),
                                   static_cast<std::uint64_t>(seed));
-  plan.sweep.words.pop_back();  // of one random scene
+  std::erase_if(plan.sweep.words, [](const std::string& words) {  // one random scene, and points that a map ignores
+    return words.starts_with("scenes: ") || words.starts_with("probe: ");
+  });
   if (plan.counts()) plan.sweep.words.push_back(fmt::format("seed: {}", seed));
   const std::string name = plan.quantity->name;
   plan.request = {.limit = is_capped(request) ? plan.sweep.scene.most_impacts() : uncapped_impacts,
                   .only_counts = !is_capped(request) && (name == "impacts" || name == "outcome")};
+  if (plan.wanted_count)
+    plan.request = {.limit = *plan.wanted_count + (plan.wants_at_least() ? 0 : 1), .only_counts = true};
+  check_hardest(plan);
   return plan;
 }
 

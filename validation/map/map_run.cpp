@@ -43,6 +43,15 @@ std::string class_of(const MapQuantity& quantity, const PixelOutcome& outcome) {
   return outcome.last_end;
 }
 
+/// Whether a drop is of the class whose probability is asked for.
+bool is_wanted(const MapPlan& plan, const PixelOutcome& outcome) {
+  const BatchOutcome& numbers = outcome.numbers;
+  if (!plan.wanted_count) return class_of(*plan.quantity, outcome) == plan.wanted;
+  if (is_failure(numbers.end)) return false;
+  if (plan.wants_at_least()) return numbers.end == BatchEnd::infinite || numbers.impacts >= *plan.wanted_count;
+  return numbers.end != BatchEnd::infinite && numbers.impacts == *plan.wanted_count;
+}
+
 std::string text_of(const MapPlan& plan, const PixelOutcome& outcome) {
   if (plan.quantity->is_class()) return class_of(*plan.quantity, outcome);
   if (is_failure(outcome.numbers.end)) return "";
@@ -169,7 +178,7 @@ class MapRunner {
 
   void take(std::size_t pixel, const PixelOutcome& outcome) {
     if (plan_.counts()) {
-      hits_[pixel] += class_of(*plan_.quantity, outcome) == plan_.wanted ? 1 : 0;
+      hits_[pixel] += is_wanted(plan_, outcome) ? 1 : 0;
       return;
     }
     pixels_[pixel] = {text_of(plan_, outcome), outcome.numbers.is_open};

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "validation/reports/comparison_picture.hpp"
 
+#include <fmt/format.h>
+
 #include "validation/reports/swept_column.hpp"
 
 namespace clatter::validation::inline reports {
@@ -17,11 +19,12 @@ struct XAxis {
   bool is_number;  ///< of the impact
 };
 
-/// The numbers of one impact, NaN where there is none to show.
+/// The numbers of one impact, NaN where there is none to show: of another blow than the discrete model's none.
 std::vector<double> row_of(double x, const Comparison& comparison, const ComparedImpact& impact) {
   std::vector<double> row{x, no_number, no_number, no_number, no_number, no_number, no_number};
-  if (impact.discrete) row[1] = (*impact.discrete)[impulse];
-  if (impact.continuous) row[2] = (*impact.continuous)[impulse];
+  const bool is_one = comparison.parted.are_one(impact.n);
+  if (impact.discrete && (is_one || impact.has_landing())) row[1] = (*impact.discrete)[impulse];
+  if (impact.continuous && is_one) row[2] = (*impact.continuous)[impulse];
   if (impact.has_landing()) row[3] = impact.limit->value[impulse];
   if (!impact.discrete) return row;
   const WorstNumber worst = worst_number(comparison, impact);
@@ -71,6 +74,12 @@ std::vector<PicturePanel> panels(const XAxis& axis, const std::vector<std::vecto
   return {{.columns = columns, .rows = rows, .plot = impulses}, {.columns = columns, .rows = rows, .plot = deviations}};
 }
 
+/// What the picture leaves out.
+std::string parted_words(const PartedBlows& parted) {
+  if (parted.from == 0) return "";
+  return fmt::format("; from impact {} on they strike other blows and are left out: {}", parted.from, parted.reason);
+}
+
 }  // namespace
 
 Picture comparison_picture(const Scene& scene, const Comparison& comparison) {
@@ -79,7 +88,7 @@ Picture comparison_picture(const Scene& scene, const Comparison& comparison) {
   const XAxis axis{.column = {"x", "1", "number of the impact"},
                    .range = {0.5, static_cast<double>(rows.size()) + 0.5},
                    .is_number = true};
-  return {.what = "Discrete and continuous model, impact by impact",
+  return {.what = "Discrete and continuous model, impact by impact" + parted_words(comparison.parted),
           .scene = scene.summary(),
           .panels = panels(axis, rows)};
 }

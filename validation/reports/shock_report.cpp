@@ -94,8 +94,10 @@ const std::vector<std::string>& shown_of(bool both, bool continuous) {
   return both ? compared : continuous ? alone : discrete;
 }
 
-/// The row of this impact and probe, or none.
-const ShockRow* row_at(const std::vector<ShockRow>& rows, int impact, std::size_t probe) {
+/// The continuous model's row of this impact and probe, or none.
+const ShockRow* continuous_row(const ShockRun& run, int impact, std::size_t probe) {
+  if (!run.continuous) return nullptr;
+  const std::vector<ShockRow>& rows = run.continuous->rows;
   const auto found = std::find_if(rows.begin(), rows.end(),
                                   [&](const ShockRow& row) { return row.impact == impact && row.probe == probe; });
   return found == rows.end() ? nullptr : &*found;
@@ -104,7 +106,7 @@ const ShockRow* row_at(const std::vector<ShockRow>& rows, int impact, std::size_
 int last_impact(const ShockRun& run) {
   int last = 0;
   if (run.continuous && !run.continuous->rows.empty()) last = run.continuous->rows.back().impact;
-  if (!run.discrete.empty()) last = std::max(last, run.discrete.back().impact);
+  if (!run.discrete.empty() && run.parted.from == 0) last = std::max(last, run.discrete.back().impact);
   return last;
 }
 
@@ -164,8 +166,8 @@ void add_indentation(const ShockRun& run, int impact, Row& cells, Row& errors) {
 }
 
 Row row_of(const ShockRun& run, int impact, std::size_t probe) {
-  const ShockRow* const continuous = run.continuous ? row_at(run.continuous->rows, impact, probe) : nullptr;
-  const ShockRow* const discrete = row_at(run.discrete, impact, probe);
+  const ShockRow* const continuous = continuous_row(run, impact, probe);
+  const ShockRow* const discrete = run.discrete_row(impact, probe);
   const ShockRow* const first = continuous ? continuous : discrete;
   const double last = run.rows().empty() ? 0 : run.rows().back().start;
   Row cells{Cell(run.probes[probe].name), Cell(impact)}, errors;
@@ -253,8 +255,7 @@ std::vector<const Spectrum*> shown_spectra(const ShockRun& run, std::size_t prob
   std::vector<const Spectrum*> shown;
   for (const ShownSpectrum& one : main_spectra) {
     const Spectrum* const found = run.spectrum(probe, run.continuous.has_value(), one.blows);
-    if (!found || (!shown.empty() && one.blows == Blows::all && shown.back()->impacts == found->impacts)) continue;
-    shown.push_back(found);
+    if (found) shown.push_back(found);
   }
   return shown;
 }
@@ -312,9 +313,7 @@ void add_spectrum_notes(const ShockRun& run, std::size_t probe, std::vector<std:
 
 /// Where the spectrum of all impacts exceeds a severity.
 std::string severity_words(const ShockRun& run, std::size_t probe, double severity) {
-  const std::vector<const Spectrum*> shown = shown_spectra(run, probe);
-  const Spectrum* const all = run.spectrum(probe, run.continuous.has_value(), Blows::all);
-  const Spectrum* const spectrum = all || shown.empty() ? all : shown.front();
+  const Spectrum* const spectrum = run.whole(probe, run.continuous.has_value());
   if (!spectrum) return "";
   double low = 0, high = 0;
   for (const ResponsePoint& point : spectrum->points) {
@@ -340,6 +339,12 @@ std::vector<std::string> notes_of(const ShockRun& run, const ShockView& view) {
     if (view.severity) notes.push_back(severity_words(run, probe, *view.severity));
   }
   if (!run.discrete_reason.empty()) notes.push_back("no discrete model beside it: " + run.discrete_reason);
+  if (run.parted.from > 0) {
+    notes.push_back(
+        fmt::format("from impact {} on the discrete model strikes other blows, which --model discrete "
+                    "shows: {}",
+                    run.parted.from, run.parted.reason));
+  }
   if (run.continuous) {
     for (const std::string& warning : run.continuous->planned.warnings) notes.push_back("!: warning: " + warning);
     const numeric::Simulation& simulation = run.continuous->planned.run;
@@ -514,6 +519,8 @@ Report shock_report(const ShockRun& run, const ShockView& view) {
   report.fields["pulses"] = pulse_fields(pulses, view.part);
   add_outcome(run, report);
   report.fields["discrete_reason"] = text_or_nothing(run.discrete_reason);
+  if (run.parted.from > 0)
+    report.fields["parted"] = Value::Fields{{"from", run.parted.from}, {"reason", run.parted.reason}};
   return report;
 }
 
@@ -524,8 +531,8 @@ Picture shock_picture(const ShockRun& run, const ShockView& view) {
   for (std::size_t probe = 0; probe < run.probes.size(); ++probe) {
     std::vector<const Spectrum*> shown = shown_spectra(run, probe);
     if (shown.empty()) continue;
-    const Spectrum* const discrete = run.spectrum(probe, false, Blows::all);
-    if (run.continuous && discrete) shown.push_back(discrete);
+    const Spectrum* const discrete = run.whole(probe, false);
+    if (run.continuous && discrete && run.parted.are_one(discrete->impacts)) shown.push_back(discrete);
     PicturePanel panel{.columns = {{"frequency", "Hz", "natural frequency"}}, .rows = {}, .plot = {}};
     panel.plot.logarithmic_x = panel.plot.logarithmic_y = true;
     panel.plot.y_label = fmt::format("{} along {} [m/s]", run.probes[probe].name, axis_names[shown.front()->axis]);

@@ -290,7 +290,7 @@ ContinuousShock continuous_shock(const Scene& scene, const numeric::Body& body, 
   shock.error_per_distance = 4;  // as the simulator's own estimates take for a tenth of the tolerance
   const double gravity = scene.world.gravity_in_contact ? scene.world.gravity : 0;
   record(scene, body, impacts, accuracy, shock.motion, observer);
-  record(scene, body, impacts, other, shock.other, observer);
+  if (scene.request.error_estimates) record(scene, body, impacts, other, shock.other, observer);
   shock.rows = shock_rows(shock.motion, places, body.mass(), gravity);
   const std::vector<ShockRow> others = shock_rows(shock.other, places, body.mass(), gravity);
   shock.trust = trust_of(run);

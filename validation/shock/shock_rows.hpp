@@ -59,8 +59,8 @@ struct ContinuousShock {
   double error_per_distance = 0;  ///< how many times the distance of the two an error may be
   std::vector<double> trust;      ///< relative error of each impact's impulse, infinite from where the runs part
 };
-/// Runs the scene to its digits, then again twice, recorded, and with the sensitivity four times more at neighbouring
-/// stiffness.
+/// Runs the scene to its digits, then again twice, recorded, where no errors are asked for once, and with the
+/// sensitivity four times more at neighbouring stiffness.
 /// @param places  of the probes, from the centre of mass, body frame [m]
 /// @throws as run_to_digits.
 [[nodiscard]] ContinuousShock continuous_shock(const Scene& scene, const numeric::Body& body,

@@ -35,12 +35,15 @@ int main_axis(const std::vector<ShockRow>& rows, std::size_t probe) {
   return axis;
 }
 
-/// The parts of a drop of which spectra are made, and how many impacts each has.
+/// The parts of a drop of which spectra are made, each longer than the one before, and how many impacts each has.
 std::vector<std::pair<Blows, int>> parts_of(int known, int first) {
   if (known == 0) return {};
   std::vector<std::pair<Blows, int>> parts{{Blows::impact_1, 1}};
-  if (known > 1) parts.emplace_back(Blows::first, std::min(first, known));
-  if (known > 1) parts.emplace_back(Blows::all, known);
+  const auto add = [&](Blows blows, int impacts) {
+    if (impacts > parts.back().second) parts.emplace_back(blows, impacts);
+  };
+  add(Blows::first, std::min(first, known));
+  add(Blows::all, known);
   return parts;
 }
 
@@ -123,6 +126,14 @@ std::string run_discrete_side(const Scene& scene, const std::vector<Probe>& prob
   return failure ? failure->message : "";
 }
 
+/// As `compare` tells it: by the corners that the continuous model has.
+PartedBlows parted(const Scene& scene, const numeric::Body& body, const std::vector<numeric::ImpactRecord>& records) {
+  DiscreteBody given(scene, body), mesh(body);
+  const bool is_other =
+      scene.body.shape != BodyScene::Shape::mesh && has_other_corners(given.drop(scene), mesh.drop(scene));
+  return parted_blows(discrete_side(scene, is_other ? mesh : given), records, body);
+}
+
 /// The spectra of the flat drop, where it can be run.
 void add_flat(const numeric::Body* body, const numeric::Observer& observer, ShockRun& run) {
   const Scene flat = flat_scene(run.scene);
@@ -153,6 +164,20 @@ const Spectrum* ShockRun::spectrum(std::size_t probe, bool of_continuous, Blows 
   return found == spectra.end() ? nullptr : &*found;
 }
 
+const ShockRow* ShockRun::discrete_row(int impact, std::size_t probe) const {
+  if (!parted.are_one(impact)) return nullptr;
+  const auto found =
+      std::ranges::find_if(discrete, [&](const ShockRow& row) { return row.impact == impact && row.probe == probe; });
+  return found == discrete.end() ? nullptr : &*found;
+}
+
+const Spectrum* ShockRun::whole(std::size_t probe, bool of_continuous) const {
+  for (const Blows blows : {Blows::all, Blows::first, Blows::impact_1}) {
+    if (const Spectrum* const found = spectrum(probe, of_continuous, blows)) return found;
+  }
+  return nullptr;
+}
+
 ShockRun run_shock(const Scene& scene, const std::vector<Probe>& probes, const ShockRequest& request,
                    const numeric::Observer& observer) {
   ShockRun run;
@@ -166,6 +191,10 @@ ShockRun run_shock(const Scene& scene, const std::vector<Probe>& probes, const S
         continuous_shock(scene, *body, places_of(scene, probes, Model::continuous), request.sensitivity, observer);
     run.discrete_reason = run_discrete_side(scene, probes, run.discrete, &run.discrete_run);
     if (run.continuous->planned.run.outcome == numeric::Outcome::interrupted) return run;
+    if (!run.discrete.empty()) {
+      static_cast<void>(
+          failure_of_scene([&] { run.parted = parted(scene, *body, run.continuous->planned.run.impacts); }));
+    }
   } else {
     const PreparedScene drop = prepared(scene);
     const DiscreteRun found = run_discrete(drop, SequenceMethod::automatic);

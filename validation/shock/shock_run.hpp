@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "validation/compare/same_blow.hpp"
 #include "validation/scene/probes.hpp"
 #include "validation/shock/discrete_shock.hpp"
 #include "validation/shock/response_spectrum.hpp"
@@ -23,7 +24,7 @@ struct ShockRequest {
   std::optional<int> axis{};  ///< of the body: 0, 1, 2; none: that with the largest change of velocity of each probe
 };
 
-/// Which part of the drop a spectrum is of.
+/// Which part of the drop a spectrum is of: `first` and `all` where they have more impacts than the part before.
 enum class Blows { impact_1, first, all, flat };
 
 struct Spectrum {
@@ -43,12 +44,17 @@ struct ShockRun {
   std::optional<Run> discrete_run;
   std::vector<ShockRow> discrete;
   std::string discrete_reason;  ///< why there is no discrete run; empty: there is one
+  PartedBlows parted;           ///< from where on rows of the two models are not beside each other
   std::vector<Spectrum> spectra;
   std::vector<std::optional<Envelope>> envelopes;  ///< of each probe, after its first two impacts; the discrete model's
 
   [[nodiscard]] const Spectrum* spectrum(std::size_t probe, bool of_continuous, Blows blows) const;
+  /// That of most impacts.
+  [[nodiscard]] const Spectrum* whole(std::size_t probe, bool of_continuous) const;
   /// The model that comes first: the continuous one where it ran.
   [[nodiscard]] const std::vector<ShockRow>& rows() const { return continuous ? continuous->rows : discrete; }
+  /// The row of that impact and probe to show by the discrete model: none beside another blow of the continuous one.
+  [[nodiscard]] const ShockRow* discrete_row(int impact, std::size_t probe) const;
 };
 
 /// Runs the scene's probes through one model or both.  Spectra take the impacts that can be predicted alone.  A

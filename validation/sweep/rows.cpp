@@ -12,6 +12,7 @@
 #include "validation/output/number.hpp"
 #include "validation/record/impact_rows.hpp"
 #include "validation/record/totals.hpp"
+#include "validation/shock/damage_boundary.hpp"
 
 namespace clatter::validation::inline sweep {
 namespace {
@@ -30,6 +31,29 @@ constexpr SceneNumber scene_numbers[]{
      true},
     {"energy_loss", "J", "energy lost in all impacts listed", &Totals::energy_loss},
     {"last_start", "s", "touch-down of the last impact, after that of the first", &Totals::last_start}};
+
+/// A number of a probe, which has a column for its error.
+struct ProbeNumber {
+  std::string_view prefix;
+  const char *unit, *meaning;  ///< of the point, whose name follows
+  Estimated LargestShock::*value;
+  int LargestShock::*impact;  ///< that has it; none: that of the number before
+  bool continuous_only;
+};
+constexpr ProbeNumber probe_numbers[]{
+    {peak_column, "g", "largest specific force, in units of 9.80665 m/s², of the point ", &LargestShock::peak_g,
+     &LargestShock::peak_impact, true},
+    {"width_", "s", "how long it stays above a tenth of that about it, of the point ", &LargestShock::width, nullptr,
+     true},
+    {shock_column, "m/s", "largest change of velocity over an impact of the point ", &LargestShock::delta_v,
+     &LargestShock::impact, false}};
+
+template <class Use>
+void for_each_probe_number(Model model, Use&& use) {
+  for (const ProbeNumber& number : probe_numbers) {
+    if (model == Model::continuous || !number.continuous_only) use(number);
+  }
+}
 
 /// Calls use(number) for each that the model has.
 template <class Use>
@@ -84,9 +108,11 @@ std::vector<Column> scene_columns(const RowLayout& layout) {
     else columns.push_back(asked.column);
   }
   for (const Probe& probe : layout.probes) {
-    const std::string name = std::string(shock_column) + probe.name;
-    add({name, name, "m/s", "largest change of velocity of the point " + probe.name + " over an impact"});
-    columns.push_back({name + "_impact", name + "_impact", "", "number of that impact"});
+    for_each_probe_number(layout.model, [&](const ProbeNumber& number) {
+      const std::string name = std::string(number.prefix) + probe.name;
+      add({name, name, number.unit, number.meaning + probe.name});
+      if (number.impact) columns.push_back({name + "_impact", name + "_impact", "", "number of that impact"});
+    });
   }
   columns.insert(columns.end(), errors.begin(), errors.end());
   return columns;
@@ -107,6 +133,8 @@ class AskedColumns {
   AskedColumns(const RowLayout& layout, int impacts) : impacts_(impacts), columns_(columns_of_impacts(layout)) {
     std::erase_if(columns_, [](const Column& column) { return column.object == "error_estimate"; });
     for (const Column& column : columns_) names_.push_back(column.name);
+    for (const Column& column : sweep_columns(layout)) present_.push_back(column.name);
+    names_.insert(names_.end(), present_.begin(), present_.end());
   }
 
   void add(const std::string& name) {
@@ -128,27 +156,38 @@ class AskedColumns {
       }
       throw BadInput(fmt::format("--columns {}: the impact must be from 1 to {}, as run.impacts says", name, impacts_));
     }
+    if (std::ranges::find(present_, name) != present_.end()) {
+      require_new(name);
+      return named_.push_back(name);
+    }
     throw BadInput(
         fmt::format("--columns '{}': must be hardest, hardest_QUANTITY, QUANTITY or QUANTITY_N with N from 1 "
-                    "to {}; did you mean {}?",
+                    "to {}, or a column that is there anyway; did you mean {}?",
                     name, impacts_, nearest_name(name, names_)));
   }
 
-  std::vector<ImpactColumn> taken() && { return std::move(asked_); }
+  void put_into(RowLayout& layout) && {
+    layout.asked = std::move(asked_);
+    layout.named = std::move(named_);
+  }
 
  private:
   [[nodiscard]] bool has(const std::string& name) const {
-    return std::find(names_.begin(), names_.end(), name) != names_.end();
+    return std::ranges::any_of(columns_, [&](const Column& column) { return column.name == name; });
   }
   [[nodiscard]] const Column& find(const std::string& name) const {
     return *std::find_if(columns_.begin(), columns_.end(), [&](const Column& column) { return column.name == name; });
   }
 
+  void require_new(const std::string& name) const {
+    const bool is_asked = std::ranges::any_of(asked_, [&](const auto& other) { return other.column.name == name; });
+    if (is_asked || std::ranges::find(named_, name) != named_.end())
+      throw BadInput(fmt::format("--columns {}: asked for twice", name));
+  }
+
   /// @param impact 0: the hardest
   void add(const std::string& name, const Column& quantity, int impact) {
-    for (const ImpactColumn& other : asked_) {
-      if (other.column.name == name) throw BadInput(fmt::format("--columns {}: asked for twice", name));
-    }
+    require_new(name);
     if (asked_.size() == most_columns) throw BadInput(fmt::format("--columns: more than {} columns", most_columns));
     const std::string which =
         impact == 0 ? "the impact with the largest normal impulse" : fmt::format("impact {}", impact);
@@ -167,7 +206,7 @@ class AskedColumns {
 
   int impacts_;
   std::vector<Column> columns_;
-  std::vector<std::string> names_;
+  std::vector<std::string> names_, present_, named_;
   std::vector<ImpactColumn> asked_;
 };
 
@@ -241,6 +280,20 @@ void append_empty_row(const RowForm& form, std::optional<int> impacts, const cha
   form.out.end_row();
 }
 
+/// The numbers of the probes, empty where nothing struck.
+void append_shocks(const RowForm& form, Model model) {
+  for (const LargestShock& shock : form.shocks) {
+    for_each_probe_number(model, [&](const ProbeNumber& number) {
+      const bool is_there = shock.impact > 0;
+      if (is_there) form.out.number((shock.*number.value).value);
+      else form.out.nothing();
+      if (number.impact == nullptr) return;
+      if (is_there) form.out.whole(shock.*number.impact);
+      else form.out.nothing();
+    });
+  }
+}
+
 /// The one row of a scene with its sums.
 void append_scene_row(const RowForm& form, const Run& run) {
   const Model model = form.layout.model;
@@ -252,18 +305,17 @@ void append_scene_row(const RowForm& form, const Run& run) {
   if (form.predictions) form.out.truth(sums.predictable);
   else form.out.nothing();
   append_asked(form, run, false);
-  for (const LargestShock& shock : form.shocks) {
-    form.out.number(shock.delta_v.value);
-    form.out.whole(shock.impact);
-  }
+  append_shocks(form, model);
   for_each_number(model, [&](const SceneNumber& n) {
     if (form.errors) form.out.error((sums.*n.sum).error);
     else form.out.nothing();
   });
   append_asked(form, run, true);
   for (const LargestShock& shock : form.shocks) {
-    if (form.errors) form.out.error(shock.delta_v.error);
-    else form.out.nothing();
+    for_each_probe_number(model, [&](const ProbeNumber& number) {
+      if (form.errors && shock.impact > 0) form.out.error((shock.*number.value).error);
+      else form.out.nothing();
+    });
   }
   form.out.word(form.reason);
   form.out.end_row();
@@ -277,14 +329,36 @@ bool RowLayout::has(std::string_view quantity) const {
          });
 }
 
-std::vector<ImpactColumn> read_impact_columns(const std::string& names, const RowLayout& layout, int impacts) {
+std::string ranking_column(const RowLayout& layout, const Probe& probe) {
+  return std::string(layout.model == Model::continuous ? peak_column : shock_column) + probe.name;
+}
+
+std::vector<LargestShock> LargestShock::of(const std::vector<ShockRow>& rows, std::size_t count) {
+  std::vector<LargestShock> largest(count);
+  for (const ShockRow& row : rows) {
+    LargestShock& so_far = largest[row.probe];
+    const bool is_first = so_far.impact == 0;
+    const Estimated delta_v{row.value.delta_v_size, row.error.delta_v_size},
+        peak_g = Estimated{row.value.peak_size, row.error.peak_size} * (1 / standard_gravity);
+    if (is_first || delta_v.value > so_far.delta_v.value) so_far.impact = row.impact;
+    if (is_first || peak_g.value > so_far.peak_g.value) {
+      so_far.peak_impact = row.impact;
+      so_far.width = {row.value.width, row.error.width};
+    }
+    so_far.delta_v = is_first ? delta_v : larger(so_far.delta_v, delta_v);
+    so_far.peak_g = is_first ? peak_g : larger(so_far.peak_g, peak_g);
+  }
+  return largest;
+}
+
+void read_impact_columns(const std::string& names, int impacts, RowLayout& layout) {
   AskedColumns asked(layout, impacts);
   for (std::size_t begin = 0; begin <= names.size();) {
     const std::size_t end = std::min(names.find(',', begin), names.size());
     asked.add(names.substr(begin, end - begin));
     begin = end + 1;
   }
-  return std::move(asked).taken();
+  std::move(asked).put_into(layout);
 }
 
 std::vector<Column> sweep_columns(const RowLayout& layout) {

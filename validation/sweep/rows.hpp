@@ -12,6 +12,7 @@
 #include "validation/scene/probes.hpp"
 #include "validation/scene/scene.hpp"
 #include "validation/scene/shortfall.hpp"
+#include "validation/shock/shock_rows.hpp"
 
 namespace clatter::validation::inline sweep {
 
@@ -32,25 +33,27 @@ struct RowLayout {
   bool in_space = false;  ///< whether a scene may leave its plane
   std::vector<std::string> swept{};
   std::vector<ImpactColumn> asked{};  ///< with rows of scenes
-  std::vector<Probe> probes{};        ///< likewise, of the discrete model
+  std::vector<std::string> named{};   ///< columns asked for that these rows have anyway
+  std::vector<Probe> probes{};        ///< with rows of scenes
 
   /// Whether rows have this number of impacts.
   [[nodiscard]] bool has(std::string_view quantity) const;
 };
 
-/// The columns that a list of names asks for, separated by commas: QUANTITY_N of impact N, QUANTITY of each impact up
-/// to `impacts`, hardest (its number) and hardest_QUANTITY of the impact with the largest normal impulse; QUANTITY is a
-/// column of rows of impacts.  A row with fewer impacts leaves its cells empty.
+/// Puts into the layout, whose probes are known, the columns that a list of names asks for, separated by commas:
+/// QUANTITY_N of impact N, QUANTITY of each impact up to `impacts`, hardest (its number) and hardest_QUANTITY of the
+/// impact with the largest normal impulse, QUANTITY a column of rows of impacts, a row with fewer impacts leaves its
+/// cells empty; or a column that rows of scenes have anyway, which is there once.
 /// @throws BadInput naming what was given and the nearest name
-[[nodiscard]] std::vector<ImpactColumn> read_impact_columns(const std::string& names, const RowLayout& layout,
-                                                            int impacts);
+void read_impact_columns(const std::string& names, int impacts, RowLayout& layout);
 
 /// Index and swept keys, then per scene
 ///     impacts, outcome, total_normal_impulse [N·s], first_peak_force, largest_peak_force [N] and
 ///     largest_indentation [m] (continuous model),
 ///     energy_loss [J] and last_start [s] over the impacts listed, predictable, the columns asked for, of each probe
-///     the largest change of its velocity over an impact [m/s] and which impact that is, the error of each of these
-///     numbers, reason;
+///     in the continuous model the largest specific force [g], which impact that is and how long it stays above a tenth
+///     [s], in both the largest change of its velocity over an impact [m/s] and which impact that is, the error of each
+///     of these numbers, reason;
 /// or per impact what `clatter sequence` and `clatter simulate` write as CSV, the scene's outcome and reason; where
 /// scenes may leave their plane, what `clatter sequence` writes in space.
 /// The reason says why a scene has no numbers, fewer impacts than asked for or fewer digits than required; else it is
@@ -60,13 +63,21 @@ struct RowLayout {
 /// What all rows of a scene begin with.
 [[nodiscard]] std::string row_prefix(long long index, const std::vector<double>& values, bool packed);
 
-/// Of the column of a probe's largest |ΔV|, before the probe's name.
-inline constexpr std::string_view shock_column = "delta_v_";
+/// What the columns of a probe's largest specific force and of its largest |ΔV| begin with, before the probe's name.
+inline constexpr std::string_view peak_column = "peak_g_", shock_column = "delta_v_";
+/// The column by which rows are ranked for a probe.
+[[nodiscard]] std::string ranking_column(const RowLayout& layout, const Probe& probe);
 
-/// The largest |ΔV| of a point of the body over an impact.
+/// The hardest that a point of the body goes through in the impacts of a scene.
 struct LargestShock {
-  Estimated delta_v;  ///< [m/s]
-  int impact = 0;     ///< its number, from 1
+  Estimated delta_v;    ///< [m/s]
+  int impact = 0;       ///< its number, from 1; 0: there was no impact
+  Estimated peak_g;     ///< of the specific force, in g; the continuous model alone
+  int peak_impact = 0;  ///< the number of the impact that has it
+  Estimated width;      ///< for which it stays above a tenth of that [s]
+
+  /// Takes the hardest of rows of probes, the first of equal ones.  @param count  of the probes
+  [[nodiscard]] static std::vector<LargestShock> of(const std::vector<ShockRow>& rows, std::size_t count);
 };
 
 /// Where the rows of one scene go, and what they hold besides its numbers.

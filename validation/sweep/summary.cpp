@@ -12,7 +12,6 @@
 #include <stdexcept>
 
 #include "validation/output/number.hpp"
-#include "validation/sweep/rows.hpp"
 
 namespace clatter::validation::inline sweep {
 namespace {
@@ -49,8 +48,10 @@ Estimated Histogram::percentile(double part) const {
   return {middle, std::max(middle - bin->second.least, bin->second.largest - middle)};
 }
 
-Summary::Summary(std::vector<Column> columns, std::size_t swept, const SweepPoints& points)
-    : columns_(std::move(columns)), first_(1 + swept), points_(&points), numbers_(columns_.size()),
+Summary::Summary(const RowLayout& layout, const SweepPoints& points)
+    : columns_(sweep_columns(layout)), first_(1 + layout.swept.size()),
+      rank_by_(layout.probes.empty() ? "" : ranking_column(layout, layout.probes.front())), points_(&points),
+      numbers_(columns_.size()),
       largest_(static_cast<std::size_t>(points.attitudes()), std::vector<Extreme>(columns_.size(), {0, -1})),
       texts_(columns_.size()), row_(columns_.size()) {}
 
@@ -123,9 +124,9 @@ void Summary::add_attitudes(Report& report, const std::function<std::string(long
         columns_.begin());
   };
   // By which blows are hard: for the first of the probes, if there are any.
-  const auto is_of_probe = [](const Column& one) { return one.name.starts_with(shock_column); };
-  auto by = static_cast<std::size_t>(std::find_if(columns_.begin(), columns_.end(), is_of_probe) - columns_.begin());
-  for (const char* const wanted : {"largest_peak_force", "hardest_impulse_normal", "total_normal_impulse"}) {
+  std::size_t by = columns_.size();
+  for (const std::string& wanted : {rank_by_, std::string("largest_peak_force"), std::string("hardest_impulse_normal"),
+                                    std::string("total_normal_impulse")}) {
     if (by == columns_.size()) by = column_named(wanted);
   }
   if (by == columns_.size()) return;

@@ -12,6 +12,7 @@
 #include "validation/output/estimated.hpp"
 #include "validation/output/report.hpp"
 #include "validation/sweep/points.hpp"
+#include "validation/sweep/rows.hpp"
 
 namespace clatter::validation::inline sweep {
 
@@ -41,9 +42,9 @@ inline constexpr double summary_percents[]{1, 5, 25, 50, 75, 95, 99};
 /// often each occurs.  The order of the rows changes nothing; of equal extremes the first row's is kept.
 class Summary {
  public:
-  /// @param swept  how many columns after the first are keys that were swept, which nobody needs to be told
   /// @param points  their listed attitudes, if any, are told apart by the largest of each number
-  Summary(std::vector<Column> columns, std::size_t swept, const SweepPoints& points);
+  /// @param layout  of the rows; its first probe, if any, says which blows are hard
+  Summary(const RowLayout& layout, const SweepPoints& points);
 
   /// Takes whole packed rows, whose first cell is the scene's number.
   void add(std::string_view rows);
@@ -79,7 +80,8 @@ class Summary {
   void add_attitudes(Report& report, const std::function<std::string(long long)>& name) const;
 
   std::vector<Column> columns_;
-  std::size_t first_;  ///< column that is summarised
+  std::size_t first_;    ///< column that is summarised: swept keys need not be told
+  std::string rank_by_;  ///< name of the column by which attitudes are ranked first; empty: there is no probe
   const SweepPoints* points_;
   std::vector<Numbers> numbers_;
   std::vector<std::vector<Extreme>> largest_;  ///< of each listed attitude, of each column; index -1: none yet

@@ -332,10 +332,14 @@ bool may_leave_its_plane(const SweepPlan& plan) {
   });
 }
 
-void choose_columns(const SweepRequest& request, SweepPlan& plan) {
+void choose_rows(const SweepRequest& request, SweepPlan& plan) {
   RowLayout& layout = plan.layout;
   if (request.rows) layout.rows = static_cast<RowKind>(read_name_option("--rows", *request.rows, row_names));
   layout.in_space = layout.model == Model::discrete && may_leave_its_plane(plan);
+}
+
+void choose_columns(const SweepRequest& request, SweepPlan& plan) {
+  RowLayout& layout = plan.layout;
   std::optional<std::string> columns = request.columns;
   const std::vector<SweepAxis>& axes = plan.points.axes();
   const bool attitudes =
@@ -350,29 +354,30 @@ void choose_columns(const SweepRequest& request, SweepPlan& plan) {
   for (const SweepAxis& axis : plan.points.axes()) {
     if (axis.key == "run.impacts") impacts = static_cast<int>(std::max(axis.first, axis.last));
   }
-  layout.asked = read_impact_columns(*columns, layout, impacts);
+  read_impact_columns(*columns, impacts, layout);
   plan.words.push_back(fmt::format("columns: {}", *columns));
 }
 
 /// The points of flags, else of the scene's file, where rows have columns for them.
 void choose_probes(const SweepRequest& request, const SceneValues& values, SweepPlan& plan) {
   RowLayout& layout = plan.layout;
-  const bool have_columns = layout.model == Model::discrete && layout.rows == RowKind::scene;
-  if (!have_columns && !request.probes.empty()) {
-    throw BadInput(
-        fmt::format("--probe {}: is for rows of scenes of the discrete model (--model discrete); clatter shock has "
-                    "the simulator's",
-                    request.probes.front()));
+  if (layout.rows == RowKind::impact && !request.probes.empty()) {
+    throw BadInput(fmt::format("--probe {}: is for --rows scene; clatter shock has a point's numbers of each impact",
+                               request.probes.front()));
   }
-  if (have_columns)
+  if (layout.rows == RowKind::scene)
     layout.probes = request.probes.empty() ? read_probes(values) : read_probes("--probe", request.probes);
+  for (const Probe& probe : layout.probes) {
+    plan.words.push_back(fmt::format("probe: {}, body frame", place_words(probe)));
+  }
+}
+
+/// @throws BadInput for a probe whose columns have the names of others
+void require_distinct_columns(const RowLayout& layout) {
   std::set<std::string> names;
   for (const Column& column : sweep_columns(layout)) {
     if (names.insert(column.name).second) continue;
     throw BadInput(fmt::format("--probe: column {} would be there twice; name the points otherwise", column.name));
-  }
-  for (const Probe& probe : layout.probes) {
-    plan.words.push_back(fmt::format("probe: {}, body frame", place_words(probe)));
   }
 }
 
@@ -432,8 +437,10 @@ SweepPlan read_sweep_plan(const SweepRequest& request) {
   }
   read_points(request, settings, plan);
   choose_setters(values, settings, plan);
-  choose_columns(request, plan);
+  choose_rows(request, plan);
   choose_probes(request, values, plan);
+  choose_columns(request, plan);
+  require_distinct_columns(plan.layout);
   return plan;
 }
 

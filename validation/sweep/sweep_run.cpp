@@ -168,20 +168,6 @@ bool SweptBody::renew(const Scene& scene, const std::vector<double>& values) {
   return true;
 }
 
-/// Of each probe, the first of equal ones.
-std::vector<LargestShock> SceneRunner::largest_shocks(const DiscreteDrop& drop, const DiscreteSequence& found) {
-  std::vector<LargestShock> largest(plan_.layout.probes.size());
-  if (largest.empty()) return largest;
-  const std::vector<numeric::Vector3> places = places_from(body_->discrete->centre(), plan_.layout.probes);
-  for (const ShockRow& row : discrete_shock(drop, found, places)) {
-    LargestShock& so_far = largest[row.probe];
-    const Estimated delta_v{row.value.delta_v_size, row.error.delta_v_size};
-    if (delta_v.value > so_far.delta_v.value) so_far.impact = row.impact;
-    so_far.delta_v = larger(so_far.delta_v, delta_v);
-  }
-  return largest;
-}
-
 /// The sequence of the drop, in the plane or in space.
 DiscreteSequence SceneRunner::sequence(const DiscreteDrop& drop, bool with_errors) {
   const analytic::SequenceOptions options{.impacts = scene_.most_impacts(),
@@ -200,18 +186,32 @@ bool SceneRunner::append_result(RowForm& form) {
   if (plan_.layout.model == Model::discrete) {
     const DiscreteDrop drop = body_->discrete->drop(scene_);
     const DiscreteSequence found = sequence(drop, form.errors);
-    form.shocks = largest_shocks(drop, found);
+    if (!plan_.layout.probes.empty()) {
+      const auto places = places_from(body_->discrete->centre(), plan_.layout.probes);
+      form.shocks = LargestShock::of(discrete_shock(drop, found, places), places.size());
+    }
     const Run run = named_run(scene_, found, body_->discrete->centre());
     form.reason = shortfall(scene_, run);
     append_rows(form, run);
     return true;
   }
-  const PlannedRun planned = run_to_digits(*body_->solid, scene_.world, scene_.start(*body_->solid), scene_.request,
-                                           scene_.accuracy, {.progress = [this](int, long) { return !stop_(); }});
-  if (planned.run.outcome == numeric::Outcome::interrupted) return false;
-  form.reason = shortfall(scene_, planned);
-  append_rows(form, named_run(scene_, planned.run));
+  const PlannedRun run = planned(form.shocks);
+  if (run.run.outcome == numeric::Outcome::interrupted) return false;
+  form.reason = shortfall(scene_, run);
+  append_rows(form, named_run(scene_, run.run));
   return true;
+}
+
+PlannedRun SceneRunner::planned(std::vector<LargestShock>& shocks) {
+  const numeric::Observer observer{.progress = [this](int, long) { return !stop_(); }};
+  const numeric::Body& body = *body_->solid;
+  const std::vector<Probe>& probes = plan_.layout.probes;
+  if (probes.empty())
+    return run_to_digits(body, scene_.world, scene_.start(body), scene_.request, scene_.accuracy, observer);
+  const std::vector<numeric::Vector3> places = places_from(body_properties(scene_, Model::continuous).centre, probes);
+  ContinuousShock shock = continuous_shock(scene_, body, places, false, observer);
+  shocks = LargestShock::of(shock.rows, probes.size());
+  return std::move(shock.planned);
 }
 
 RowForm SceneRunner::form_of(const std::string& prefix, CellWriter& out) const {

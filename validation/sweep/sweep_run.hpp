@@ -155,7 +155,8 @@ class SceneRunner {
   bool append_scene(long long index, std::string& out);
   bool append_result(RowForm& form);
   [[nodiscard]] DiscreteSequence sequence(const DiscreteDrop& drop, bool with_errors);
-  [[nodiscard]] std::vector<LargestShock> largest_shocks(const DiscreteDrop& drop, const DiscreteSequence& found);
+  /// The planned run of the continuous model, and what it does to the layout's probes.
+  [[nodiscard]] PlannedRun planned(std::vector<LargestShock>& shocks);
   [[nodiscard]] RowForm form_of(const std::string& prefix, CellWriter& out) const;
 
   const SweepPlan& plan_;

@@ -186,6 +186,37 @@ class Map(EmptyFolder):
         self.assertEqual({row["impacts"] for row in self.rows(*arguments)}, {"infinite"})
         self.assertEqual({row["impacts"] for row in self.rows(*arguments, "--set", "run.impacts=3")}, {">=3"})
 
+    def test_a_class_of_counts_is_told_whatever_run_impacts_of_the_scene(self):
+        scene = self.write("rod.toml", "[drop]\nangle_deg = 10\n[run]\nimpacts = 2\n")
+        over = ["--over", "drop.angle_deg=1:60", "--over", "drop.speed=1:2", "--size", "30x2"]
+        counts = [int(row["impacts"]) for row in self.rows(*over)]
+        self.assertEqual(set(counts), {1, 2, 3})
+        for wanted in ("1", "2", "3", ">=1", ">=2", ">=3"):
+            rows = self.rows(scene, *over, "--samples", "1", "--quantity", f"impacts={wanted}")
+            number = int(wanted.lstrip(">="))
+            expected = [count >= number if ">" in wanted else count == number for count in counts]
+            self.assertEqual([float(row["probability"]) for row in rows], [float(one) for one in expected], wanted)
+
+    def test_infinitely_many_impacts_are_at_least_any_number(self):
+        over = ["--over", "drop.angle_deg=5:6", "--over", "impact.restitution=0.05:0.06", "--size", "2x2", "--samples", "3"]
+        self.assertEqual({row["probability"] for row in self.rows(*over, "--quantity", "impacts=>=40")}, {"1"})
+
+    def test_what_cannot_change_or_show_anything_is_said(self):
+        over = ["map", "--over", "drop.angle_deg=1:60", "--over", "drop.speed=1:2", "--size", "4x2"]
+        for arguments, words in ((["--samples", "1", "--quantity", "impacts=3", "--set", "run.impacts=3"], "changes nothing"),
+                                 (["--samples", "1", "--quantity", "hardest=9", "--set", "run.impacts=3"], "3 impacts are followed")):
+            done = run(*over, *arguments, "--output", self.path("map.npy"))
+            self.assertEqual((done.returncode, len(done.stderr.splitlines())), (2, 1), done.stderr)
+            self.assertIn(words, done.stderr)
+        for arguments, words in ((["--samples", "2", "--quantity", "impacts=9"], "no drop of any pixel has impacts=9"),
+                                 (["--samples", "2", "--quantity", "impacts=>=1"], "each drop of every pixel has impacts=>=1"),
+                                 (["--set", "run.impacts=1"], "all pixels have the same impacts: >=1")):
+            for name in ("map.npy", "map.csv"):
+                done = run(*over, *arguments, "--output", self.path(name))
+                self.assertEqual(done.returncode, 0, done.stderr)
+                self.assertIn(words, done.stderr)
+        self.assertNotIn("pixel", run(*over, "--output", self.path("map.npy")).stderr)
+
     def test_refused_drops_are_a_class_and_no_number(self):
         arguments = ["--over", "drop.angle_deg=50:70", "--over", "impact.impulse_ratio=1:3", "--size", "8x8"]
         classes = {row["outcome"] for row in self.rows(*arguments, "--quantity", "outcome")}

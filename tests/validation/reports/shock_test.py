@@ -131,6 +131,27 @@ class Shock(EmptyFolder):
         table = run("shock", "phone-damped", *PROBE, *FEW, "--rows", "spectrum").stdout
         self.assertLessEqual(max(len(line) for line in table.splitlines()), 80)
 
+    def test_each_spectrum_is_listed_once_whichever_impacts_are_the_first_ones(self):
+        for first, expected in (("1", ["1", "1-2"]), ("2", ["1", "1-2"]), ("9", ["1", "1-2"])):
+            rows = records(run("shock", "phone-damped", *PROBE, *FEW, "--first", first, "--rows", "spectrum", "--format", "csv").stdout)
+            for model in ("continuous", "discrete"):
+                blows = [row["blows"] for row in rows if row["model"] == model and row["frequency"] == rows[0]["frequency"]]
+                self.assertEqual([one for one in blows if one != "flat"], expected)
+
+    def test_blows_that_compare_says_are_others_do_not_stand_beside_each_other(self):
+        # A soft floor: the second corner comes down before the first has left.
+        scene = ("phone-elastic", "--angle", "5", "--stiffness", "1e6", "--impacts", "3")
+        reasons = [impact["reason"] for impact in json.loads(run("compare", *scene, "--format", "json").stdout)["impacts"]]
+        found = shock(*scene, *PROBE, "--frequencies", "100:200:2", "--no-sensitivity")
+        self.assertIn("before the first contact has ended", reasons[0])
+        self.assertEqual((found["parted"]["from"], found["parted"]["reason"]), (1, reasons[0]))
+        for row in found["impacts"]:
+            self.assertIsNotNone(row["delta_v"])
+            self.assertIsNone(row["discrete_delta_v"])
+        same = shock("phone-damped", *PROBE, *FEW)
+        self.assertNotIn("parted", same)
+        self.assertTrue(all(row["discrete_delta_v"] for row in same["impacts"]))
+
     def test_a_severity_is_told_where_it_is_exceeded(self):
         found = run("shock", "phone-damped", *PROBE, *FEW, "--severity", "0.01")
         self.assertIn("above the severity of 0.01 m/s", found.stdout)

@@ -80,7 +80,9 @@ BAD_OPTIONS = {
     "--columns peak_force_1,corners_1": "--columns 'corners_1'",
     "--rows impact --columns hardest": "--rows scene",
     "--model discreet": "did you mean discrete?",
-    "--rows impact --probe tip:0,0,0": "is for rows of scenes of the discrete model",
+    "--rows impact --probe tip:0,0,0": "is for --rows scene",
+    "--probe tip:0,0,0 --columns delta_v_tip,delta_v_tip": "delta_v_tip: asked for twice",
+    "--probe tip:0,0,0 --columns delta_v_top": "did you mean delta_v_tip?",
     "--probe tip:0,0": "--probe",
     "--probe tip:0,0,0 --probe tip_impact:0,0,0": "delta_v_tip_impact would be there twice",
     "--probe tip:0,0,0 --probe tip:1,0,0": "--probe",
@@ -234,6 +236,54 @@ class SameAsTheOtherCommands(Folder):
         self.assertIn("delta_v_tip", summary)
         bare = records(self.sweep(scene, "--set", "drop.speed=1:2:1", "--no-errors"))
         self.assertEqual((bare[0]["delta_v_tip"], bare[0]["delta_v_tip_error"]), (rows[0]["delta_v_tip"], ""))
+
+    def test_what_a_point_goes_through_on_a_ground_is_that_of_shock(self):
+        scene = self.probed_phone()
+        flags = ["--set", "run.impacts=2", "--set", "run.digits=4"]
+        for row in records(self.sweep(scene, "--set", "drop.angle_deg=10:40:30", *flags)):
+            one = self.run_program("shock", scene, "--angle", row["drop.angle_deg"], "--impacts", "2", "--digits", "4", "--no-sensitivity",
+                                   "--frequencies", "100:200:2", "--format", "csv", "--bare")
+            for name in ("camera", "edge"):
+                own = [shock for shock in records(one.stdout) if shock["probe"] == name]
+                sharpest = max(own, key=lambda shock: float(shock["peak_g"]))
+                fastest = max(own, key=lambda shock: float(shock["delta_v"]))
+                for column, shock in (("peak_g", sharpest), ("width", sharpest), ("delta_v", fastest)):
+                    self.assertEqual(row[f"{column}_{name}"], shock[column])
+                    self.assertGreaterEqual(float(row[f"{column}_{name}_error"]), float(shock[f"{column}_error"]))
+                self.assertEqual((row[f"peak_g_{name}_impact"], row[f"delta_v_{name}_impact"]), (sharpest["n"], fastest["n"]))
+
+    def test_a_flat_elastic_landing_gives_a_point_the_peak_and_width_of_a_half_sine(self):
+        scene = self.write("flat.toml", "[drop]\nangle_deg = 0\nspeed = 2\n[body]\nshape = 'box'\n"
+                           "mass = 0.2\nsize = [0.1, 0.06, 0.02]\n[ground]\nstiffness = 1e9\narea = 'projected'\n[run]\nimpacts = 1\n"
+                           "[[probe]]\nname = 'tip'\nplace = [0.05, 0, 0]\n")
+        for row in records(self.sweep(scene, "--set", "ground.stiffness=1e8,1e9")):
+            omega = math.sqrt(float(row["ground.stiffness"]) * 0.1 * 0.06 / 0.2)
+            width = math.pi / omega * (1 - 2 * math.asin(0.1) / math.pi)
+            self.assertAlmostEqual(float(row["peak_g_tip"]) * 9.80665 / (2 * omega), 1, delta=1e-7)
+            self.assertAlmostEqual(float(row["width_tip"]) / width, 1, delta=1e-6)
+            self.assertLessEqual(abs(float(row["delta_v_tip"]) - 4), float(row["delta_v_tip_error"]))
+            self.assertLess(float(row["delta_v_tip_error"]), 1e-5)
+
+    def test_attitudes_on_a_ground_are_ranked_by_what_the_first_point_goes_through(self):
+        scene = self.probed_phone()
+        arguments = [scene, "--set", "drop.attitude=[1,0,0,0],[0.5,0.5,0.5,0.5],[0.6,0,0.8,0]", "--set", "run.impacts=1", "--set",
+                     "run.digits=3", "--no-errors"]
+        felt = [float(row["peak_g_camera"]) for row in records(self.sweep(*arguments))]
+        summary = json.loads(self.sweep(*arguments, "--summary", "--format", "json"))
+        self.assertEqual([int(one["attitude"]) - 1 for one in summary["attitudes"]], sorted(range(3), key=lambda place: -felt[place]))
+        self.assertIn("attitudes by peak_g_camera", self.sweep(*arguments, "--summary", "--format", "table"))
+
+    def test_a_column_that_is_there_anyway_can_be_asked_for_and_is_there_once(self):
+        for scene, name in ((self.probed_phone(), "peak_g_camera"), (self.scene, "last_start")):
+            arguments = [scene, "--set", "drop.angle_deg=10:40:30", "--set", "run.impacts=1"]
+            plain, asked = (records(self.sweep(*arguments, *more)) for more in ([], ["--columns", f"{name},impulse_normal_1"]))
+            self.assertEqual([row[name] for row in asked], [row[name] for row in plain])
+            self.assertEqual(set(asked[0]) - set(plain[0]), {"impulse_normal_1", "impulse_normal_1_error"})
+
+    def probed_phone(self):
+        with open(PHONE, encoding="utf-8") as file:
+            return self.write("probed.toml", file.read() + '[[probe]]\nname = "camera"\nplace = [0.048, 0.016, 0.0095]\n'
+                              '[[probe]]\nname = "edge"\nplace = [-0.05, 0, 0]\n')
 
     def test_a_body_that_is_swept_is_the_body_of_each_scene(self):
         rod = os.path.join(CASES, "rod-at-1ms.toml")
