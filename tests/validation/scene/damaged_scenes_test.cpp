@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Scene files that were damaged are read or refused in one line, and break nothing: what the sanitizers watch of the
-// readers.
+// Scene files that were damaged are read or refused in one line, and break nothing.
 #include <array>
 #include <boost/test/unit_test.hpp>
 #include <random>
