@@ -24,7 +24,7 @@ using Real = long double;
 using RealVector = Eigen::Matrix<Real, 3, 1>;
 using RealMatrix = Eigen::Matrix<Real, 3, 3>;
 
-constexpr int corners = CLATTER_TEST_SLOW_BUILD ? 10 : 60, strikes = CLATTER_TEST_SLOW_BUILD ? 1 : 5;
+constexpr int corners = CLATTER_TEST_SLOW_BUILD ? 10 : 30, strikes = CLATTER_TEST_SLOW_BUILD ? 1 : 2;
 
 /// Fourth-order differences of f(h).
 template <class Function>
