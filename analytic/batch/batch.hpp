@@ -40,7 +40,7 @@ enum class BatchEnd : std::uint8_t {
   outside,       ///< an impact jams
   not_computed,  ///< a number could not be had
 };
-/// That of a sequence of the plane or of space.
+/// How a drop of a batch ends whose sequence, of the plane or of space, ends so.
 [[nodiscard]] BatchEnd batch_end(Outcome outcome, bool has_tail);
 
 /// What came out of a drop.  Numbers that it has not are NaN.

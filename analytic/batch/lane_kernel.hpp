@@ -317,7 +317,7 @@ class Lanes {
     Vector others;        ///< least height of all the others [m]
   };
 
-  /// Of the vertex that touches, `touching_along` and `touching_up` from the centre of mass.
+  /// The partner of the vertex that touches, which is `touching_along` and `touching_up` from the centre of mass.
   [[nodiscard]] Partner partner_of(Vector touching_along, Vector touching_up) const {
     Partner partner{.height = all(1e300), .fall = {}, .along = {}, .up = {}, .others = all(1e300)};
     for (int j = 0; j < body_.vertex_count; ++j) {
@@ -495,7 +495,7 @@ class Lanes {
     Vector low, high;  ///< of its prospect [rad]
   };
 
-  /// Of the vertex with this index.
+  /// The fall of the vertex with this index.
   [[nodiscard]] Falling of_vertex(Vector chosen) const {
     Height h = heights_[0];
     Vector low = prospects_[0].low, high = prospects_[0].high;

@@ -21,7 +21,8 @@ PlanarBody turned_by_a_quarter(PlanarBody body) {
   return body;
 }
 
-/// Of the faster end's approach speed: a face's end that comes down more slowly is the edge that the body turned about.
+/// A face's end that comes down more slowly than this part of the faster end's approach speed is the edge that the body
+/// turned about.
 constexpr double pivot_part = 1e-11;
 
 VertexSet only(int vertex) { return static_cast<VertexSet>(1u << vertex); }

@@ -31,7 +31,7 @@ class ErrorFactor {
   void advance(const StateMatrix& jacobian);
   /// Standard deviation of gradient · state; infinite once an error was not finite.
   [[nodiscard]] double deviation(const StateVector& gradient) const;
-  /// Of one number of the state.
+  /// The deviation of one number of the state.
   [[nodiscard]] double deviation_of(std::size_t number) const;
 
  private:

@@ -53,7 +53,7 @@ class ErrorGrowth {
   [[nodiscard]] double amplification(const ImpactDerivatives& d, const ImpactRow& row) const;
   void add_rounding(const StruckState& struck, const Impact& impact);
   void advance(const StateMatrix& jacobian);
-  /// Of the vertex that arrives.
+  /// How the vertex that arrives comes down.
   struct Fall {
     double velocity;         ///< h′ [m/s]
     double height_rounding;  ///< [m]

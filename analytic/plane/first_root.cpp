@@ -220,7 +220,7 @@ struct Centre {
       const double square = velocity * velocity + 2 * gravity * above;
       if (!(square > 0)) return 0;
       const double root = std::sqrt(square);
-      // Of (V + √…)/g and its conjugate the one that does not cancel.
+      // This is the one of (V + √…)/g and its conjugate that does not cancel.
       return velocity > 0 ? (velocity + root) / gravity : 2 * above / (root - velocity);
     }
     return velocity < 0 ? std::max(above / -velocity, 0.0) : never;

@@ -41,7 +41,7 @@ struct Arrival {
   bool within_margin = false;  ///< the graze is so slight that rounding decides whether it happens
 };
 
-/// Of each vertex, the lowest turning point that the search passed above the ground; infinite clearance: none.
+/// The lowest turning point of each vertex that the search passed above the ground; infinite clearance: none.
 using Passes = std::array<NearMiss, max_vertices>;
 
 enum class FlightEnd {

@@ -14,7 +14,7 @@ constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
 
 constexpr double finer = 0.1;   ///< tolerance of the second run, over that of the main one
 constexpr double coarser = 10;  ///< the same where a finer one is not to be had
-/// Of the second run's later contacts, over the relative distance of the runs, and the largest.
+/// The tolerance of the second run's later contacts over the relative distance of the runs, and the largest.
 constexpr double tolerance_per_distance = 0.1, loosest = 1e-5;
 constexpr double least_grown = 0.01;  ///< of the root of the tolerance, with which friction of slow slip errs
 /// Longest step of the second run, over that of the main one: where steps are as long as they may be, the tolerance

@@ -27,7 +27,7 @@ struct Answer {
   Ending ending{};
 };
 
-/// Of a run's error, what a hypothesis may leave.
+/// The part of a run's error that a hypothesis may leave.
 inline constexpr double explained = 0.05;
 
 /// A number and what is left with it.

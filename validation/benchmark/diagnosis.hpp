@@ -11,10 +11,10 @@ namespace clatter::validation::inline benchmark {
 
 /// The one or two hypotheses that explain a run that fails; none where all leave more than a twentieth of the error.
 ///
-/// Of each impact, by the exact map at the run's own state before it (Score::law): restitution, friction, inertia,
-/// lever and a restitution that is left out for slow contacts.  Of the flights: gravity and damping.  Of the first
-/// touch: angle, spin and speed.  Of the pose at impacts: a margin above the ground, a delay.  Of the rows: signs,
-/// axes, units, frames.  Of lists: mass, ends and the sense of Omega.
+/// Each impact is judged by the exact map at the run's own state before it (Score::law): restitution, friction,
+/// inertia, lever and a restitution that is left out for slow contacts.  The flights tell gravity and damping; the
+/// first touch angle, spin and speed; the pose at impacts a margin above the ground and a delay; the rows signs, axes,
+/// units and frames; lists mass, ends and the sense of Omega.
 [[nodiscard]] std::vector<Cause> causes_of(const Answer& answer, const Reference& reference, const Score& score);
 
 }  // namespace clatter::validation::inline benchmark

@@ -35,7 +35,7 @@ double touch_time(const Reference& reference, const space::FreeFlight& flight) {
         least = std::fmin(least, std::fmax(speed / bound, 1e-9));
       } else {
         const double root = std::sqrt(speed * speed + 2 * bound * height);
-        // Of the two forms the one that does not cancel.
+        // This is the one of the two forms that does not cancel.
         least = std::fmin(least, speed < 0 ? 2 * height / (root - speed) : (speed + root) / bound);
       }
     }

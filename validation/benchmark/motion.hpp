@@ -12,7 +12,7 @@ namespace clatter::validation::inline benchmark {
 
 /// "FILE:LINE:1: KEY": where a line "# KEY: …" stands.
 [[nodiscard]] std::string place_of(const NumericTable& table, const std::string& key);
-/// Of the line "# step: 0.001" or "1/60", with or without "s" [s].  @throws BadInput
+/// The step of the line "# step: 0.001" or "1/60", with or without "s" [s].  @throws BadInput
 [[nodiscard]] std::optional<double> stated_step(const NumericTable& table);
 
 /// In the plane  t,x,z,phi,vx,vz,omega: of the centre of mass, floor z = 0, x to the right, phi and omega
@@ -49,7 +49,7 @@ class Motion {
   [[nodiscard]] double start_error() const { return start_error_; }
   /// Whether the file's first row is the state after the first impact, so that no row shows the start.
   [[nodiscard]] bool begins_after_touch() const { return lead_.has_value(); }
-  /// Of the code: as its file says, otherwise the median from row to row [s].
+  /// The step of the code: as its file says, otherwise the median from row to row [s].
   [[nodiscard]] double step() const { return step_; }
   [[nodiscard]] const NumericTable& table() const { return table_; }
   /// Row of the table that a row of the motion is.

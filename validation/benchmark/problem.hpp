@@ -23,7 +23,7 @@ struct TruthRow {
 
 /// A problem with a certified answer.
 ///
-/// Of a contact of finite time the time is that at which the flights before and after it have the same height of the
+/// The time of a contact of finite time is that at which the flights before and after it have the same height of the
 /// centre of mass, and velocity is that of the flight after it, followed back to then.
 struct Problem {
   std::string id;

@@ -42,7 +42,7 @@ struct Reference {
   bool ground_ends = false;  ///< the point "edge" of a level box stands over the ground's end
   DiscreteDrop drop{};       ///< as the discrete model has it
   analytic::space::Body body;
-  /// Of the body.
+  /// The body's principal axes.
   analytic::space::PrincipalAxes principal{analytic::space::Matrix3::Identity()};
   std::vector<std::string> points;  ///< names of the vertices, then of the rims; "edge" where the ground ends
   analytic::space::State start;     ///< at the first touch

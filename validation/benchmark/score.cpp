@@ -394,7 +394,7 @@ class Flights {
     note_drift(score, error, sequence_.truth.size());
   }
 
-  /// Of a body that slides, whose energy is a parabola in time: through the last three rows about a time.
+  /// The energy of a body that slides is a parabola in time: this is the one through the last three rows about a time.
   [[nodiscard]] double energy_at(double time) const {
     std::size_t last = motion_.size() - 1;
     while (last > 2 && motion_.time(last - 1) > time) --last;

@@ -8,7 +8,7 @@
 
 namespace clatter::validation::inline benchmark {
 
-/// Of a planar body: by how much it is turned with end a low, phi of a motion without whole turns [rad].
+/// By how much a planar body is turned with end a low, phi of a motion without whole turns [rad].
 [[nodiscard]] double inclination_of(const analytic::space::State& state);
 
 /// The state in which the drop that is asked for has its centre of mass at a height [m], on its way down to the touch.

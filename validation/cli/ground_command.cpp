@@ -43,7 +43,7 @@ std::vector<MeasuredNumber> measured_of(const GroundInput& input) {
   return measured;
 }
 
-/// Of the material that was given or named: one, or the ends of its range.
+/// The material that was given or named: one, or the ends of its range.
 std::vector<MaterialGround> materials_of(const GroundInput& input) {
   if (input.floor) {
     if (input.modulus || input.poisson) throw BadInput("--floor: excludes --modulus and --poisson; it has its own");

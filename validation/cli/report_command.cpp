@@ -101,7 +101,7 @@ std::string worst_html(const ReportInput& input, const Attitudes& attitudes, con
   summary.fill(
       report, [&](long long index) { return plan.command_of(index); },
       [&](long long place) { return plan.attitude_name(place); });
-  // Of the commands that show extremes those of the hardest blows; without a file none could name the scene.
+  // The hardest impacts alone keep their commands; without a file no command could name the scene.
   std::vector<std::string> hardest{"largest hardest_impulse_normal"};
   for (const Probe& probe : plan.layout.probes) hardest.push_back("largest " + ranking_column(plan.layout, probe));
   std::erase_if(report.commands, [&](const NamedCommand& one) {

@@ -28,7 +28,7 @@ void add_shock_options(Command& command, ShockInput& input);
 [[nodiscard]] Model model_of(const ShockInput& input);
 /// @throws BadInput for a scene that sweeps something or keeps a history, too.
 [[nodiscard]] Scene shock_scene(const ShockInput& input);
-/// Those of the flags, or else of the scene file.
+/// The probes of the flags, or else of the scene file.
 [[nodiscard]] std::vector<Probe> probes_of(const ShockInput& input);
 [[nodiscard]] ShockRequest request_of(const ShockInput& input);
 [[nodiscard]] ShockView view_of(const ShockInput& input);

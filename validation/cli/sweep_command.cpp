@@ -172,7 +172,7 @@ class SweepOutput {
     columns->close();
   }
 
-  /// Of the columns asked for, or else of what tells most of a drop.
+  /// The picture shows the columns asked for, or else those that tell most of a drop.
   void write_picture() {
     Report rows = plan_.report();
     rows.grid.rows = read_csv_rows(collected_);

@@ -15,7 +15,7 @@ struct NumberPair {
   std::size_t quantity;
 
   [[nodiscard]] double discrete() const { return (*impact.discrete)[quantity]; }
-  /// Of the discrete model with the body as given, whose corners may not be the mesh's.
+  /// The number of the discrete model with the body as given, whose corners may not be the mesh's.
   [[nodiscard]] Estimated given_number() const {
     if (!impact.as_given) return discrete_number();
     return {(*impact.as_given)[quantity], impact.as_given_error[quantity]};
@@ -25,7 +25,7 @@ struct NumberPair {
   [[nodiscard]] Estimated discrete_number() const { return {discrete(), impact.discrete_error[quantity]}; }
   [[nodiscard]] Estimated continuous_number() const { return {continuous(), impact.continuous_error[quantity]}; }
   [[nodiscard]] Estimated deviation_number() const { return continuous_number() - discrete_number(); }
-  /// Of the limit off the discrete value; its own error bar stands beside it.
+  /// How far the limit is off the discrete value; its own error bar stands beside it.
   [[nodiscard]] Estimated miss_number() const { return {miss(), impact.discrete_error[quantity] + bar()}; }
   [[nodiscard]] double predicted() const { return impact.predicted.total()[quantity]; }
   [[nodiscard]] double miss() const { return impact.limit->value[quantity] - discrete(); }

@@ -39,7 +39,7 @@ struct PredictedSize {
 /// leans only as far as the body tips.
 struct FaceTipping {
   double lean = 0;  ///< δω × reach / approach speed, δω the turn by friction under even pressure; 0 without friction
-  /// Of the row's numbers: their distance from a face under even pressure, δω, what it does to slip, h δω, and lean² of
+  /// How far the row's numbers are from a face under even pressure, δω, what it does to slip, h δω, and lean² of
   /// the approach speed for the corners that let go early.
   MotionNumbers size{};
 };

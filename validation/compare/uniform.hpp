@@ -8,7 +8,7 @@
 
 namespace clatter::validation::inline compare {
 
-/// Those of member `index` of the random family `seed`.
+/// Random numbers of member `index` of the random family `seed`.
 class Uniform {
  public:
   Uniform(std::uint64_t seed, int index) : engine_(seed + 1'000'003ULL * static_cast<std::uint64_t>(index)) {}

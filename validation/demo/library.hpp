@@ -49,7 +49,7 @@ inline double comp_ellint_1(double k) { return boost::math::ellint_1(k); }
 
 namespace ranges {
 
-/// Of a function of one or two values that of what the projection makes of them.
+/// A function of one or two values becomes one of what the projection makes of them.
 template <class Function, class Projection>
 auto projected(Function& function, Projection& projection) {
   return [&](const auto&... a) { return static_cast<bool>(std::invoke(function, std::invoke(projection, a)...)); };

@@ -30,7 +30,7 @@ Eigen::Vector3d vector_of(const MatrixXd& value) {
   return value;
 }
 
-/// Of a right angle it is 0, not the rounding of π.
+/// The cosine of a right angle is 0, not the rounding of π.
 double cosine(const Expression& angle) {
   const Quantity& quantity = angle->quantity;
   const bool is_right = quantity.unit == "°" && std::fabs(std::remainder(quantity.value(0, 0), 180)) == 90;

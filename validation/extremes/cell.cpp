@@ -153,7 +153,7 @@ Values elevations() {
          Values{{upright - 1e-6, "up-1e-6"}, {upright - 1e-12, "up-1e-12"}, {upright, "upright"}};
 }
 
-/// Of round bodies in space.
+/// The axes of round bodies in space.
 std::vector<MapAxis> round_axes() {
   return {
       {"disc", "disc", "angle between the ground and the face of a spinning disc, a tenth as thick as wide [rad]",

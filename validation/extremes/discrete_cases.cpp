@@ -19,7 +19,7 @@ using analytic::Drop;
 using analytic::FrictionKind;
 using analytic::Sequence;
 
-/// Of contact_angles.hpp: (2 + 2κ) ulp, 12 times that with e < 1 or μ_i ≠ 0.
+/// contact_angles.hpp errs by (2 + 2κ) ulp, by 12 times that with e < 1 or μ_i ≠ 0.
 constexpr double closed_form_ulps = 24;
 /// A law of motion has up to ten roundings on the way from the state to the row, on terms that its size counts once.
 constexpr double law_ulps = 32;

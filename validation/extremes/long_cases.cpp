@@ -25,8 +25,8 @@ namespace {
 
 /// A discrete scene's laws of motion hold if they do to this: rounding, grown by sizes that differ by tens of decades.
 constexpr double laws_hold = 1e-9;
-/// Of the first energy.  A body that falls deep into a soft ground trades a hundred times that with it, at a tolerance
-/// that keeps 10⁻⁶ of what is traded.
+/// This part of the first energy may be missing.  A body that falls deep into a soft ground trades a hundred times that
+/// with it, at a tolerance that keeps 10⁻⁶ of what is traded.
 constexpr double ledger_bound = 1e-4;
 constexpr long evaluations_per_scene = 4'000;
 

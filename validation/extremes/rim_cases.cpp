@@ -21,7 +21,7 @@ using RoundTop = oracle::Top<long double>;
 
 /// A law of motion has some ten roundings on the way to the row, and a flight one more for each radian.
 constexpr double ulps_of_laws = 64;
-/// Of the end of an accumulation, which sequences extrapolate to these digits of what is left.
+/// Sequences extrapolate the end of an accumulation to these digits of what is left.
 constexpr int digits_of_end = 6;
 
 space::Sequence timed_in_space(const space::Drop& drop, const analytic::SequenceOptions& options,

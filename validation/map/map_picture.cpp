@@ -236,7 +236,7 @@ struct Sheet {
         width(left + static_cast<double>(plan.columns * across) + right),
         height(top + static_cast<double>(plan.rows * upward) + bottom) {}
 
-  /// Of a pixel, where the map has so many along it and so many beside it.
+  /// The side of a pixel, where the map has so many along it and so many beside it.
   static long long side(long long along, long long beside) {
     const long long square = std::max({1LL, least_side / along, least_side / beside});
     return along * square <= 4 * least_side ? square : std::max(1LL, least_side / along);

@@ -23,7 +23,7 @@ constexpr double settled = 1e-11;  // change of the rotation [rad]
 /// Weight of a residual that is `size` expected ones long.
 double weight_of(double size) { return size > huber ? huber / size : 1; }
 
-/// Of a positive definite matrix, by blocks.
+/// The inverse of a positive definite matrix, by blocks.
 Matrix6 inverse_of(const Matrix6& m) {
   const Matrix3d first = m.topLeftCorner<3, 3>().inverse(), side = first * m.topRightCorner<3, 3>();
   const Matrix3d last = (m.bottomRightCorner<3, 3>() - m.bottomLeftCorner<3, 3>() * side).inverse();

@@ -73,7 +73,7 @@ class FlightFit {
   double middle_ = 0, first_ = 0, last_ = 0, gravity_ = 0, misfit_ = 0;
   int frames_ = 0;
   analytic::space::State state_;  ///< at middle_
-  /// Of a horizontal coordinate and its velocity, both alike; of height, its velocity and gravity.
+  /// The covariance of a horizontal coordinate and its velocity, both alike, and of height, its velocity and gravity.
   Eigen::Matrix<double, 5, 5> position_covariance_ = Eigen::Matrix<double, 5, 5>::Zero();
   Eigen::Matrix<double, 6, 6> rotation_covariance_ = Eigen::Matrix<double, 6, 6>::Zero();
   bool planar_ = false;

@@ -18,8 +18,8 @@ struct FitStart {
 
 struct RobustFit {
   Eigen::VectorXd value;
-  /// Of the jackknife: without item i the parameters move by (Σ H − H_i)⁻¹ g_i to first order, g and H an item's first
-  /// and second derivatives by central differences; NaN where Σ H is not positive definite.
+  /// The jackknife's covariance: without item i the parameters move by (Σ H − H_i)⁻¹ g_i to first order, g and H an
+  /// item's first and second derivatives by central differences; NaN where Σ H is not positive definite.
   Eigen::MatrixXd covariance;
   Eigen::VectorXd losses;  ///< of each item at `value`
 

@@ -123,7 +123,7 @@ class EventFlight {
     bool falls = false;
   };
 
-  /// Of a contact time, relative.
+  /// The relative resolution of a contact time.
   static Real resolution() { return std::max(Real(1e-32), Real(92 * std::numeric_limits<Real>::epsilon())); }
 
   /// While the centre of mass is higher than any vertex reaches, none can touch: when that ends; t if it is not so.
@@ -258,7 +258,7 @@ class EventSimulation {
     return best;
   }
 
-  /// Of the last `small` impacts: one vertex alone bounced, and the others need far longer to the
+  /// What the last `small` impacts tell: one vertex alone bounced, and the others need far longer to the
   /// ground than its bounces last all together; or several have bounced; or neither can be said yet
   /// (limit).
   [[nodiscard]] EventEnd accumulation_end(const std::vector<EventImpact<Real>>& impacts, std::size_t small) const {

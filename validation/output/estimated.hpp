@@ -11,7 +11,7 @@
 
 namespace clatter::validation::inline output {
 
-/// Of a number of which nothing is known.
+/// The error of a number of which nothing is known.
 inline constexpr double unknown_error = std::numeric_limits<double>::infinity();
 
 /// A number with a bound on its error or an estimate of that.  An error that is not finite: nothing is known of the

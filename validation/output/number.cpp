@@ -60,7 +60,8 @@ struct Decimal {
 /// The least one of two digits that is not below a size, which is positive and finite.
 Decimal two_digits_above(double size) {
   constexpr int least = -323;  // exponent of the smallest double
-  // That of the size's second digit, or the one below: ⌊i log₁₀ 2⌋ − 1 for every exponent i of a double.
+  // The exponent is that of the size's second digit, or the one below: ⌊i log₁₀ 2⌋ − 1 for every exponent i of a
+  // double.
   int exponent = std::max((std::ilogb(size) * 315653 >> 20) - 1, least);
   if (size > decimal(100, exponent)) ++exponent;
   constexpr int inexact = -300;  // below it decimal(1, exponent) may be subnormal, and the quotient too large

@@ -27,8 +27,8 @@ class CostTable {
 
   /// Error per tolerance of rkck at the two pilot tolerances, geometric mean: the error constant of a scene.
   [[nodiscard]] static double error_constant(double error_at_loose, double error_at_pilot);
-  /// Of pilot runs, not of checks.  Above 1e-4 a run costs no less, since events take the most; the second lies two
-  /// decades below, so that the mean does not hang on where one step happens to end.
+  /// The tolerances of pilot runs, not of checks.  Above 1e-4 a run costs no less, since events take the most; the
+  /// second lies two decades below, so that the mean does not hang on where one step happens to end.
   static constexpr double loose_tolerance = 1e-4, pilot_tolerance = 1e-6;
 
  private:

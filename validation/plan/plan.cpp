@@ -244,7 +244,7 @@ class Planner {
     else take(continuous_);
   }
 
-  /// Of all that fits into the time, by the table.
+  /// The most accurate level of all that fit into the time by the table is taken.
   void choose_most_accurate() {
     WeighedLevel best;
     for (const WeighedLevel& weighed : plan_.levels) {

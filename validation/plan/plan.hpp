@@ -13,8 +13,8 @@ namespace clatter::validation::inline plan {
 
 /// What is asked for.
 struct PlanTarget {
-  /// Of every time, angle, impulse and velocity of every impact, relative to the sequence's sizes (motion_sizes):
-  /// error <= 10^−digits.
+  /// The digits of every time, angle, impulse and velocity of every impact, relative to the sequence's sizes
+  /// (motion_sizes): error <= 10^−digits.
   int digits = 6;
   /// The run may take this long [ms]; the most accurate that fits is chosen if the digits do not fit.
   std::optional<double> within_ms = std::nullopt;

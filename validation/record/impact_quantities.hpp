@@ -40,7 +40,7 @@ struct ImpactQuantity {
 
   [[nodiscard]] Known known_to(RunModel model) const;
   [[nodiscard]] Entry value(const Impact& impact) const { return number ? number(impact.value) : fact(impact); }
-  /// Of a number only.
+  /// The error of a number; no other kind has one.
   [[nodiscard]] Entry error(const Impact& impact) const { return number(impact.error); }
   /// An entry of its kind, without meaning.
   [[nodiscard]] Entry kind() const;

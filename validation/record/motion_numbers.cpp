@@ -15,7 +15,7 @@ MotionNumbers sizes_of(double time, double speed, const BodySize& body) {
   return {time, 90, impulse, impulse, impulse, speed, speed, speed, turn, turn, turn};
 }
 
-/// Of the centre of mass or the tips [m/s].
+/// The largest speed of the centre of mass or the tips [m/s].
 double largest_speed(std::span<const Impact> impacts, double reach) {
   double speed = 0;
   for (const Impact& impact : impacts) speed = std::max({speed, impact.largest_speed, impact.largest_rate * reach});

@@ -17,9 +17,9 @@ namespace clatter::validation::inline record {
 inline constexpr std::size_t motion_number_count = 11;
 using MotionNumbers = std::array<double, motion_number_count>;
 
-/// Those of an impact, or of its errors, which are not finite where not known.
+/// The numbers of an impact, or of its errors, which are not finite where not known.
 [[nodiscard]] MotionNumbers motion_numbers(const Numbers& numbers);
-/// Those of each impact of a run.
+/// The numbers of each impact of a run.
 [[nodiscard]] std::vector<MotionNumbers> motion_rows(const Run& run);
 
 /// Size and mass of a body: how fast its tips are, and what speeds make of impulses.
@@ -39,7 +39,7 @@ struct ComparedQuantity {
   std::size_t place;  ///< in MotionNumbers
 };
 using ComparedQuantities = std::span<const ComparedQuantity>;
-/// Those of a motion in the plane.
+/// The quantities of a motion in the plane.
 inline constexpr std::array<ComparedQuantity, 7> plane_quantities{{{"start", "t", 0},
                                                                    {"contact_angle_deg", "angle", 1},
                                                                    {"impulse_normal", "Pₙ", 4},

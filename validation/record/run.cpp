@@ -22,7 +22,7 @@ EntryVector velocity(const analytic::PlanarVelocity& v) { return {v.tangential, 
 EntryVector rotation(const analytic::PlanarVelocity& v) { return {0, v.angular, 0}; }
 double speed(const analytic::PlanarVelocity& v) { return std::hypot(v.normal, v.tangential); }
 
-/// Of the body's x axis [rad], positive with end a lower.
+/// The inclination of the body's x axis [rad], positive with end a lower.
 double inclination_of(const Eigen::Quaterniond& attitude) {
   const numeric::Vector3 axis = attitude * numeric::Vector3::UnitX();
   return std::atan2(axis.z(), std::hypot(axis.x(), axis.y()));

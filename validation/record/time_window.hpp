@@ -19,7 +19,7 @@ struct TimeWindow {
 /// "FROM:TO"; all times without a text.  @throws BadInput unless both are finite numbers and FROM < TO.
 [[nodiscard]] TimeWindow read_window(const std::optional<std::string>& text);
 
-/// Of rows that begin with a time, in order, those in the window; where others lie beyond an end of the window, a row
+/// The rows in the window of some that begin with a time, in order; where others lie beyond an end of the window, a row
 /// there on the straight line between its neighbours, so that curves reach the frame.
 [[nodiscard]] std::vector<std::vector<double>> clipped(const std::vector<std::vector<double>>& rows,
                                                        const TimeWindow& window);

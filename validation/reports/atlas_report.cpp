@@ -127,7 +127,7 @@ std::vector<std::string> space_notes(const Atlas& atlas) {
   return notes;
 }
 
-/// Of the corner that is struck: its velocity change over that of the flat drop, (1 + e)|v|.
+/// The velocity change of the corner that is struck over that of the flat drop, (1 + e)|v|.
 std::vector<std::string> amplification_words(const Atlas& atlas) {
   const Amplification most = amplification_of(atlas);
   std::string share;

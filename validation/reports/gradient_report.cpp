@@ -19,7 +19,7 @@ struct Parameter {
   std::string name, unit;
 };
 
-/// Of the parameters of a DropGradient.
+/// The parameters of a DropGradient, by name and unit.
 std::vector<Parameter> parameters_of(const Scene& scene, bool in_space) {
   const Parameter fall = scene.height      ? Parameter{"height", "m"}
                          : scene.clearance ? Parameter{"clearance", "m"}

@@ -15,7 +15,7 @@ namespace clatter::validation::inline reports {
 /// A row for each ground.
 [[nodiscard]] std::vector<Column> ground_columns();
 
-/// Of a drop and two measured numbers.
+/// The report on the ground that a drop and two measured numbers give.
 [[nodiscard]] Report ground_report(const Scene& scene, const MeasuredNumber& first, const MeasuredNumber& second,
                                    const GroundFit& fit);
 

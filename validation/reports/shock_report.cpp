@@ -429,7 +429,7 @@ std::string probe_words(const std::vector<Probe>& probes) {
   return words + ", body frame";
 }
 
-/// Of probes so far off the body that their places may be in another unit or frame.
+/// A note on probes so far off the body that their places may be in another unit or frame.
 std::string far_probes(const Scene& scene, const std::vector<Probe>& probes) {
   const BodyProperties body = body_properties(scene, Model::discrete);
   std::string names;

@@ -13,7 +13,7 @@ namespace clatter::validation::inline reports {
 struct WorstNumber {
   double deviation = 0, deviation_error = 0, predicted = 0, miss = 0, miss_error = 0, bar = 0;
 };
-/// Of an impact that the discrete model has.
+/// The worst number of an impact that the discrete model has.
 [[nodiscard]] WorstNumber worst_number(const Comparison& comparison, const ComparedImpact& impact);
 
 /// One value of a swept scene.

@@ -172,7 +172,7 @@ BodyProperties of_solid(const SolidBody& solid) {
           without_rounding(k2, k2.cwiseAbs().maxCoeff())};
 }
 
-/// Of a centre in an ellipsoid, or in the capsule of its spheres.
+/// The bounds of a centre in an ellipsoid, or in the capsule of its spheres.
 Bounds round_bounds(const analytic::space::Body& body, const Vector3& centre) {
   Bounds bounds;
   for (const auto& [middle, semiaxes] : body.ellipsoids) {
@@ -185,7 +185,7 @@ Bounds round_bounds(const analytic::space::Body& body, const Vector3& centre) {
   return bounds;
 }
 
-/// Of a rod of this radius or of another shape by its sizes.
+/// The properties of a rod of this radius or of another shape by its sizes.
 BodyProperties shape_properties(const Scene& scene, double radius) {
   const BodyScene& body = scene.body;
   const bool is_rod = body.shape == BodyScene::Shape::rod;

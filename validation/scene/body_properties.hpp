@@ -45,8 +45,8 @@ struct SolidBody {
 
 /// A sphere, ellipsoid or capsule by its sizes alone, uniform.
 [[nodiscard]] analytic::space::Body round_body(const BodyScene& body);
-/// Of the body that the model drops: a shape by its sizes alone, a rod as a round cylinder.  A rod of radius 0 is thin
-/// in the discrete model and has the radius of its mesh in the continuous one.  @throws as solid_body.
+/// The properties of the body that the model drops: a shape by its sizes alone, a rod as a round cylinder.  A rod of
+/// radius 0 is thin in the discrete model and has the radius of its mesh in the continuous one.  @throws as solid_body.
 [[nodiscard]] BodyProperties body_properties(const Scene& scene, Model model);
 
 /// "mass", "extents", "centre", "principal_inertia" (ascending), "inertia" (xx, yy, zz, xy, xz, yz), SI.

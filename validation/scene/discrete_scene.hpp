@@ -86,7 +86,7 @@ class DiscreteBody {
   [[nodiscard]] DiscreteDrop drop(const Scene& scene);
   /// The same in space, also where it moves in the plane.  @throws as drop
   [[nodiscard]] analytic::space::Drop drop_in_space(const Scene& scene);
-  /// Of mass, in the body's frame [m].
+  /// The centre of mass in the body's frame [m].
   [[nodiscard]] const numeric::Vector3& centre() const { return centre_; }
 
   /// In the plane y = 0; none of a body that is not symmetric about it.  @throws as planar_body

@@ -35,7 +35,7 @@ struct ParameterGradient {
   std::vector<Derivatives> impacts{};
   analytic::GradientRefusal refused{};
 
-  /// Of an impact, from 0; null where there are none.
+  /// The derivatives of an impact, from 0; null where there are none.
   [[nodiscard]] const Derivatives* of(std::size_t impact) const {
     return impact < refused.from && impact < impacts.size() ? &impacts[impact] : nullptr;
   }

@@ -23,8 +23,8 @@ struct Failure {
 /// The exit status of a run whose models disagree, whose check fails or whose requirement is not met.
 inline constexpr int check_failed = 1;
 
-/// Of the exception that is being handled.  A std::domain_error is a value that a library refuses, any other
-/// std::logic_error a defect.  @pre called in a handler
+/// The failure of the exception that is being handled.  A std::domain_error is a value that a library refuses, any
+/// other std::logic_error a defect.  @pre called in a handler
 [[nodiscard]] Failure current_failure();
 
 /// Computes one scene among many.  @returns why it failed; nothing if it did not.

@@ -40,7 +40,7 @@ void take_if_nearer(const std::vector<Vector3>& corners, Nearest& best) {
   if (among && point.norm() < best.distance) best = {corners, point, point.norm()};
 }
 
-/// Of all corners, edges, faces and the whole of a simplex of up to four corners.
+/// The nearest of all corners, edges, faces and the whole of a simplex of up to four corners.
 Nearest nearest_part(const std::vector<Vector3>& simplex) {
   Nearest best;
   for (unsigned set = 1; set < 1U << simplex.size(); ++set) {

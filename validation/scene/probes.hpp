@@ -18,14 +18,14 @@ struct Probe {
   numeric::Vector3 place = numeric::Vector3::Zero();  ///< body frame, as BodyProperties has it [m]
 };
 
-/// Those of a file, which other commands than `shock`, `report` and `sweep` leave alone:
+/// The probes of a file, which other commands than `shock`, `report` and `sweep` leave alone:
 ///     [[probe]]
 ///     name = "camera"              letters, digits, "_", "-" and ".", at most 40; no two alike
 ///     place = [0.05, 0.02, 0.009]  body frame, from the geometric centre; a mesh: in its file's frame [m]
 /// @throws BadInput naming the key, what was given and what is allowed.
 [[nodiscard]] std::vector<Probe> read_probes(const SceneValues& values);
 
-/// Those of flags "NAME:X,Y,Z".  @throws BadInput naming the flag.
+/// The probes of flags "NAME:X,Y,Z".  @throws BadInput naming the flag.
 [[nodiscard]] std::vector<Probe> read_probes(const std::string& flag, const std::vector<std::string>& texts);
 
 /// "camera at (0.05, 0.02, 0.009) m".

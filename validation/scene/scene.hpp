@@ -47,8 +47,8 @@ struct BodyScene {
   /// About the centre of mass, axes of the body frame: three principal moments, or xx, yy, zz, xy, xz, yz [kg·m²];
   /// empty: that of the uniform body about its own centre, wherever `centre` has moved the mass to.
   std::vector<double> inertia;
-  /// Of mass, from the geometric centre of a rod or box [m], of a mesh in the file's frame and unit; empty: that of the
-  /// enclosed volume.
+  /// The centre of mass, from the geometric centre of a rod or box [m], of a mesh in the file's frame and unit; empty:
+  /// that of the enclosed volume.
   std::vector<double> centre;
   bool merge = true;
 
@@ -62,10 +62,10 @@ struct BodyScene {
   [[nodiscard]] numeric::Vector3 extents(double of_radius) const;
   /// A rod without thickness, which the continuous model gives `meshed_radius()`.
   [[nodiscard]] bool is_thin_rod() const { return shape == Shape::rod && !(radius > 0); }
-  /// Of the rod's mesh: its radius, 0.01 of the length of a thin one [m].
+  /// The radius of the rod's mesh, 0.01 of the length of a thin one [m].
   [[nodiscard]] double meshed_radius() const { return is_thin_rod() ? 0.01 * length : radius; }
-  /// Of a mesh around an axis: the paper's 16, but 64 where a rod's rim is so wide beside the length that its corners
-  /// turn the body noticeably otherwise than the rim does.
+  /// The sectors of a mesh around an axis: the paper's 16, but 64 where a rod's rim is so wide beside the length that
+  /// its corners turn the body noticeably otherwise than the rim does.
   [[nodiscard]] int meshed_sectors() const;
   [[nodiscard]] int meshed_rings() const { return rings > 0 ? rings : 4; }
   /// Whether the continuous model takes the round shape itself: where no mesh is given for it.
@@ -107,7 +107,7 @@ struct Scene {
   std::optional<double> topple;       ///< raised height of end a at release; gives both velocities, by settle() [m]
   double tangential_velocity = 0;     ///< [m/s]
   double spin = 0;                    ///< [rad/s]
-  /// Of the centre of mass at the first touch, world [m/s]; empty: (tangential_velocity, 0, −speed).
+  /// The velocity of the centre of mass at the first touch, world [m/s]; empty: (tangential_velocity, 0, −speed).
   std::vector<double> velocity;
   std::vector<double> angular_velocity;  ///< at the first touch, world components [rad/s]; empty: (0, spin, 0)
   DiscreteImpact impact;
@@ -134,8 +134,8 @@ struct Scene {
   void settle();
   /// Body → world; unit.
   [[nodiscard]] Eigen::Quaterniond touch_attitude() const;
-  /// Of the centre of mass at the first touch, world [m/s]; with `height`, not with `clearance`, the speed is not yet
-  /// that of the fall.
+  /// The velocity of the centre of mass at the first touch, world [m/s]; with `height`, not with `clearance`, the speed
+  /// is not yet that of the fall.
   [[nodiscard]] numeric::Vector3 touch_velocity() const;
   [[nodiscard]] numeric::Vector3 touch_angular_velocity() const;  ///< world components [rad/s]
   /// State at the first touch; with `height` the speed there follows from the fall.
@@ -156,8 +156,8 @@ struct Scene {
 struct TouchMotion {
   numeric::Vector3 velocity, angular_velocity;  ///< [m/s], [rad/s]
 };
-/// Of a rod or box that lies on a face as it arrives there, when it turned about its lower edge on the side of +x,
-/// which neither slipped nor lifted off, from rest with the opposite lower edge raised by H = scene.topple:
+/// The motion of a rod or box that lies on a face as it arrives there, when it turned about its lower edge on the side
+/// of +x, which neither slipped nor lifted off, from rest with the opposite lower edge raised by H = scene.topple:
 ///     ½ ω² (k_y² + b² + h²) = g (b sin φ − h (1 − cos φ)),   sin φ = H/D,
 /// with the centre of mass b [m] beside that edge and h above it, and D the face's length along x.  The edge comes down
 /// at 1e-12 of the speeds, so that the face lands as a whole where pushes can do that.

@@ -44,7 +44,7 @@ toml::table parse(const std::string& path, std::string_view text) {
   }
 }
 
-/// Of a pipe, too, which has no length and may not end.
+/// The text of a file, or of a pipe, which has no length and may not end.
 std::string text_of(const std::string& path) {
   constexpr std::size_t longest = 16 << 20;
   std::ifstream file(path, std::ios::binary);

@@ -9,9 +9,9 @@
 
 namespace clatter::validation::inline scene {
 
-/// Of a run of the discrete model: in one line why there are fewer impacts than asked for, where a number that could
-/// not be computed or a limit is the reason, or, with run.require_digits, that fewer digits are known than asked for;
-/// empty: neither.
+/// What a run of the discrete model falls short of: in one line why there are fewer impacts than asked for, where a
+/// number that could not be computed or a limit is the reason, or, with run.require_digits, that fewer digits are known
+/// than asked for; empty: neither.
 [[nodiscard]] std::string shortfall(const Scene& scene, const Run& run);
 /// "asked 6 digits, achieved 4.2"; empty where the relative error gives the digits.
 [[nodiscard]] std::string digits_shortfall(int asked, double achieved);

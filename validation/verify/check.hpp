@@ -88,8 +88,8 @@ using Measure = std::function<Measured(CaseRuns&)>;
 /// The measurement of each check, by its id.
 using Measures = std::map<std::string, Measure>;
 
-/// Those of a group: claims C, errata E, exact results and tracked drops X, figures F, scenes M and R, error bars B,
-/// the discrete model in space S.
+/// The measures of a group: claims C, errata E, exact results and tracked drops X, figures F, scenes M and R, error
+/// bars B, the discrete model in space S.
 [[nodiscard]] Measures claim_measures();
 [[nodiscard]] Measures erratum_measures();
 [[nodiscard]] Measures exact_measures();

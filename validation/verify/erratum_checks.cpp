@@ -119,7 +119,7 @@ struct General {
   numeric::WorldWrench wrench{.force = {1, 2, -12}, .moment = {0.3, -0.2, 0.1}};
 };
 
-/// Of a symmetric matrix, ascending.
+/// The eigenvalues of a symmetric matrix, ascending.
 numeric::Vector7 eigenvalues(numeric::Matrix7 matrix) {
   constexpr std::size_t size = 7;
   numeric::Vector7 values;

@@ -269,7 +269,7 @@ Measured hardest_blow_of_the_phone(CaseRuns&) {
           fmt::format("impact {} of an elastic phone tilted by {} rad", at + 1, tilt)};
 }
 
-/// Of a thin rectangle, whose corners strike around it: 7 λ³ + (e − 6) λ² + (1 − 6 e) λ + 7 e has a double root there.
+/// The corners of a thin rectangle strike around it: 7 λ³ + (e − 6) λ² + (1 − 6 e) λ + 7 e has a double root there.
 Measured endless_strikes(CaseRuns&) {
   const analytic::near_flat::Footprint face{.corners = {{-1, -0.5}, {1, -0.5}, {1, 0.5}, {-1, 0.5}},
                                             .mobility = Eigen::Vector2d(3, 12).asDiagonal()};

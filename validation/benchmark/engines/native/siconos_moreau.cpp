@@ -8,7 +8,7 @@ namespace {
 
 void simulate(const league::Problem& problem, league::Trajectory& trajectory) {
   problem.require_plane("the adapter is written for the plane");
-  // Of a system that is not known as linear Newton's method is iterated.
+  // Newton's method is iterated for a system that is not known as linear.
   const std::shared_ptr<LagrangianDS> body = problem.tuned() ? league::falling_body<LagrangianDS>(problem)
                                                              : league::falling_body<LagrangianLinearTIDS>(problem);
   const auto world = league::over_floor(problem, body);
