@@ -114,7 +114,7 @@ struct DampedContact {
 
 BOOST_AUTO_TEST_CASE(
     of_100_rows_99_lie_within_bars_that_are_less_than_100_errors_wide_and_every_certain_end_is_the_true_one) {
-  const int scenes = setting("CLATTER_BARS_SCENES", 120);
+  const int scenes = setting("CLATTER_BARS_SCENES", 50);
   BarCoverage coverage;
   for (int i = 0; coverage.scenes < scenes; ++i) {
     validation::judge_bars(validation::random_bar_scene(static_cast<unsigned>(setting("CLATTER_BARS_FAMILY", 1)), i),
@@ -130,7 +130,7 @@ BOOST_AUTO_TEST_CASE(
 }
 
 BOOST_AUTO_TEST_CASE(on_damped_ground_99_of_100_rows_lie_within_their_bars_and_every_certain_end_is_the_true_one) {
-  const int scenes = setting("CLATTER_BARS_SCENES", 40);
+  const int scenes = setting("CLATTER_BARS_SCENES", 20);
   const auto family = static_cast<unsigned>(setting("CLATTER_BARS_FAMILY", 1));
   BarCoverage coverage;
   for (int i = 0; coverage.scenes < scenes; ++i) {
