@@ -116,6 +116,17 @@ std::string local_slip_words(const Scene& scene, const Simulation& run) {
       worst + 1, significant(run.impacts[worst].local_slip, 1));
 }
 
+/// How deep the body goes at most.
+std::string depth_words(const Scene& scene, const PlannedRun& planned) {
+  const Run run = run_of(planned.run);
+  const auto deepest = std::ranges::max_element(run.impacts, {}, [](const Impact& i) { return i.value.indentation; });
+  const Estimated depth = totals(run).largest_depth;
+  return fmt::format(
+      "Greatest indentation: {} m, in impact {}",
+      shown_text(digits_of(scene, planned, deepest->predictable).cell(depth.value, depth.error, Scale::none)),
+      deepest->n);
+}
+
 /// What the results leave out; none is empty.
 std::vector<std::string> remarks_of(const Scene& scene, const Simulation& run) {
   std::vector<std::string> remarks{other_law_remark(scene, run), local_slip_words(scene, run)};
@@ -132,6 +143,7 @@ std::vector<std::string> notes_of(const Scene& scene, const PlannedRun& planned)
   if (!run.impacts.empty()) {
     notes.push_back(fmt::format("Sum of normal impulses: {} N·s; the ledger of energy closes to {}",
                                 total_words(scene, planned), significant(gap, 1)));
+    notes.push_back(depth_words(scene, planned));
   }
   for (const std::string& remark : remarks_of(scene, run)) notes.push_back(remark);
   for (const std::string& words : {method_words(run), accuracy_words(scene, planned),

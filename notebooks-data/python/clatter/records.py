@@ -115,7 +115,7 @@ class Impact(Record):
     impulse_normal, impulse_tangential, impulse_ratio, mode, peak_force, peak_time, velocity_after (3),
     angular_velocity_after (3), energy_before, energy_after, energy_loss, error_estimate (a record), amplification,
     predictable.  In space and from the continuous model also touches, impulse (3), and in space corners, place (3) and
-    attitude (4); from the continuous model work_damping, work_friction, work_released, submerged, local_slip, energy_stored,
+    attitude (4); from the continuous model indentation, work_damping, work_friction, work_released, submerged, local_slip, energy_stored,
     ledger_gap.  An error is a bound by the discrete model, an estimate by the continuous one, None where it is not known.  start counts from the first touch, peak_time from the impact's start.
     """
 

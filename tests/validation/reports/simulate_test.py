@@ -214,7 +214,7 @@ class Overrides(Folder):
 
 class Output(Folder):
     KEYS = ["n", "start", "duration", "end", "inclination_deg", "contact_angle_deg", "approach_speed", "restitution",
-            "impulse_normal", "impulse_tangential", "impulse_ratio", "mode", "peak_force", "peak_time",
+            "impulse_normal", "impulse_tangential", "impulse_ratio", "mode", "peak_force", "peak_time", "indentation",
             "velocity_after", "angular_velocity_after", "energy_before", "energy_after", "energy_loss",
             "work_damping", "work_friction", "error_estimate", "amplification", "touches"]
 
