@@ -15,8 +15,8 @@ namespace {
 struct AtlasInput {
   SceneFlags scene;
   bool in_plane = false;
-  OutputTexts output;
-  PlotTexts plot;
+  OutputChoice output;
+  PlotChoice plot;
 };
 
 /// A body by its name: the flags that it stands for.
@@ -61,12 +61,11 @@ Atlas atlas_of(const AtlasInput& input) {
 }
 
 int run_atlas(const AtlasInput& input) {
-  const OutputChoice choice = read_output(input.output);
   const Atlas atlas = atlas_of(input);
-  check_files(choice, plot_files(input.plot));
+  check_files(input.output, plot_files(input.plot));
   PlotFile plot(input.plot);
   const Report report = atlas_report(atlas);
-  write_report(choice, report);
+  write_report(input.output, report);
   if (plot.is_wanted()) {
     std::vector<std::string> head{report.title};
     head.insert(head.end(), report.head.begin(), report.head.end());

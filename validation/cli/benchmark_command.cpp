@@ -18,13 +18,15 @@ namespace {
 struct BenchmarkInput {
   std::string action;
   std::vector<std::string> names;
-  std::optional<std::string> law, columns, problem, require;
-  OutputTexts output;
-  PlotTexts plot;
+  std::string law, problem;
+  ColumnNames columns;
+  std::optional<Requirement> require;
+  OutputChoice output;
+  PlotChoice plot;
 };
 
-void only_for(const std::optional<std::string>& text, const char* option, const char* action, bool is_used) {
-  if (text && !is_used) throw BadInput(fmt::format("{}: only for benchmark {}", option, action));
+void only_for(bool is_given, const char* option, const char* action, bool is_used) {
+  if (is_given && !is_used) throw BadInput(fmt::format("{}: only for benchmark {}", option, action));
 }
 
 const Problem& named_problem(const BenchmarkInput& input) {
@@ -53,23 +55,19 @@ int run_truth(const BenchmarkInput& input, const OutputChoice& choice) {
   const Problem& problem = named_problem(input);
   const std::vector<std::string> laws = truth_laws(problem);
   std::string law = laws.front();
-  if (input.law) {
-    const std::string asked = read_law("--law", *input.law);
-    if (law != "any") law = asked;
-  }
+  if (law != "any" && !input.law.empty()) law = input.law;
   write_report(choice, benchmark_truth_report(problem, law));
   return 0;
 }
 
 int run_score(const BenchmarkInput& input, const OutputChoice& choice) {
   if (input.names.empty()) throw BadInput("benchmark score: needs a FILE or more");
-  const Requirement requirement = read_requirement(input.require);
-  const ColumnNames names = input.columns ? read_column_names("--columns", *input.columns) : ColumnNames{};
+  const Requirement requirement = input.require.value_or(Requirement{});
   PlotFile plot(input.plot);
   std::vector<Submission> submissions;
   bool is_met = true;
   for (const std::string& file : input.names) {
-    submissions.push_back(judge_file(file, input.problem.value_or(""), names));
+    submissions.push_back(judge_file(file, input.problem, input.columns));
     is_met = is_met && requirement.is_met(submissions.back());
   }
   write_report(choice, score_report("benchmark", submissions));
@@ -80,12 +78,12 @@ int run_score(const BenchmarkInput& input, const OutputChoice& choice) {
 int run_benchmark(const BenchmarkInput& input) {
   const std::vector<std::string> actions{"list", "show", "truth", "score"};
   const std::size_t action = read_name_option("benchmark", input.action, actions);
-  const OutputChoice choice = read_output(input.output);
-  only_for(input.law, "--law", "truth", action == 2);
-  only_for(input.columns, "--columns", "score", action == 3);
-  only_for(input.problem, "--problem", "score", action == 3);
-  only_for(input.require, "--require", "score", action == 3);
-  only_for(input.plot.plot, "--plot", "score", action == 3);
+  const OutputChoice& choice = input.output;
+  only_for(!input.law.empty(), "--law", "truth", action == 2);
+  only_for(!input.columns.empty(), "--columns", "score", action == 3);
+  only_for(!input.problem.empty(), "--problem", "score", action == 3);
+  only_for(input.require.has_value(), "--require", "score", action == 3);
+  only_for(!input.plot.path.empty(), "--plot", "score", action == 3);
   check_files(choice, plot_files(input.plot));
   switch (action) {
     case 0: return run_list(input, choice);
@@ -106,12 +104,14 @@ Command benchmark_command() {
                .help = "name the problems, state one, its truth, or score files",
                .required = true});
   command.add({.name = "NAME", .target = &input->names, .type = "FILE", .help = "ID of a problem, or files to score"});
-  command.add_text("--law", input->law, "LAW", "of truth: newton|poisson|stronge, then routh|moreau (newton routh)");
-  command.add_text("--columns", input->columns, "NAME=COLUMN,...", "what the files to score call their columns");
+  command.add(read_argument("--law", input->law, read_law, "LAW",
+                            "of truth: newton|poisson|stronge, then routh|moreau (newton routh)"));
+  command.add(read_argument("--columns", input->columns, read_column_names, "NAME=COLUMN,...",
+                            "what the files to score call their columns"));
   command.add_text("--problem", input->problem, "ID", "of the files to score, in place of their lines # problem:");
-  command.add_text("--require", input->require, "CLASS",
-                   "exact|sharp|good|coarse|incomplete, or a largest error of complete answers: exit status 1 where a "
-                   "file does worse");
+  command.add(read_argument("--require", input->require, read_requirement, "CLASS",
+                            "exact|sharp|good|coarse|incomplete, or a largest error of complete answers: exit status "
+                            "1 where a file does worse"));
   add_output_options(command, input->output);
   add_plot_options(command, input->plot);
   command.footer =

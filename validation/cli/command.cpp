@@ -1,17 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "validation/cli/command.hpp"
 
-#include <sstream>
-
 namespace clatter::validation::inline cli {
-
-std::vector<std::string> Argument::choices() const {
-  std::vector<std::string> list;
-  if (type.find('|') == std::string::npos || type.find('=') != std::string::npos) return list;
-  std::istringstream stream(type);
-  for (std::string word; std::getline(stream, word, '|');) list.push_back(word);
-  return list;
-}
 
 std::vector<std::string> Command::option_names() const {
   std::vector<std::string> names{"--help"};

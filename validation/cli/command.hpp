@@ -6,30 +6,12 @@
 #include <functional>
 #include <optional>
 #include <string>
-#include <variant>
+#include <utility>
 #include <vector>
 
+#include "validation/scene/argument.hpp"
+
 namespace clatter::validation::inline cli {
-
-/// What a command accepts, and where its text goes; the command checks the text itself.
-struct Argument {
-  /// A truth is a flag without a value; a list takes many values.
-  using Target = std::variant<bool*, std::string*, std::optional<std::string>*, std::vector<std::string>*>;
-
-  std::string name;  ///< "--angle", or "SCENE" for an argument known by its place
-  Target target;
-  std::string type;  ///< of the value, in help: "DEG", "a|b|c" (shells offer these), "FILE" (shells offer files)
-  std::string help;
-  std::string group{};  ///< heading in help; empty: "Options"
-  bool required = false;
-  bool repeats = false;  ///< a list that takes one value each time the option is given
-
-  [[nodiscard]] bool is_option() const { return name.starts_with("--"); }
-  [[nodiscard]] bool is_flag() const { return std::holds_alternative<bool*>(target); }
-  [[nodiscard]] bool is_list() const { return std::holds_alternative<std::vector<std::string>*>(target) && !repeats; }
-  /// What the value is chosen from; empty where it is not.
-  [[nodiscard]] std::vector<std::string> choices() const;
-};
 
 struct Command {
   std::string name;
@@ -39,9 +21,18 @@ struct Command {
   std::function<int()> run{};  ///< after parsing; returns the exit status
 
   void add(Argument argument) { arguments.push_back(std::move(argument)); }
+  void add(Arguments rows) {
+    for (Argument& row : rows) add(std::move(row));
+  }
+  /// A text as it is; it stays empty where none is given.
+  void add_text(const std::string& option, std::string& text, const std::string& type, const std::string& words,
+                const std::string& group = "") {
+    add({.name = option, .target = &text, .type = type, .help = words, .group = group});
+  }
   void add_text(const std::string& option, std::optional<std::string>& text, const std::string& type,
                 const std::string& words, const std::string& group = "") {
-    add({.name = option, .target = &text, .type = type, .help = words, .group = group});
+    const auto as_it_is = [](const std::string&, const std::string& given) { return given; };
+    add(read_argument(option, text, as_it_is, type, words, group));
   }
   void add_flag(const std::string& option, bool& truth, const std::string& words, const std::string& group = "") {
     add({.name = option, .target = &truth, .type = "", .help = words, .group = group});

@@ -25,9 +25,10 @@ const char* const comparison_summary = "discrete and continuous model, impact by
 struct CompareInput {
   SceneFlags scene;
   std::vector<std::string> against;
-  std::optional<std::string> columns, require;
-  OutputTexts output;
-  PlotTexts plot;
+  ColumnNames columns;
+  std::optional<Requirement> require;
+  OutputChoice output;
+  PlotChoice plot;
 };
 
 /// Foreign runs of the scene against the discrete model.
@@ -35,17 +36,16 @@ int compare_foreign(const CompareInput& input) {
   SceneFlags flags = input.scene;
   flags.model = Model::discrete;
   const Scene scene = read_scene_flags(flags);
-  const OutputChoice choice = read_output(input.output);
+  const OutputChoice& choice = input.output;
   if (scene.sweep) throw BadInput(fmt::format("{}: --against takes a scene that sweeps nothing", scene.path));
-  if (input.plot.plot) throw BadInput("--plot: not with --against");
-  const Requirement requirement = read_requirement(input.require);
-  const ColumnNames names = input.columns ? read_column_names("--columns", *input.columns) : ColumnNames{};
+  if (!input.plot.path.empty()) throw BadInput("--plot: not with --against");
+  const Requirement requirement = input.require.value_or(Requirement{});
   check_files(choice);
   const Reference reference = reference_of(scene);
   std::vector<Submission> submissions;
   bool is_met = true;
   for (const std::string& file : input.against) {
-    submissions.push_back(judge_file(file, reference, names));
+    submissions.push_back(judge_file(file, reference, input.columns));
     is_met = is_met && requirement.is_met(submissions.back());
   }
   write_report(choice, against_report(prepared(scene).scene, reference, submissions));
@@ -105,10 +105,10 @@ int compare_swept(const Scene& scene, const OutputChoice& choice, PlotFile& plot
 
 int run_compare(const CompareInput& input) {
   if (!input.against.empty()) return compare_foreign(input);
-  if (input.columns) throw BadInput("--columns: only with --against");
+  if (!input.columns.empty()) throw BadInput("--columns: only with --against");
   if (input.require) throw BadInput("--require: only with --against");
   const Scene scene = read_scene_flags(input.scene);
-  const OutputChoice choice = read_output(input.output);
+  const OutputChoice& choice = input.output;
   if (is_given(input.scene, "--history")) throw BadInput("--history: compare writes none; clatter simulate does");
   check_files(choice, plot_files(input.plot));
   PlotFile plot(input.plot);
@@ -123,9 +123,11 @@ Command compare_command() {
   add_scene_flags(command, input->scene);
   command.add_list("--against", input->against, "FILE",
                    "score these runs of another program, as clatter benchmark does");
-  command.add_text("--columns", input->columns, "NAME=COLUMN,...", "what the files of --against call their columns");
-  command.add_text("--require", input->require, "CLASS",
-                   "of --against: exact|sharp|good|coarse|incomplete, or a largest error of complete answers");
+  command.add(read_argument("--columns", input->columns, read_column_names, "NAME=COLUMN,...",
+                            "what the files of --against call their columns"));
+  command.add(
+      read_argument("--require", input->require, read_requirement, "CLASS",
+                    "of --against: exact|sharp|good|coarse|incomplete, or a largest error of complete answers"));
   add_output_options(command, input->output);
   add_plot_options(command, input->plot);
   command.footer =

@@ -20,7 +20,7 @@ namespace clatter::validation::inline cli {
 namespace {
 
 struct DemoInput {
-  std::optional<std::string> file;
+  std::string file;
   SceneFlags scene;
 };
 
@@ -43,7 +43,7 @@ Scene scene_of(const SceneFlags& given) {
 
 /// What the address of the page ends with: nothing, or the scene given: "given=1&body=box&angle=10…".
 std::string fragment_of(const SceneFlags& given) {
-  const auto typed = [](const auto& text) { return text.second.has_value(); };
+  const auto typed = [](const auto& text) { return !text.second.empty(); };
   if (given.source.empty() && !std::any_of(given.texts.begin(), given.texts.end(), typed)) return "";
   std::string fragment = "given=1";
   for (const Field& argument : scene_arguments(scene_of(given)))
@@ -108,8 +108,8 @@ void open_in_browser(const std::string& path) {
 
 int run_demo(const DemoInput& input) {
   const std::string fragment = fragment_of(input.scene);
-  if (input.file) {
-    write_page(*input.file, "--export", fragment);
+  if (!input.file.empty()) {
+    write_page(input.file, "--export", fragment);
     return 0;
   }
   const std::string path = cache_folder() / "demo.html";

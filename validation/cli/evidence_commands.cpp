@@ -24,18 +24,18 @@ namespace {
 struct VerifyInput {
   bool quick = false;
   std::vector<std::string> only;
-  std::optional<std::string> html;
-  OutputTexts output;
+  std::string html;
+  OutputChoice output;
 };
 
 int run_verify(const VerifyInput& input) {
   const CheckSelection selection = select_checks(input.quick, input.only);
-  const OutputChoice choice = read_output(input.output);
-  check_files(choice, {{"--html", input.html.value_or("")}});
+  const OutputChoice& choice = input.output;
+  check_files(choice, {{"--html", input.html}});
   std::optional<Sink> page;
-  if (input.html) {  // what is missing is found before the work
-    require_gnuplot("--html " + *input.html);
-    page.emplace(*input.html, "--html");
+  if (!input.html.empty()) {  // what is missing is found before the work
+    require_gnuplot("--html " + input.html);
+    page.emplace(input.html, "--html");
   }
   const CooperativeInterrupt interrupt;
   CaseRuns case_runs;
@@ -73,9 +73,8 @@ Command verify_command() {
 namespace {
 
 struct FiguresInput {
-  std::optional<std::string> format;
-  bool ascii = false, bare = false;
-  std::optional<std::string> folder;
+  TextStyle style{.format = Format::csv};
+  std::string folder;
   std::vector<std::string> only;
 };
 
@@ -101,13 +100,9 @@ std::vector<int> chosen(const FiguresInput& input) {
 
 int run_figures(const FiguresInput& input) {
   const std::vector<int> numbers = chosen(input);
-  if (!input.folder || input.folder->empty()) throw BadInput("--output DIR: required, the folder for the files");
-  OutputTexts form;
-  form.format = input.format.value_or("csv");
-  form.ascii = input.ascii;
-  form.bare = input.bare;
-  const FigureFiles files{*input.folder, read_output(form).style};
-  make_folder(*input.folder, "--output");
+  if (input.folder.empty()) throw BadInput("--output DIR: required, the folder for the files");
+  const FigureFiles files{input.folder, input.style};
+  make_folder(input.folder, "--output");
   check_figure_files(numbers, files);
   CaseRuns case_runs;
   Progress progress;
@@ -117,7 +112,7 @@ int run_figures(const FiguresInput& input) {
     write_figure(make_figure(number, case_runs), files);
   }
   const std::string count = numbers.size() == 1 ? "1 file" : fmt::format("{} files", numbers.size());
-  write_out({}, fmt::format("{} in {}; clatter verify --html FILE draws the figures\n", count, *input.folder));
+  write_out({}, fmt::format("{} in {}; clatter verify --html FILE draws the figures\n", count, input.folder));
   return 0;
 }
 
@@ -128,9 +123,9 @@ Command figures_command() {
   Command command{.name = "figures", .help = "the data of the paper's figures, a file each"};
   command.add_text("--output", input->folder, "DIR", "folder for figure_07.csv, ...; made if it is not there");
   command.add_list("--only", input->only, "N", "numbers of figures");
-  command.add_text("--format", input->format, "table|csv|json|markdown|latex", "form of the files (csv)");
-  command.add_flag("--ascii", input->ascii, "plain ASCII in tables");
-  command.add_flag("--bare", input->bare, "CSV without comments");
+  command.add(format_argument(input->style.format, "form of the files (csv)"));
+  command.add_flag("--ascii", input->style.ascii, "plain ASCII in tables");
+  command.add_flag("--bare", input->style.bare, "CSV without comments");
   command.footer =
       "Example: clatter figures --only 7 14 --output figures\n"
       "Comments \"plot: ...\" and in JSON the list plots say how each panel is drawn.\n"
@@ -144,8 +139,10 @@ namespace {
 struct ExtremesInput {
   std::vector<std::string> only;
   bool quick = false;
-  std::optional<std::string> seed, seconds, plot;
-  OutputTexts output;
+  std::optional<int> seed;
+  std::optional<double> seconds;
+  std::string plot;
+  OutputChoice output;
 };
 
 std::vector<std::string> axis_names() {
@@ -160,21 +157,17 @@ ExtremesOptions read_options(const ExtremesInput& input) {
   ExtremesOptions options;
   options.axes = input.only;
   options.long_runs = !input.quick;
-  if (input.seconds) {
-    options.cell_seconds =
-        read_number_option("--seconds", *input.seconds, {0, 3600, true, "greater than 0, at most 3600"});
-  }
-  if (input.seed)
-    options.runs.seed = static_cast<std::uint64_t>(read_integer_option("--seed", *input.seed, 0, 2147483647));
+  if (input.seconds) options.cell_seconds = *input.seconds;
+  if (input.seed) options.runs.seed = static_cast<std::uint64_t>(*input.seed);
   return options;
 }
 
 int run_extremes(const ExtremesInput& input) {
   ExtremesOptions options = read_options(input);
-  const OutputChoice choice = read_output(input.output);
-  check_files(choice, {{"--plot", input.plot.value_or("")}});
+  const OutputChoice& choice = input.output;
+  check_files(choice, {{"--plot", input.plot}});
   std::optional<Sink> plot;
-  if (input.plot) plot.emplace(*input.plot, "--plot");
+  if (!input.plot.empty()) plot.emplace(input.plot, "--plot");
   const CooperativeInterrupt interrupt;
   ExtremesMap map;
   {
@@ -200,8 +193,9 @@ Command extremes_command() {
   Command command{.name = "extremes", .help = "the map of what holds, to every quantity's ends"};
   command.add_list("--only", input->only, "AXIS", "these quantities, such as angle speed");
   command.add_flag("--quick", input->quick, "without the long runs (impacts, random scenes)");
-  command.add_text("--seed", input->seed, "S", "of the random scenes (1)");
-  command.add_text("--seconds", input->seconds, "S", "that a cell may take (1)");
+  command.add(whole_argument("--seed", input->seed, 0, 2147483647, "S", "of the random scenes (1)"));
+  command.add(number_argument("--seconds", input->seconds, {0, 3600, true, "greater than 0, at most 3600"}, "S",
+                              "that a cell may take (1)"));
   command.add_text("--plot", input->plot, "FILE", "also a picture, .svg");
   add_output_options(command, input->output);
   command.footer =

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <memory>
+#include <utility>
 
 #include "validation/cli/command.hpp"
 #include "validation/cli/options.hpp"
@@ -10,20 +11,18 @@ namespace clatter::validation::inline cli {
 namespace {
 
 struct ExplainInput {
-  std::string number;
+  int number = 1;
   SceneFlags scene;
-  OutputTexts output;
+  OutputChoice output;
 };
 
 int run_explain(const ExplainInput& input) {
-  const int n = read_integer_option("explain N", input.number, 1, 1000000);
   const PreparedScene scene = read_discrete_flags(input.scene);
   require_level(scene.scene, "explain");
-  const OutputChoice choice = read_output(input.output);
-  check_files(choice);
-  const Explanation explanation = explain_impact(scene, n);
+  check_files(input.output);
+  const Explanation explanation = explain_impact(scene, input.number);
   for (const std::string& warning : explanation.warnings) say(warning);
-  write_out(choice, explanation_text(explanation, choice.style));
+  write_out(input.output, explanation_text(explanation, input.output.style));
   if (explanation.shortfall.empty()) return 0;
   say(explanation.shortfall);
   return explanation.shortfall_status;
@@ -34,8 +33,9 @@ int run_explain(const ExplainInput& input) {
 Command explain_command() {
   auto input = std::make_shared<ExplainInput>();
   Command command{.name = "explain", .help = "how impact N came about, step by step"};
-  command.add(
-      {.name = "N", .target = &input->number, .type = "", .help = "number of the impact, from 1", .required = true});
+  Argument number = whole_argument("N", input->number, 1, 1'000'000, "", "number of the impact, from 1");
+  number.required = true;
+  command.add(std::move(number));
   add_scene_flags(command, input->scene, Model::discrete);
   add_output_options(command, input->output);
   command.footer = "Example: clatter explain 2 --angle 10";

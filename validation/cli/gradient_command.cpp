@@ -13,15 +13,14 @@ namespace {
 
 struct GradientInput {
   SceneFlags scene;
-  OutputTexts output;
+  OutputChoice output;
 };
 
 int run_gradient(const GradientInput& input) {
   const PreparedScene prepared = read_discrete_flags(input.scene);
-  const OutputChoice choice = read_output(input.output);
-  check_files(choice);
+  check_files(input.output);
   const GradientReport made = gradient_report(prepared);
-  write_report(choice, made.report);
+  write_report(input.output, made.report);
   if (made.shortfall.empty()) return 0;
   say(made.shortfall);
   return exit_status(FailureKind::not_computed);

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <fmt/format.h>
 
+#include <array>
 #include <memory>
 #include <stdexcept>
 
 #include "validation/cli/command.hpp"
 #include "validation/cli/options.hpp"
 #include "validation/output/bad_input.hpp"
+#include "validation/output/number.hpp"
 #include "validation/reports/ground_report.hpp"
 #include "validation/scene/failure.hpp"
 #include "validation/shock/damage_boundary.hpp"
@@ -16,29 +18,16 @@ namespace {
 
 struct GroundInput {
   SceneFlags scene;
-  std::optional<std::string> restitution, time, force, indentation;
-  std::optional<std::string> modulus, poisson, floor, thickness, footprint;
-  OutputTexts output;
+  std::array<std::optional<double>, measure_count> measured;  ///< in the order of DropMeasure
+  std::optional<double> modulus, poisson, thickness, footprint;
+  std::optional<std::size_t> floor;  ///< of floors()
+  OutputChoice output;
 };
-
-/// The flags of measured numbers.
-struct MeasureFlag {
-  const char* flag;
-  std::optional<std::string> GroundInput::*text;
-  Range range;
-};
-constexpr MeasureFlag measure_flags[] = {
-    {"--measured-e", &GroundInput::restitution, {0, 1, true, "greater than 0 and at most 1"}},
-    {"--contact-time", &GroundInput::time, positive_number},
-    {"--peak-force", &GroundInput::force, positive_number},
-    {"--indentation", &GroundInput::indentation, positive_number}};
 
 std::vector<MeasuredNumber> measured_of(const GroundInput& input) {
   std::vector<MeasuredNumber> measured;
   for (std::size_t i = 0; i < measure_count; ++i) {
-    const MeasureFlag& flag = measure_flags[i];
-    const std::optional<std::string>& text = input.*flag.text;
-    if (text) measured.push_back({static_cast<DropMeasure>(i), read_number_option(flag.flag, *text, flag.range)});
+    if (input.measured[i]) measured.push_back({static_cast<DropMeasure>(i), *input.measured[i]});
   }
   return measured;
 }
@@ -47,17 +36,15 @@ std::vector<MeasuredNumber> measured_of(const GroundInput& input) {
 std::vector<MaterialGround> materials_of(const GroundInput& input) {
   if (input.floor) {
     if (input.modulus || input.poisson) throw BadInput("--floor: excludes --modulus and --poisson; it has its own");
-    std::vector<std::string> names;
-    for (const Floor& floor : floors()) names.emplace_back(floor.name);
-    const Floor& floor = floors()[read_name_option("--floor", *input.floor, names)];
+    const Floor& floor = floors()[*input.floor];
     return {{floor.least_modulus, floor.least_poisson, 0}, {floor.largest_modulus, floor.largest_poisson, 0}};
   }
   if (!input.modulus) throw BadInput("--modulus: required with --poisson, --thickness and --footprint, or --floor");
   if (!input.poisson) throw BadInput("--poisson: required with --modulus");
-  return {{read_number_option("--modulus", *input.modulus, positive_number),
-           input.thickness ? read_number_option("--poisson", *input.poisson, {0, 0.4999, false, "from 0 to 0.4999"})
-                           : read_number_option("--poisson", *input.poisson, {0, 0.5, false, "from 0 to 0.5"}),
-           0}};
+  constexpr double of_layer = 0.4999;
+  if (input.thickness && !(*input.poisson <= of_layer))
+    throw BadInput(fmt::format("--poisson '{}': must be from 0 to {}", shortest(*input.poisson), of_layer));
+  return {{*input.modulus, *input.poisson, 0}};
 }
 
 /// The restitution beside a material, of the scene's drop; none: none was given.
@@ -74,16 +61,12 @@ Report material_report_of(const GroundInput& input, const std::optional<Material
     throw BadInput(fmt::format("{}: takes --thickness H of a layer, or --footprint A on a half-space; give one of them",
                                input.floor ? "--floor" : "--modulus"));
   }
-  const double size = input.thickness ? read_number_option("--thickness", *input.thickness, positive_number)
-                                      : read_number_option("--footprint", *input.footprint, positive_number);
+  const double size = input.thickness ? *input.thickness : *input.footprint;
   for (MaterialGround& ground : grounds) {
     ground.stiffness = input.thickness ? layer_stiffness(ground.modulus, ground.poisson, size)
                                        : half_space_stiffness(ground.modulus, ground.poisson, size);
   }
-  std::string source;
-  for (const Floor& floor : floors()) {
-    if (input.floor == floor.name) source = floor.source;
-  }
+  const std::string source = input.floor ? floors()[*input.floor].source : "";
   return material_report(grounds,
                          input.thickness
                              ? "a confined layer, E (1 - ν)/((1 + ν)(1 - 2 ν) h): wide beside its thickness, bonded to "
@@ -108,7 +91,7 @@ Scene scene_of(const GroundInput& input) {
 }
 
 int run_ground(const GroundInput& input) {
-  const OutputChoice choice = read_output(input.output);
+  const OutputChoice& choice = input.output;
   const std::vector<MeasuredNumber> measured = measured_of(input);
   if (input.modulus || input.poisson || input.floor || input.thickness || input.footprint) {
     const Report report = material_report_of(input, loss_of(input, measured));
@@ -143,16 +126,23 @@ Command ground_command() {
                                                             "Or the material, --measured-e beside it or not";
   Command command{.name = "ground", .help = "k_G and c_G from measurements of a drop, or from a layer"};
   add_scene_flags(command, input->scene);
-  command.add_text("--measured-e", input->restitution, "E", "restitution of the drop's first impact", measured);
-  command.add_text("--contact-time", input->time, "S", "how long that lasts", measured);
-  command.add_text("--peak-force", input->force, "N", "its largest normal force", measured);
-  command.add_text("--indentation", input->indentation, "M", "of the ground under the body at rest", measured);
-  command.add_text("--modulus", input->modulus, "PA", "Young's modulus of the ground", material);
-  command.add_text("--poisson", input->poisson, "NU", "its Poisson's ratio", material);
-  command.add_text("--floor", input->floor, "concrete|steel|asphalt|wood",
-                   "its material by name: published numbers, least and largest", material);
-  command.add_text("--thickness", input->thickness, "M", "of a layer on a rigid base", material);
-  command.add_text("--footprint", input->footprint, "M2", "area on a half-space", material);
+  auto& [restitution, time, force, indentation] = input->measured;
+  std::vector<std::string> names;
+  for (const Floor& floor : floors()) names.emplace_back(floor.name);
+  command.add(
+      {number_argument("--measured-e", restitution, {0, 1, true, "greater than 0 and at most 1"}, "E",
+                       "restitution of the drop's first impact", measured),
+       number_argument("--contact-time", time, positive_number, "S", "how long that lasts", measured),
+       number_argument("--peak-force", force, positive_number, "N", "its largest normal force", measured),
+       number_argument("--indentation", indentation, positive_number, "M", "of the ground under the body at rest",
+                       measured),
+       number_argument("--modulus", input->modulus, positive_number, "PA", "Young's modulus of the ground", material),
+       number_argument("--poisson", input->poisson, {0, 0.5, false, "from 0 to 0.5"}, "NU", "its Poisson's ratio",
+                       material),
+       choice_argument("--floor", input->floor, names, "its material by name: published numbers, least and largest",
+                       material),
+       number_argument("--thickness", input->thickness, positive_number, "M", "of a layer on a rigid base", material),
+       number_argument("--footprint", input->footprint, positive_number, "M2", "area on a half-space", material)});
   add_output_options(command, input->output);
   command.footer =
       "Example: clatter ground --body box --size 0.1057x0.0439x0.0191 --mass 0.088 --angle 0 --measured-e 0.5 "

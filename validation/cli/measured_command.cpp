@@ -19,8 +19,9 @@ namespace {
 
 void refuse_two_splits(const MeasuredRequest& input) {
   const bool drawn = input.seed || input.share;
-  if (input.fit_on && drawn) throw BadInput("--fit-on: excludes --seed and --share; give one of them, not both");
-  if (input.fit_from && (drawn || input.fit_on))
+  if (!input.fit_on.empty() && drawn)
+    throw BadInput("--fit-on: excludes --seed and --share; give one of them, not both");
+  if (!input.fit_from.empty() && (drawn || !input.fit_on.empty()))
     throw BadInput("--fit-from: excludes --seed, --share and --fit-on: all of the file is scored");
 }
 
@@ -33,15 +34,13 @@ void refuse_empty(const MeasuredRun& run) {
 
 void split_file(const MeasuredRequest& input, MeasuredRun& run) {
   const std::size_t count = run.file.file.tracks.size();
-  if (input.fit_on) {
-    run.split = split_by_list(run.file.file, "--fit-on", *input.fit_on);
+  if (!input.fit_on.empty()) {
+    run.split = split_by_list(run.file.file, "--fit-on", input.fit_on);
     run.split_words = fmt::format("fitted on the {} drops of a list, scored on the other {}", run.split.fitted.size(),
                                   run.split.scored.size());
   } else {
-    const int seed = input.seed ? read_integer_option("--seed", *input.seed, 0, 2147483647) : 1;
-    const double share =
-        input.share ? read_number_option("--share", *input.share, {0, 1, true, "greater than 0, at most 1"}) : 0.5;
-    run.split = split_by_seed(count, static_cast<std::uint64_t>(seed), share);
+    const int seed = input.seed.value_or(1);
+    run.split = split_by_seed(count, static_cast<std::uint64_t>(seed), input.share.value_or(0.5));
     run.split_words = fmt::format("fitted on {} drops drawn with seed {}, scored on the other {}",
                                   run.split.fitted.size(), seed, run.split.scored.size());
   }
@@ -58,26 +57,37 @@ TrackPart all_of(const MeasuredFile& file) {
 /// Fits on another file of the same body: all of this one is scored.
 void fit_elsewhere(const MeasuredRequest& input, const TrackDescription& description, MeasuredRun& run) {
   std::error_code error;
-  if (*input.fit_from == run.file.file.path || std::filesystem::equivalent(*input.fit_from, run.file.file.path, error))
+  if (input.fit_from == run.file.file.path || std::filesystem::equivalent(input.fit_from, run.file.file.path, error))
     throw BadInput(fmt::format("--fit-from {}: the file that is scored; nothing is fitted and scored on the same drops",
-                               *input.fit_from));
-  const MeasuredFile other = measure_tracks(read_tracks(*input.fit_from, description));
+                               input.fit_from));
+  const MeasuredFile other = measure_tracks(read_tracks(input.fit_from, description));
   run.fit = fit_measured(other, all_of(other));
   run.split.scored = all_of(run.file);
-  run.split_words = fmt::format("fitted on the {} drops of {}, scored on {}", other.tracks.size(), *input.fit_from,
+  run.split_words = fmt::format("fitted on the {} drops of {}, scored on {}", other.tracks.size(), input.fit_from,
                                 run.split.scored.size());
 }
 
-/// The tracks, taken apart, and the laws fitted to a part of them.
-/// @throws BadInput naming the option or the file.
 }  // namespace
+
+Arguments measured_arguments(MeasuredRequest& request) {
+  const auto as_it_is = [](const std::string&, const std::string& text) { return text; };
+  return {read_argument("--body", request.body, as_it_is, "FILE",
+                        "what was tracked: a TOML file, square-drops or cube-tosses (the file's own name with .toml)"),
+          whole_argument("--seed", request.seed, 0, 2147483647, "N", "draws the drops to fit on (1)"),
+          number_argument("--share", request.share, {0, 1, true, "greater than 0, at most 1"}, "X",
+                          "of the drops to fit on (0.5)"),
+          read_argument("--fit-on", request.fit_on, as_it_is, "LIST",
+                        "fit on these drops, as in 1,3,10-20; score the others"),
+          read_argument("--fit-from", request.fit_from, as_it_is, "FILE",
+                        "fit on another file's drops, score all of this one")};
+}
 
 MeasuredRun read_measured_run(const MeasuredRequest& input) {
   refuse_two_splits(input);
   const TrackDescription description = description_of(input.file, input.body);
   MeasuredRun run{
       .file = measure_tracks(read_tracks(input.file, description)), .split = {}, .fit = {}, .split_words = {}};
-  if (input.fit_from) fit_elsewhere(input, description, run);
+  if (!input.fit_from.empty()) fit_elsewhere(input, description, run);
   else split_file(input, run);
   return run;
 }
@@ -94,9 +104,9 @@ enum class Action { fit, predict, score };
 struct MeasuredInput {
   std::string action;
   MeasuredRequest request;
-  std::optional<std::string> drop;
-  OutputTexts output;
-  PlotTexts plot;
+  std::string drop;
+  OutputChoice output;
+  PlotChoice plot;
 };
 
 bool is_action(const std::string& word) {
@@ -113,11 +123,12 @@ std::pair<Action, std::string> read_words(const MeasuredInput& input) {
 
 int run_measured(const MeasuredInput& input) {
   const auto [action, path] = read_words(input);
-  const OutputChoice choice = read_output(input.output);
+  const OutputChoice& choice = input.output;
   check_files(choice, plot_files(input.plot));
-  if (action == Action::fit && (input.plot.plot || input.drop))
+  const bool has_plot = !input.plot.path.empty(), has_drop = !input.drop.empty();
+  if (action == Action::fit && (has_plot || has_drop))
     throw BadInput("--plot: predict and score draw a picture, fit does not");
-  if (input.drop && !input.plot.plot) throw BadInput(fmt::format("--drop {}: needs --plot FILE", *input.drop));
+  if (has_drop && !has_plot) throw BadInput(fmt::format("--drop {}: needs --plot FILE", input.drop));
   PlotFile plot(input.plot);
   MeasuredRequest request = input.request;
   request.file = path;
@@ -128,7 +139,7 @@ int run_measured(const MeasuredInput& input) {
   }
   const Scores scores = score_measured(run.file, run.fit, run.split.scored, true);
   std::optional<Picture> picture;
-  if (plot.is_wanted()) picture = measured_picture(run, scores, input.drop.value_or(""));
+  if (plot.is_wanted()) picture = measured_picture(run, scores, input.drop);
   write_report(choice,
                action == Action::predict ? measured_predict_report(run, scores) : measured_score_report(run, scores));
   if (picture) plot.write(*picture, measured_words(run));
@@ -150,12 +161,7 @@ Command measured_command() {
                .type = "FILE",
                .help = "poses, frame by frame (CSV), or square-drops or cube-tosses, which come with the program",
                .required = true});
-  command.add_text("--body", input->request.body, "FILE",
-                   "what was tracked: a TOML file, square-drops or cube-tosses (the file's own name with .toml)");
-  command.add_text("--seed", input->request.seed, "N", "draws the drops to fit on (1)");
-  command.add_text("--share", input->request.share, "X", "of the drops to fit on (0.5)");
-  command.add_text("--fit-on", input->request.fit_on, "LIST", "fit on these drops, as in 1,3,10-20; score the others");
-  command.add_text("--fit-from", input->request.fit_from, "FILE", "fit on another file's drops, score all of this one");
+  command.add(measured_arguments(input->request));
   command.add_text("--drop", input->drop, "NAME", "to draw (the first point impact)");
   add_output_options(command, input->output);
   add_plot_options(command, input->plot);

@@ -9,14 +9,16 @@
 
 namespace clatter::validation::inline cli {
 
-/// Texts as given; each is checked when it is read.
 struct MeasuredRequest {
-  std::string file;                        ///< poses, or the name of a data set that comes with the program
-  std::optional<std::string> body;         ///< what was tracked
-  std::optional<std::string> seed, share;  ///< of the drops that are drawn to fit on
-  std::optional<std::string> fit_on;       ///< or a list of them
-  std::optional<std::string> fit_from;     ///< or another file, all of which is fitted on
+  std::string file;             ///< poses, or the name of a data set that comes with the program
+  std::string body;             ///< what was tracked; empty: as a file beside it says
+  std::optional<int> seed;      ///< of the drops that are drawn to fit on
+  std::optional<double> share;  ///< of them
+  std::string fit_on;           ///< or a list of them
+  std::string fit_from;         ///< or another file, all of which is fitted on
 };
+/// All but the file.
+[[nodiscard]] Arguments measured_arguments(MeasuredRequest& request);
 
 /// The tracks, taken apart, and the laws fitted to a part of them.
 /// @throws BadInput naming the option or the file.

@@ -17,25 +17,11 @@
 
 namespace clatter::validation::inline cli {
 
-void add_output_options(Command& command, OutputTexts& t) {
-  command.add_text("--format", t.format, "table|csv|json|markdown|latex", "form of the output (table)", "Output");
-  command.add_text("--output", t.output, "FILE", "write there, whole or not at all; -: stdout", "Output");
-  command.add_flag("--ascii", t.ascii, "plain ASCII in tables", "Output");
-  command.add_flag("--bare", t.bare, "CSV without comments", "Output");
-}
-
-OutputChoice read_output(const OutputTexts& texts) {
-  OutputChoice choice;
-  choice.style.ascii = texts.ascii;
-  choice.style.bare = texts.bare;
-  choice.path = texts.output.value_or("");
-  if (texts.format) {
-    choice.style.format =
-        static_cast<Format>(read_name_option("--format", *texts.format, {"table", "csv", "json", "markdown", "latex"}));
-  }
-  if (texts.ascii && choice.style.format != Format::table) throw BadInput("--ascii: is for tables, --format table");
-  if (texts.bare && choice.style.format != Format::csv) throw BadInput("--bare: is for CSV, --format csv");
-  return choice;
+void add_output_options(Command& command, OutputChoice& choice) {
+  command.add(format_argument(choice.style.format, "form of the output (table)", "Output"));
+  command.add_text("--output", choice.path, "FILE", "write there, whole or not at all; -: stdout", "Output");
+  command.add_flag("--ascii", choice.style.ascii, "plain ASCII in tables", "Output");
+  command.add_flag("--bare", choice.style.bare, "CSV without comments", "Output");
 }
 
 void check_files(const OutputChoice& choice, const std::vector<RunFile>& written) {
@@ -62,13 +48,6 @@ void write_report(const OutputChoice& choice, const Report& report) {
   sink.commit();
 }
 
-void add_sweep_options(Command& command, SweepTexts& t, const std::string& what) {
-  command.add_text("--from", t.from, "X", "first " + what, "Range");
-  command.add_text("--to", t.to, "X", "last " + what, "Range");
-  command.add_text("--step", t.step, "X", "step from one to the next", "Range");
-  command.add_text("--count", t.count, "N", "or the number of values, both ends included", "Range");
-}
-
 namespace {
 
 /// Keys that a flag overrides.
@@ -89,7 +68,7 @@ std::vector<SceneOverride> overrides_of(const SceneFlags& given) {
     const std::string flag = key->flag;
     const auto text = given.texts.find(flag);
     const auto truth = given.truths.find(flag);
-    if (text != given.texts.end() && text->second) overrides.push_back({key->name, flag, *text->second});
+    if (text != given.texts.end() && !text->second.empty()) overrides.push_back({key->name, flag, text->second});
     if (truth != given.truths.end() && truth->second) {
       overrides.push_back({key->name, flag, flag.starts_with("--no-") ? "false" : "true"});
     }
@@ -124,7 +103,7 @@ PreparedScene read_discrete_flags(const SceneFlags& given) {
   return read_discrete_scene(scene_values(given.source), overrides_of(given));
 }
 
-bool is_given(const SceneFlags& given, const std::string& name) { return given.texts.at(name).has_value(); }
+bool is_given(const SceneFlags& given, const std::string& name) { return !given.texts.at(name).empty(); }
 
 namespace {
 
@@ -141,9 +120,9 @@ PictureFormat format_of(const std::string& file) {
 
 }  // namespace
 
-void add_plot_options(Command& command, PlotTexts& texts) {
-  command.add_text("--plot", texts.plot, "FILE", "also a picture, .svg or .png (needs gnuplot)", "Output");
-  command.add_flag(script_option, texts.script, "and beside it the gnuplot script that draws it", "Output");
+void add_plot_options(Command& command, PlotChoice& choice) {
+  command.add_text("--plot", choice.path, "FILE", "also a picture, .svg or .png (needs gnuplot)", "Output");
+  command.add_flag(script_option, choice.script, "and beside it the gnuplot script that draws it", "Output");
 }
 
 std::vector<std::string> run_words(const std::string& command, const std::string& what, const Scene& scene,
@@ -151,29 +130,30 @@ std::vector<std::string> run_words(const std::string& command, const std::string
   return {headline(command, what), scene_line(scene, model)};
 }
 
-void add_window_option(Command& command, std::optional<std::string>& text, const std::string& of) {
-  command.add_text("--window", text, "FROM:TO", "times " + of + ", in s after the first touch-down", "Output");
+void add_window_option(Command& command, std::optional<TimeWindow>& window, const std::string& of) {
+  const std::string help = "times " + of + ", in s after the first touch-down";
+  command.add(read_argument("--window", window, read_window, "FROM:TO", help, "Output"));
 }
 
-std::vector<RunFile> plot_files(const PlotTexts& texts) {
-  if (!texts.plot) {
-    if (texts.script)
+std::vector<RunFile> plot_files(const PlotChoice& choice) {
+  if (choice.path.empty()) {
+    if (choice.script)
       throw BadInput(fmt::format("{}: needs --plot FILE, beside which the script is kept", script_option));
     return {};
   }
-  std::vector<RunFile> files{{"--plot", *texts.plot}};
-  if (texts.script) files.push_back({script_option, path(*texts.plot).replace_extension(".gnuplot").string()});
+  std::vector<RunFile> files{{"--plot", choice.path}};
+  if (choice.script) files.push_back({script_option, path(choice.path).replace_extension(".gnuplot").string()});
   return files;
 }
 
-PlotFile::PlotFile(const PlotTexts& texts) {
-  const std::vector<RunFile> files = plot_files(texts);
+PlotFile::PlotFile(const PlotChoice& choice) {
+  const std::vector<RunFile> files = plot_files(choice);
   if (files.empty()) return;
   path_ = files[0].path;
   format_ = format_of(path_);
-  if (texts.script) script_path_ = files[1].path;
+  if (choice.script) script_path_ = files[1].path;
   picture_.emplace(path_, "--plot");
-  if (texts.script) script_.emplace(script_path_, script_option);
+  if (choice.script) script_.emplace(script_path_, script_option);
   require_gnuplot("--plot " + path_, terminal_name(format_));
 }
 
@@ -194,18 +174,6 @@ void PlotFile::write(const Picture& picture, const std::vector<std::string>& hea
 
 void PlotFile::leave_out(const std::string& reason) const {
   if (picture_) say(fmt::format("--plot {}: no picture: {}", path_, reason));
-}
-
-void add_rod_options(Command& command, RodTexts& t) {
-  const auto add = [&](const char* name, std::optional<std::string>& text, const char* type, const char* help) {
-    command.add_text(name, text, type, help, "Rod");
-  };
-  add("--gravity-number", t.gravity_number, "G", "G = g L/v_n^2 (0)");
-  add("--gravity", t.gravity, "M/S2", "or gravity, with --length and --speed (0)");
-  add("--length", t.length, "M", "of the rod, for --gravity (1)");
-  add("--speed", t.speed, "M/S", "|v_n| at the first impact, for --gravity (1)");
-  add("--restitution", t.restitution, "E", "coefficient of restitution, 0 to 1 (1)");
-  add("--impulse-ratio", t.impulse_ratio, "MU_I", "Eq. 8's ratio of tangential to normal impulse (0)");
 }
 
 }  // namespace clatter::validation::inline cli

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Options that several commands share: output, scenes, pictures, sweeps and the thin rod.
+// Options that several commands share: output, scenes and pictures.
 #pragma once
 
 #include <map>
@@ -11,29 +11,23 @@
 #include "validation/figures/picture.hpp"
 #include "validation/output/report.hpp"
 #include "validation/output/sink.hpp"
+#include "validation/record/time_window.hpp"
 #include "validation/scene/discrete_scene.hpp"
-#include "validation/scene/option_values.hpp"
-#include "validation/scene/rod_parameters.hpp"
 #include "validation/scene/scene.hpp"
-#include "validation/scene/swept_range.hpp"
 
 namespace clatter::validation::inline cli {
-
-/// Texts of the output options.
-struct OutputTexts {
-  std::optional<std::string> format, output;
-  bool ascii = false, bare = false;
-};
 
 /// Where and how to write.
 struct OutputChoice {
   TextStyle style;
-  std::string path;
+  std::string path;  ///< empty: stdout
 };
-
-void add_output_options(Command& command, OutputTexts& texts);
-
-[[nodiscard]] OutputChoice read_output(const OutputTexts& texts);
+void add_output_options(Command& command, OutputChoice& choice);
+/// --format alone.
+template <class Value>
+[[nodiscard]] Argument format_argument(Value& format, const std::string& help, const std::string& group = "") {
+  return choice_argument("--format", format, {"table", "csv", "json", "markdown", "latex"}, help, group);
+}
 
 /// Makes sure before a run that what it writes, besides --output, is no input and that the output can be written.
 /// @throws as note_written and require_writable.
@@ -45,15 +39,13 @@ void write_out(const OutputChoice& choice, const std::string& text);
 /// Writes the report in the form that was asked for.
 void write_report(const OutputChoice& choice, const Report& report);
 
-void add_sweep_options(Command& command, SweepTexts& texts, const std::string& what);
-
 // A scene file and the flags that override its keys, for the commands that take one.
 
 /// What was typed, by the name of the flag.
 struct SceneFlags {
   std::string source;  ///< scene file or case; empty: flags alone
   Model model = Model::continuous;
-  std::map<std::string, std::optional<std::string>> texts;
+  std::map<std::string, std::string> texts;  ///< empty: not typed
   std::map<std::string, bool> truths;
 };
 
@@ -72,23 +64,23 @@ void add_scene_flags(Command& command, SceneFlags& flags, Model model = Model::c
 
 // --plot and --plot-script of the commands that draw what they have computed.
 
-struct PlotTexts {
-  std::optional<std::string> plot;
+struct PlotChoice {
+  std::string path;  ///< empty: no picture
   bool script = false;
 };
-void add_plot_options(Command& command, PlotTexts& texts);
+void add_plot_options(Command& command, PlotChoice& choice);
 /// --window.  @param of what it is the window, in words
-void add_window_option(Command& command, std::optional<std::string>& text, const std::string& of);
+void add_window_option(Command& command, std::optional<TimeWindow>& window, const std::string& of);
 
 /// The files of these options, whether wanted or not.  @throws BadInput if the script is wanted without a picture.
-[[nodiscard]] std::vector<RunFile> plot_files(const PlotTexts& texts);
+[[nodiscard]] std::vector<RunFile> plot_files(const PlotChoice& choice);
 
 /// The picture that was asked for, if one was.  Made before the run, it finds everything that could be wrong with it
 /// then; written after the run, the files appear whole or not at all.
 class PlotFile {
  public:
   /// @throws BadInput naming the option: the extension, a file that cannot be created, gnuplot missing.
-  explicit PlotFile(const PlotTexts& texts);
+  explicit PlotFile(const PlotChoice& choice);
   [[nodiscard]] bool is_wanted() const { return picture_.has_value(); }
 
   /// @param head of the script: lines without "# " that say what was run.  @throws as run_gnuplot.
@@ -105,9 +97,5 @@ class PlotFile {
 /// Head of a script: version, command, what it computes, and the whole scene.
 [[nodiscard]] std::vector<std::string> run_words(const std::string& command, const std::string& what,
                                                  const Scene& scene, Model model = Model::continuous);
-
-// Options of the commands that deal with the thin rod's contact angles.
-
-void add_rod_options(Command& command, RodTexts& texts);
 
 }  // namespace clatter::validation::inline cli

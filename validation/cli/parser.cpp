@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
+#include <deque>
 #include <set>
 #include <sstream>
 
@@ -158,20 +159,26 @@ std::vector<std::string> checked_arguments(const std::vector<Command>& commands,
   return out;
 }
 
-CLI::Option* add_value(CLI::App& app, const Argument& argument) {
+/// Texts of arguments that have a reader, which wait until the whole line is known to be in order.
+using Waiting = std::deque<std::pair<const Argument*, std::string>>;
+
+CLI::Option* add_value(CLI::App& app, const Argument& argument, Waiting& waiting) {
   if (bool* const* truth = std::get_if<bool*>(&argument.target))
     return app.add_flag(argument.name, **truth, argument.help);
-  CLI::Option* option =
-      std::visit([&](auto* target) { return app.add_option(argument.name, *target, argument.help); }, argument.target);
+  const auto add = [&](auto& target) { return app.add_option(argument.name, target, argument.help); };
+  CLI::Option* option = nullptr;
+  if (auto* const* list = std::get_if<std::vector<std::string>*>(&argument.target)) option = add(**list);
+  else if (auto* const* text = std::get_if<std::string*>(&argument.target)) option = add(**text);
+  else option = add(waiting.emplace_back(&argument, "").second);
   option->type_name(argument.type)->required(argument.required);
   return option;
 }
 
-void add_command(CLI::App& app, const Command& command) {
+void add_command(CLI::App& app, const Command& command, Waiting& waiting) {
   CLI::App* part = app.add_subcommand(command.name, command.help);
   part->footer(command.footer);
   for (const Argument& argument : command.arguments) {
-    CLI::Option* option = add_value(*part, argument);
+    CLI::Option* option = add_value(*part, argument, waiting);
     if (!argument.group.empty()) option->group(argument.group);
     if (argument.repeats) option->expected(1)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   }
@@ -251,7 +258,8 @@ ParsedLine parse_line(const std::vector<Command>& commands, const std::vector<st
   app.set_help_flag("--help", "print this help and exit");
   bool show_version = false;
   app.add_flag("--version", show_version, "print the version and exit");
-  for (const Command& command : commands) add_command(app, command);
+  Waiting waiting;
+  for (const Command& command : commands) add_command(app, command, waiting);
   std::vector<std::string> arguments = checked_arguments(commands, with_help_as_flag(given));
   std::reverse(arguments.begin(), arguments.end());  // as CLI11's parse(vector) wants them
   try {
@@ -264,6 +272,9 @@ ParsedLine parse_line(const std::vector<Command>& commands, const std::vector<st
   if (show_version) return {.text = std::string("clatter ") + version + "\n"};
   const auto chosen = app.get_subcommands();
   if (chosen.empty()) throw BadInput("a command is required; clatter --help lists them");
+  for (const auto& [argument, text] : waiting) {
+    if (!text.empty()) std::get<Argument::Reader>(argument->target)(argument->name, text);
+  }
   const auto found = std::find_if(commands.begin(), commands.end(),
                                   [&](const Command& command) { return command.name == chosen[0]->get_name(); });
   return {.command = &*found};

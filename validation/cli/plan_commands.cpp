@@ -19,15 +19,15 @@ namespace {
 
 struct PlanInput {
   SceneFlags scene;
-  std::optional<std::string> within;
-  OutputTexts output;
-  PlotTexts plot;
+  std::optional<double> within;  ///< [ms]
+  OutputChoice output;
+  PlotChoice plot;
 };
 
 int run_plan(const PlanInput& input) {
   const Scene scene = read_scene_flags(input.scene);
   require_level(scene, "plan");
-  const OutputChoice choice = read_output(input.output);
+  const OutputChoice& choice = input.output;
   const auto is_typed = [&](const std::string& name) { return is_given(input.scene, "--" + name); };
   const PlanTarget target = plan_target(scene, {input.within, is_typed});
   check_files(choice, plot_files(input.plot));
@@ -48,7 +48,7 @@ Command plan_command() {
   auto input = std::make_shared<PlanInput>();
   Command command{.name = "plan", .help = "the smallest model that serves, and its cost"};
   add_scene_flags(command, input->scene);
-  command.add_text("--within", input->within, "MS", "that the run may take; alone: as accurate as fits");
+  command.add(within_argument(input->within));
   add_output_options(command, input->output);
   add_plot_options(command, input->plot);
   command.footer =
@@ -62,14 +62,14 @@ namespace {
 
 struct TradeoffInput {
   SceneFlags scene;
-  OutputTexts output;
-  PlotTexts plot;
+  OutputChoice output;
+  PlotChoice plot;
 };
 
 int run_tradeoff(const TradeoffInput& input) {
   const Scene scene = read_scene_flags(input.scene);
   require_level(scene, "tradeoff");
-  const OutputChoice choice = read_output(input.output);
+  const OutputChoice& choice = input.output;
   check_files(choice, plot_files(input.plot));
   if (scene.sweep)
     throw BadInput(fmt::format("{}: a sweep has no tradeoff; give --angle or leave out [sweep]", scene.path));

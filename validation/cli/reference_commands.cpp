@@ -190,8 +190,7 @@ void require_new(const std::string& path) {
     throw BadInput(fmt::format("--output {}: is there already; init writes new files alone", path));
 }
 
-int run_keys(const OutputTexts& texts) {
-  const OutputChoice choice = read_output(texts);
+int run_keys(const OutputChoice& choice) {
   check_files(choice);
   if (choice.style.format == Format::table) write_out(choice, keys_text());
   else write_report(choice, keys_report());
@@ -201,7 +200,7 @@ int run_keys(const OutputTexts& texts) {
 }  // namespace
 
 Command keys_command() {
-  auto output = std::make_shared<OutputTexts>();
+  auto output = std::make_shared<OutputChoice>();
   Command command{.name = "keys", .help = "every key of scenes, its flag and default"};
   add_output_options(command, *output);
   command.footer = "Example: clatter keys --format markdown";
@@ -210,12 +209,12 @@ Command keys_command() {
 }
 
 Command init_command() {
-  auto file = std::make_shared<std::optional<std::string>>();
+  auto file = std::make_shared<std::string>();
   Command command{.name = "init", .help = "a commented scene file to begin with"};
   command.add_text("--output", *file, "FILE", "write there, whole or not at all");
   command.footer = "Example: clatter init --output scene.toml";
   command.run = [file] {
-    const OutputChoice choice{.style = {}, .path = file->value_or("")};
+    const OutputChoice choice{.style = {}, .path = *file};
     require_new(choice.path);
     check_files(choice);
     write_out(choice, scene_file());
@@ -229,8 +228,8 @@ Command init_command() {
 namespace {
 
 struct ColumnsInput {
-  std::optional<std::string> command;
-  OutputTexts output;
+  std::string command;
+  OutputChoice output;
 };
 
 /// A command and what asks for its columns.
@@ -322,14 +321,9 @@ std::string columns_text(const Report& report) {
 }
 
 int run_columns(const ColumnsInput& input) {
-  const OutputChoice choice = read_output(input.output);
-  if (input.command) {
-    std::vector<std::string> names;
-    for (const ColumnsOf& of : all_columns()) names.emplace_back(of.command);
-    static_cast<void>(read_name_option("--only", *input.command, names));
-  }
+  const OutputChoice& choice = input.output;
   check_files(choice);
-  const Report report = columns_report(input.command.value_or(""));
+  const Report report = columns_report(input.command);
   if (choice.style.format == Format::table) write_out(choice, columns_text(report));
   else write_report(choice, report);
   return 0;
@@ -340,7 +334,12 @@ int run_columns(const ColumnsInput& input) {
 Command columns_command() {
   auto input = std::make_shared<ColumnsInput>();
   Command command{.name = "columns", .help = "every column of CSV and JSON, its unit and meaning"};
-  command.add_text("--only", input->command, "COMMAND", "the columns of this one alone");
+  const auto known = [](const std::string& option, const std::string& name) {
+    std::vector<std::string> names;
+    for (const ColumnsOf& of : all_columns()) names.emplace_back(of.command);
+    return names[read_name_option(option, name, names)];
+  };
+  command.add(read_argument("--only", input->command, known, "COMMAND", "the columns of this one alone"));
   add_output_options(command, input->output);
   command.footer = "Example: clatter columns --only sequence --format markdown";
   command.run = [input] { return run_columns(*input); };

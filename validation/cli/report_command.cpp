@@ -122,9 +122,9 @@ std::string discrete_html(const ReportInput& input) {
   std::string html;
   const auto failure = failure_of_scene([&] {
     const PreparedScene prepared = read_discrete_flags(flags);
-    const DiscreteRun found = run_discrete(prepared, SequenceMethod::automatic);
+    const DiscreteRun found = run_discrete(prepared);
     html = handout_table(sequence_report(prepared, found));
-    html += handout_picture(sequence_picture(prepared, found, read_window({})),
+    html += handout_picture(sequence_picture(prepared, found, TimeWindow{}),
                             "Discrete model: heights over time, and the impulse of each impact.");
   });
   return failure ? fmt::format("<p>The discrete model does not take this drop: {}</p>\n", failure->message) : html;
@@ -137,7 +137,7 @@ std::string continuous_html(const Scene& scene, const ShockRun& run) {
       run_to_digits(body, scene.world, scene.start(body), scene.request, scene.accuracy, {.history = &history});
   std::string html = handout_table(simulation_report(scene, run.continuous->planned));
   if (!planned.run.impacts.empty()) {
-    html += handout_picture(simulation_picture(scene, history, read_window({})),
+    html += handout_picture(simulation_picture(scene, history, TimeWindow{}),
                             "Continuous model: heights, contact force and energies over time.");
   }
   return html;

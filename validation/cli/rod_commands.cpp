@@ -20,12 +20,9 @@ namespace clatter::validation::inline cli {
 namespace {
 
 struct AnglesInput {
-  SweepTexts sweep;
-  RodTexts rod;
-  OutputTexts output;
-  PlotTexts plot;
-  std::optional<std::string> digits;
-  bool as_printed = false;
+  AnglesOptions options;
+  OutputChoice output;
+  PlotChoice plot;
 };
 
 std::vector<std::string> script_head(const AnglesRequest& request) {
@@ -63,13 +60,8 @@ int write_csv(const AnglesRequest& request, const OutputChoice& choice) {
 }
 
 int run_angles(const AnglesInput& input) {
-  const Sweep sweep = read_sweep(input.sweep, {0, 90, 5}, {0, 90, false, "from 0 to 90 degrees"});
-  const AnglesRequest request{.theta = [sweep](long long i) { return sweep.value(i); },
-                              .count = sweep.count,
-                              .rod = read_rod(input.rod),
-                              .as_printed = input.as_printed,
-                              .digits = input.digits ? read_integer_option("--digits", *input.digits, 1, 17) : 6};
-  const OutputChoice choice = read_output(input.output);
+  const AnglesRequest request = angles_request(input.options);
+  const OutputChoice& choice = input.output;
   check_files(choice, plot_files(input.plot));
   PlotFile plot(input.plot);
   if (choice.style.format == Format::csv) {
@@ -90,13 +82,9 @@ int run_angles(const AnglesInput& input) {
 Command angles_command() {
   auto input = std::make_shared<AnglesInput>();
   Command command{.name = "angles", .help = "contact angles and impulses of the thin rod"};
-  add_sweep_options(command, input->sweep, "angle theta in degrees (0 to 90 by 5)");
-  add_rod_options(command, input->rod);
-  command.add_flag("--as-printed", input->as_printed,
-                   "beta by the paper's printed gravity term beside the corrected one", "Rod");
+  command.add(angles_arguments(input->options));
   add_output_options(command, input->output);
   add_plot_options(command, input->plot);
-  command.add_text("--digits", input->digits, "N", "significant digits in tables (6)", "Output");
   command.footer = "Example: clatter angles --from 0 --to 60 --step 2.5 --gravity-number 0.1";
   command.run = [input] { return run_angles(*input); };
   return command;
@@ -105,17 +93,16 @@ Command angles_command() {
 namespace {
 
 struct RegimesInput {
-  RegimesTexts texts;
-  OutputTexts output;
-  PlotTexts plot;
+  RegimesRequest request;
+  OutputChoice output;
+  PlotChoice plot;
 };
 
 int run_regimes(const RegimesInput& input) {
-  const OutputChoice choice = read_output(input.output);
-  const FoundRegimes found = find_regimes(input.texts);
-  check_files(choice, plot_files(input.plot));
+  const FoundRegimes found = find_regimes(input.request);
+  check_files(input.output, plot_files(input.plot));
   PlotFile plot(input.plot);
-  write_report(choice, found.report);
+  write_report(input.output, found.report);
   if (plot.is_wanted()) {
     plot.write(regimes_picture(found), found.script_head);
   }
@@ -127,14 +114,9 @@ int run_regimes(const RegimesInput& input) {
 Command regimes_command() {
   auto input = std::make_shared<RegimesInput>();
   Command command{.name = "regimes", .help = "number of impacts and fold angles"};
-  command.add_text("--over", input->texts.over, "gravity-number|restitution|impulse-ratio",
-                   "what to vary (gravity-number)", "Range");
-  add_sweep_options(command, input->texts.sweep, "value");
-  command.add_flag("--log", input->texts.logarithmic, "values in geometric progression", "Range");
-  add_rod_options(command, input->texts.rod);
+  command.add(regimes_arguments(input->request));
   add_output_options(command, input->output);
   add_plot_options(command, input->plot);
-  command.add_text("--digits", input->texts.digits, "N", "significant digits in tables (8)", "Output");
   command.footer =
       "Example: clatter regimes --over restitution --from 0.2 --to 1 --step 0.1\n"
       "Of the thin rod in its plane, whose regimes end at folds of one angle. In space an attitude has three angles, "

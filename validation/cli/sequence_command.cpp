@@ -20,10 +20,10 @@ namespace {
 
 struct SequenceInput {
   SceneFlags scene;
-  std::optional<std::string> method;
-  OutputTexts output;
-  PlotTexts plot;
-  std::optional<std::string> window;
+  std::string method;
+  OutputChoice output;
+  PlotChoice plot;
+  std::optional<TimeWindow> window;
 };
 
 int status_of(const Scene& scene, const Run& run) {
@@ -34,10 +34,10 @@ int status_of(const Scene& scene, const Run& run) {
 }
 
 /// @throws BadInput if the window holds none of the sequence's times.
-Picture picture_of(const PreparedScene& prepared, const DiscreteRun& found, const std::optional<std::string>& window) {
-  const Picture picture = sequence_picture(prepared, found, read_window(window));
+Picture picture_of(const PreparedScene& prepared, const DiscreteRun& found, const TimeWindow& window) {
+  const Picture picture = sequence_picture(prepared, found, window);
   if (picture.panels.front().rows.size() < 2)
-    throw BadInput(fmt::format("--window {}: must hold times of the sequence", *window));
+    throw BadInput(fmt::format("--window {}: must hold times of the sequence", window.text()));
   return picture;
 }
 
@@ -57,18 +57,16 @@ void write_rows_of(const PreparedScene& prepared, const DiscreteRun& found, cons
 
 int run_sequence(const SequenceInput& input) {
   const PreparedScene prepared = read_discrete_flags(input.scene);
-  const OutputChoice choice = read_output(input.output);
-  const SequenceMethod method = read_sequence_method(input.method.value_or("auto"));
-  static_cast<void>(read_window(input.window));
-  if (input.window && !input.plot.plot) {
-    throw BadInput(fmt::format("--window {}: needs --plot FILE", *input.window));
+  const OutputChoice& choice = input.output;
+  if (input.window && input.plot.path.empty()) {
+    throw BadInput(fmt::format("--window {}: needs --plot FILE", input.window->text()));
   }
   check_files(choice, plot_files(input.plot));
   PlotFile plot(input.plot);
-  const DiscreteRun found = run_discrete(prepared, method);
+  const DiscreteRun found = run_discrete(prepared);
   for (const std::string& warning : found.run.warnings) say(warning);
   std::optional<Picture> picture;
-  if (plot.is_wanted()) picture = picture_of(prepared, found, input.window);
+  if (plot.is_wanted()) picture = picture_of(prepared, found, input.window.value_or(TimeWindow{}));
   // A table's one line on small tilts does not wait for edges that rattle on; JSON lists every outcome.
   analytic::space::TiltEffort tilts;
   if (choice.style.format != Format::json) tilts.rubs = 20;
@@ -85,7 +83,8 @@ Command sequence_command() {
   auto input = std::make_shared<SequenceInput>();
   Command command{.name = "sequence", .help = "impact sequence of a falling rod or box"};
   add_scene_flags(command, input->scene, Model::discrete);
-  command.add_text("--method", input->method, "NAME", "auto, closed-form (Eqs. 9 and 12) or discrete (auto)", "Scene");
+  command.add(read_argument("--method", input->method, read_sequence_method, "NAME",
+                            "auto or discrete, the same (auto)", "Scene"));
   add_output_options(command, input->output);
   add_plot_options(command, input->plot);
   add_window_option(command, input->window, "of the picture");

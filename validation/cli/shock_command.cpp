@@ -17,8 +17,8 @@ namespace {
 const char* const shock_summary = "shock at points of the body";
 
 struct ShockCommandInput : ShockInput {
-  OutputTexts output;
-  PlotTexts plot;
+  OutputChoice output;
+  PlotChoice plot;
 };
 
 /// As that of simulate, or of sequence.
@@ -36,7 +36,7 @@ int run_shock_command(const ShockCommandInput& input) {
   if (probes.empty())
     throw BadInput("--probe: required, a point of the body as NAME:X,Y,Z in m, or [[probe]] in the scene file");
   const ShockRequest request = request_of(input);
-  const OutputChoice choice = read_output(input.output);
+  const OutputChoice& choice = input.output;
   const ShockView view = view_of(input);
   check_files(choice, plot_files(input.plot));
   PlotFile plot(input.plot);

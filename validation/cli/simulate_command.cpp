@@ -30,18 +30,17 @@ using numeric::Simulation;
 
 struct SimulateInput {
   SceneFlags scene;
-  OutputTexts output;
-  PlotTexts plot;
-  std::optional<std::string> window;
+  OutputChoice output;
+  PlotChoice plot;
+  std::optional<TimeWindow> window;
 };
 
 /// @throws BadInput if the window has nothing to act on.
 void check_window(const SimulateInput& input, const Scene& scene) {
-  static_cast<void>(read_window(input.window));
   if (!input.window) return;
-  const std::string given = "--window " + *input.window;
+  const std::string given = "--window " + input.window->text();
   if (scene.sweep) throw BadInput(given + ": left out in a sweep, whose picture has no time");
-  if (scene.history.empty() && !input.plot.plot) throw BadInput(given + ": needs --plot FILE or --history FILE");
+  if (scene.history.empty() && input.plot.path.empty()) throw BadInput(given + ": needs --plot FILE or --history FILE");
 }
 
 constexpr long evaluations_before_progress = 200'000;
@@ -77,10 +76,10 @@ int status_of(const std::vector<SweptRun>& runs) {
 }
 
 /// @throws BadInput if the picture that is wanted has none of the run's times.
-void check_times(const Simulation& run, const PictureHistory& history, const std::optional<std::string>& window) {
+void check_times(const Simulation& run, const PictureHistory& history, const std::optional<TimeWindow>& window) {
   if (run.outcome == Outcome::interrupted || run.impacts.empty() || !window) return;
-  if (clipped(history.rows(), read_window(window)).size() < 2)
-    throw BadInput(fmt::format("--window {}: must hold times of the run", *window));
+  if (clipped(history.rows(), *window).size() < 2)
+    throw BadInput(fmt::format("--window {}: must hold times of the run", window->text()));
 }
 
 /// The history's picture, unless there is none to draw: a run that ends early, whose status tells so.
@@ -94,7 +93,7 @@ void draw(const Scene& scene, const Simulation& run, const PictureHistory& histo
 }
 
 int run_single(const Scene& scene, const numeric::Body& body, const SimulateInput& input, PlotFile& plot) {
-  const TimeWindow window = read_window(input.window);
+  const TimeWindow window = input.window.value_or(TimeWindow{});
   const CooperativeInterrupt interrupt;
   std::optional<HistoryFile> history;
   if (!scene.history.empty()) {
@@ -119,7 +118,7 @@ int run_single(const Scene& scene, const numeric::Body& body, const SimulateInpu
   }
   if (plot.is_wanted()) check_times(planned.run, picture, input.window);
   if (history) history->commit();
-  write_report(read_output(input.output), simulation_report(scene, planned));
+  write_report(input.output, simulation_report(scene, planned));
   draw(scene, planned.run, picture, window, plot);
   warn(planned.warnings);
   return status_of(scene, planned);
@@ -161,7 +160,7 @@ int run_sweep(const Scene& scene, const numeric::Body& body, const OutputChoice&
 
 int run_simulate(const SimulateInput& input) {
   const Scene scene = read_scene_flags(input.scene);
-  const OutputChoice choice = read_output(input.output);
+  const OutputChoice& choice = input.output;
   check_window(input, scene);
   std::vector<RunFile> written = plot_files(input.plot);
   written.insert(written.begin(), {"--history", scene.history});

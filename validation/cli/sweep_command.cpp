@@ -32,8 +32,9 @@ struct SweepInput {
   SweepRequest request;
   std::optional<std::string> output, threads;
   bool restart = false;
-  OutputTexts form;
-  PlotTexts plot;
+  std::optional<Format> format;
+  bool ascii = false, bare = false;
+  PlotChoice plot;
 };
 
 /// What is computed, by whom, and what ends it.
@@ -76,9 +77,8 @@ bool is_hdf5(const SweepInput& input) {
 
 /// The rows are CSV unless another form is named, a summary a table.
 TextStyle style_of(const SweepInput& input) {
-  OutputTexts texts = input.form;
-  if (!texts.format) texts.format = input.request.summary ? "table" : "csv";
-  return read_output(texts).style;
+  const Format without = input.request.summary ? Format::table : Format::csv;
+  return {.format = input.format.value_or(without), .ascii = input.ascii, .bare = input.bare};
 }
 
 /// Whether the rows go to a file that can be taken up again.
@@ -211,14 +211,11 @@ void check_output(const SweepInput& input) {
   if (is_hdf5(input)) {
     if (input.request.summary)
       throw BadInput(fmt::format("--output {}: a summary has no rows for HDF5", *input.output));
-    if (input.form.format) {
-      throw BadInput(
-          fmt::format("--format {}: must be left out, --output {} is HDF5", *input.form.format, *input.output));
-    }
+    if (input.format) throw BadInput(fmt::format("--format: must be left out, --output {} is HDF5", *input.output));
     require_hdf5();
   }
   for (const RunFile& file : plot_files(input.plot)) note_written(file);
-  if (input.plot.plot && (input.request.summary || is_hdf5(input) || input.request.rows == "impact")) {
+  if (!input.plot.path.empty() && (input.request.summary || is_hdf5(input) || input.request.rows == "impact")) {
     throw BadInput("--plot: draws rows of scenes, which --summary, HDF5 and --rows impact have not");
   }
   if (writes_file(input)) {
@@ -332,10 +329,10 @@ Command sweep_command() {
                    "write there; until it is complete the rows are in FILE.part; FILE.h5 is HDF5, columns with units");
   command.add_flag("--summary", request.summary,
                    "no rows: counts, percentiles, and extremes with the command that shows each");
-  command.add_text("--format", input->form.format, "table|csv|json|markdown|latex",
-                   "form of the output (csv); others are written at the end, and not taken up again");
-  command.add_flag("--ascii", input->form.ascii, "plain ASCII in tables");
-  command.add_flag("--bare", input->form.bare, "CSV without comments");
+  command.add(format_argument(input->format,
+                              "form of the output (csv); others are written at the end, and not taken up again"));
+  command.add_flag("--ascii", input->ascii, "plain ASCII in tables");
+  command.add_flag("--bare", input->bare, "CSV without comments");
   command.add_flag("--no-errors", request.no_errors, "neither errors nor whether rows can be predicted; half the cost");
   command.add_flag("--require-digits", request.require_digits, "a scene of which fewer digits are known falls short");
   add_plot_options(command, input->plot);

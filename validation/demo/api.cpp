@@ -56,7 +56,7 @@ PreparedScene discrete_scene(const NamedTexts& texts) {
 
 Value sequence(NamedTexts texts) {
   const PreparedScene prepared = discrete_scene(texts);
-  return sequence_report(prepared, run_discrete(prepared, SequenceMethod::automatic)).fields;
+  return sequence_report(prepared, run_discrete(prepared)).fields;
 }
 
 Value explain(NamedTexts texts) {
@@ -64,7 +64,11 @@ Value explain(NamedTexts texts) {
   return explanation_fields(explain_impact(discrete_scene(texts), n));
 }
 
-Value angles(NamedTexts texts) { return angles_report(angles_request(texts)).fields; }
+Value angles(NamedTexts texts) {
+  AnglesOptions options;
+  take(angles_arguments(options), texts);
+  return angles_report(angles_request(options)).fields;
+}
 
 Scene continuous_scene(const NamedTexts& texts) {
   Scene scene = read_scene(SceneValues("", "", scene_keys()), scene_overrides(texts), Model::continuous);

@@ -20,6 +20,7 @@
 #include "validation/output/bad_input.hpp"
 #include "validation/output/interrupt.hpp"
 #include "validation/output/number.hpp"
+#include "validation/output/shell_word.hpp"
 #include "validation/output/symbols.hpp"
 
 namespace clatter::validation::inline figures {
@@ -65,13 +66,6 @@ class TemporaryFile {
   std::string path_;
 };
 
-/// A word of the shell's, whatever is in it.
-std::string shell_quoted(const std::string& text) {
-  std::string out = "'";
-  for (const char c : text) out += c == '\'' ? "'\\''" : std::string(1, c);
-  return out + "'";
-}
-
 /// The first line that says something.
 std::string first_line(const std::string& path) {
   std::ifstream file(path);
@@ -85,8 +79,7 @@ std::string first_line(const std::string& path) {
 
 std::string run_gnuplot(const std::string& script) {
   const TemporaryFile file(script), complaints("");
-  const std::string command =
-      fmt::format("gnuplot -d {} 2>{}", shell_quoted(file.path()), shell_quoted(complaints.path()));
+  const std::string command = fmt::format("gnuplot -d {} 2>{}", shell_word(file.path()), shell_word(complaints.path()));
   std::FILE* pipe = popen(command.c_str(), "r");
   if (!pipe) throw std::runtime_error("gnuplot cannot be started");
   std::string text;

@@ -152,8 +152,8 @@ TrackDescription read_description(const std::string& path) {
   return described(SceneValues(path, description_keys()));
 }
 
-TrackDescription description_of(const std::string& csv, const std::optional<std::string>& given) {
-  if (given) return read_description(*given);
+TrackDescription description_of(const std::string& csv, const std::string& given) {
+  if (!given.empty()) return read_description(given);
   if (means_carried(csv)) return read_description(csv);
   const std::string beside = std::filesystem::path(csv).replace_extension(ending).string();
   if (!std::filesystem::exists(beside)) {

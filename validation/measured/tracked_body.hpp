@@ -56,7 +56,7 @@ struct TrackDescription {
 /// @throws BadInput naming file, key, value and what is allowed.
 [[nodiscard]] TrackDescription read_description(const std::string& path);
 /// The description of a CSV file: `given`, or without it the file of the same name that ends in .toml.
-[[nodiscard]] TrackDescription description_of(const std::string& csv, const std::optional<std::string>& given);
+[[nodiscard]] TrackDescription description_of(const std::string& csv, const std::string& given);
 /// Names of the descriptions that the program carries.
 [[nodiscard]] std::vector<std::string> carried_descriptions();
 /// Whether a path names tracks that the program carries, and no file.

@@ -2,7 +2,6 @@
 #include "validation/plan/closed_form.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 
@@ -88,58 +87,7 @@ std::string reason_against_closed_form(const Drop& drop) {
   return "";
 }
 
-namespace {
-
-constexpr std::size_t number_count = 14;
-
-std::array<double, number_count> numbers_of(const ImpactRow& row) {
-  const analytic::Impact& impact = row.impact;
-  return {row.start,
-          row.inclination,
-          row.contact_angle,
-          impact.approach_speed,
-          impact.restitution(),
-          impact.normal_impulse,
-          impact.tangential_impulse,
-          impact.impulse_ratio(),
-          impact.after.normal,
-          impact.after.tangential,
-          impact.after.angular,
-          row.energy_before,
-          row.energy_after,
-          impact.energy_loss};
-}
-
-/// In the order of numbers_of().
-std::array<double*, number_count> errors_of(analytic::RowErrors& error) {
-  return {&error.start,        &error.inclination,      &error.contact_angle,      &error.approach_speed,
-          &error.restitution,  &error.normal_impulse,   &error.tangential_impulse, &error.impulse_ratio,
-          &error.after.normal, &error.after.tangential, &error.after.angular,      &error.energy_before,
-          &error.energy_after, &error.energy_loss};
-}
-
-/// The discrete model's bounds, and beside each how far the two are apart: together they hold the closed form's errors.
-void add_errors(const Drop& drop, Sequence& sequence) {
-  const Sequence model = impact_sequence(drop, {.impacts = static_cast<int>(sequence.rows.size())});
-  for (std::size_t i = 0; i < std::min(sequence.rows.size(), model.rows.size()); ++i) {
-    ImpactRow& row = sequence.rows[i];
-    const ImpactRow& other = model.rows[i];
-    row.error = other.error;
-    row.amplification = other.amplification;
-    const auto here = numbers_of(row), there = numbers_of(other);
-    const auto errors = errors_of(row.error);
-    for (std::size_t k = 0; k < number_count; ++k) *errors[k] += std::fabs(here[k] - there[k]);
-    for (const std::size_t k : {0u, 2u, 5u})  // start, contact angle and normal impulse, as in RowErrors::relative
-      if (here[k] != there[k]) row.error.relative = std::max(row.error.relative, *errors[k] / std::fabs(here[k]));
-  }
-  sequence.total_normal_impulse_error =
-      model.total_normal_impulse_error + std::fabs(sequence.total_normal_impulse - model.total_normal_impulse);
-  sequence.end_predictable = model.end_predictable && sequence.rows.size() == model.rows.size();
-}
-
-}  // namespace
-
-Sequence closed_form_sequence(const Drop& drop, int impacts, bool errors) {
+Sequence closed_form_sequence(const Drop& drop, int impacts) {
   const Instants at = instants_of(drop, impacts);
   Sequence sequence;
   sequence.total_normal_impulse_error = std::numeric_limits<double>::infinity();
@@ -157,7 +105,6 @@ Sequence closed_form_sequence(const Drop& drop, int impacts, bool errors) {
   sequence.message =
       at.count == most_impacts ? "the closed form ends with the third impact" : "the closed form has no further impact";
   if (at.count == impacts) sequence.message = "as many impacts as asked for";
-  if (errors) add_errors(drop, sequence);
   return sequence;
 }
 

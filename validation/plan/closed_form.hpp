@@ -13,8 +13,8 @@ namespace clatter::validation::inline plan {
 [[nodiscard]] std::string reason_against_closed_form(const analytic::Drop& drop);
 
 /// The first impacts, at most three, of a drop to which it applies.  One impact is Eq. 9; with the second and third
-/// come the roots β and γ of Eq. 12.  What comes after the third impact is not known. Accuracy: as contact_angles().
-/// @param errors also the discrete model, whose bounds the errors are; without it they are unknown, amplifications NaN.
-[[nodiscard]] analytic::Sequence closed_form_sequence(const analytic::Drop& drop, int impacts, bool errors = false);
+/// come the roots β and γ of Eq. 12.  What comes after the third impact is not known.  Accuracy: as contact_angles();
+/// the rows' errors are left unknown.
+[[nodiscard]] analytic::Sequence closed_form_sequence(const analytic::Drop& drop, int impacts);
 
 }  // namespace clatter::validation::inline plan

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A run of the discrete model by the name of its method.
+// A run of the discrete model with its record.
 #pragma once
 
 #include <string>
@@ -8,14 +8,9 @@
 
 namespace clatter::validation::inline plan {
 
-enum class SequenceMethod {
-  automatic,    ///< the discrete model: the closed form costs as much, and knows less
-  closed_form,  ///< Eqs. 9 and 12: thin elastic rod, at most three impacts
-  discrete,
-};
-
-/// @throws BadInput naming the nearest of auto, closed-form and discrete.
-[[nodiscard]] SequenceMethod read_sequence_method(const std::string& name);
+/// The method of the discrete model under its name, "auto" or "discrete", which are the same.
+/// @throws BadInput for closed-form, which former versions had, and for unknown names.
+std::string read_sequence_method(const std::string& option, const std::string& name);
 
 /// A sequence of the discrete model, and its record.
 struct DiscreteRun {
@@ -24,7 +19,7 @@ struct DiscreteRun {
 };
 
 /// Runs the scene.  Warnings are left in the run.
-/// @throws as impact_sequence; BadInput if the closed form does not apply, with the reason.
-[[nodiscard]] DiscreteRun run_discrete(const PreparedScene& prepared, SequenceMethod method);
+/// @throws as impact_sequence.
+[[nodiscard]] DiscreteRun run_discrete(const PreparedScene& prepared);
 
 }  // namespace clatter::validation::inline plan

@@ -10,14 +10,15 @@
 
 namespace clatter::validation::inline record {
 
-TimeWindow read_window(const std::optional<std::string>& text) {
-  if (!text) return {};
+std::string TimeWindow::text() const { return shortest(from) + ":" + shortest(to); }
+
+TimeWindow read_window(const std::string& name, const std::string& text) {
   TimeWindow window;
-  const std::size_t colon = std::min(text->find(':'), text->size());
-  const bool reads = colon < text->size() && read_number(text->substr(0, colon), window.from) &&
-                     read_number(text->substr(colon + 1), window.to);
-  if (!reads) throw BadInput(fmt::format("--window '{}': must be FROM:TO, two times in s", *text));
-  if (!(window.from < window.to)) throw BadInput(fmt::format("--window '{}': FROM must be less than TO", *text));
+  const std::size_t colon = std::min(text.find(':'), text.size());
+  const bool reads = colon < text.size() && read_number(text.substr(0, colon), window.from) &&
+                     read_number(text.substr(colon + 1), window.to);
+  if (!reads) throw BadInput(fmt::format("{} '{}': must be FROM:TO, two times in s", name, text));
+  if (!(window.from < window.to)) throw BadInput(fmt::format("{} '{}': FROM must be less than TO", name, text));
   return window;
 }
 

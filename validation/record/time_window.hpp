@@ -3,7 +3,6 @@
 #pragma once
 
 #include <limits>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,11 +12,12 @@ namespace clatter::validation::inline record {
 struct TimeWindow {
   double from = -std::numeric_limits<double>::infinity(), to = std::numeric_limits<double>::infinity();
   [[nodiscard]] bool holds(double time) const { return time >= from && time <= to; }
+  [[nodiscard]] std::string text() const;  ///< "FROM:TO"
   [[nodiscard]] bool is_all() const { return from == -std::numeric_limits<double>::infinity(); }
 };
 
-/// "FROM:TO"; all times without a text.  @throws BadInput unless both are finite numbers and FROM < TO.
-[[nodiscard]] TimeWindow read_window(const std::optional<std::string>& text);
+/// "FROM:TO", given under a name.  @throws BadInput unless both are finite numbers and FROM < TO.
+[[nodiscard]] TimeWindow read_window(const std::string& name, const std::string& text);
 
 /// The rows in the window of some that begin with a time, in order; where others lie beyond an end of the window, a row
 /// there on the straight line between its neighbours, so that curves reach the frame.

@@ -8,14 +8,11 @@
 #include <bitset>
 #include <cmath>
 #include <limits>
-#include <map>
-#include <optional>
+#include <utility>
 #include <vector>
 
 #include "analytic/batch/rod_batch.hpp"
 #include "validation/output/number.hpp"
-#include "validation/scene/rod_parameters.hpp"
-#include "validation/scene/swept_range.hpp"
 
 namespace clatter::validation::inline reports {
 
@@ -26,13 +23,6 @@ using analytic::degrees_per_radian;
 constexpr std::size_t plain_columns = 17, impacts_column = 16, deficit_column = 15;
 constexpr double neighbour_shift = 0x1p-30;  // between rounding and the curvature of the results
 constexpr double least_of_batch = 5;  // degrees: below, γ − θ and 2 − ΣP have digits that the batch has not
-
-/// What may be given.
-struct AnglesTexts {
-  SweepTexts range;
-  RodTexts rod;
-  std::optional<std::string> digits, as_printed;
-};
 
 double angle_or_missing(const analytic::ContactAngle& angle) {
   return angle.next == analytic::NextImpact::other_end ? angle.angle * degrees_per_radian : NAN;
@@ -57,27 +47,25 @@ std::vector<std::string> notes_of(const AnglesRequest& request) {
 
 }  // namespace
 
-AnglesRequest angles_request(const NamedTexts& given) {
-  AnglesTexts texts;
-  const std::map<std::string, std::optional<std::string>*> places{{"from", &texts.range.from},
-                                                                  {"to", &texts.range.to},
-                                                                  {"step", &texts.range.step},
-                                                                  {"count", &texts.range.count},
-                                                                  {"gravity_number", &texts.rod.gravity_number},
-                                                                  {"gravity", &texts.rod.gravity},
-                                                                  {"length", &texts.rod.length},
-                                                                  {"speed", &texts.rod.speed},
-                                                                  {"restitution", &texts.rod.restitution},
-                                                                  {"impulse_ratio", &texts.rod.impulse_ratio},
-                                                                  {"digits", &texts.digits},
-                                                                  {"as_printed", &texts.as_printed}};
-  for (const auto& [name, text] : given) *named(places, name) = text;
-  const Sweep sweep = read_sweep(texts.range, {0, 90, 5}, {0, 90, false, "from 0 to 90 degrees"});
+Arguments angles_arguments(AnglesOptions& options) {
+  Arguments rows = range_arguments(options.range, "angle theta in degrees (0 to 90 by 5)");
+  for (Argument& row : rod_arguments(options.rod)) rows.push_back(std::move(row));
+  rows.push_back({.name = "--as-printed",
+                  .target = &options.as_printed,
+                  .type = "",
+                  .help = "beta by the paper's printed gravity term beside the corrected one",
+                  .group = "Rod"});
+  rows.push_back(whole_argument("--digits", options.digits, 1, 17, "N", "significant digits in tables (6)", "Output"));
+  return rows;
+}
+
+AnglesRequest angles_request(const AnglesOptions& options) {
+  const Sweep sweep = sweep_of(options.range, {0, 90, 5}, {0, 90, false, "from 0 to 90 degrees"});
   return {.theta = [sweep](long long i) { return sweep.value(i); },
           .count = sweep.count,
-          .rod = read_rod(texts.rod),
-          .as_printed = read_name_option("--as-printed", texts.as_printed.value_or("false"), {"false", "true"}) == 1,
-          .digits = texts.digits ? read_integer_option("--digits", *texts.digits, 1, 17) : 6};
+          .rod = rod_parameters(options.rod),
+          .as_printed = options.as_printed,
+          .digits = options.digits};
 }
 
 std::vector<Column> angles_columns(const AnglesRequest& request) {

@@ -10,9 +10,19 @@
 #include "analytic/plane/contact_angles.hpp"
 #include "validation/figures/picture.hpp"
 #include "validation/output/report.hpp"
-#include "validation/scene/named_texts.hpp"
+#include "validation/scene/rod_parameters.hpp"
+#include "validation/scene/swept_range.hpp"
 
 namespace clatter::validation::inline reports {
+
+/// What may be given.
+struct AnglesOptions {
+  RangeRequest range;  ///< of θ [°]
+  RodRequest rod;
+  bool as_printed = false;
+  int digits = 6;
+};
+[[nodiscard]] Arguments angles_arguments(AnglesOptions& options);
 
 /// What is asked for.
 struct AnglesRequest {
@@ -23,9 +33,8 @@ struct AnglesRequest {
   int digits = 6;           ///< shown in tables
 };
 
-/// From the flags of `clatter angles` by name: from, to, step, count, gravity_number, …, digits, as_printed.
-/// @throws BadInput as the command.
-[[nodiscard]] AnglesRequest angles_request(const NamedTexts& given);
+/// @throws BadInput as sweep_of() and rod_parameters()
+[[nodiscard]] AnglesRequest angles_request(const AnglesOptions& options);
 
 /// Names, headings and units of a row's numbers.
 [[nodiscard]] std::vector<Column> angles_columns(const AnglesRequest& request);

@@ -257,10 +257,15 @@ std::string plan_shortfall(const Plan& plan) {
   return fmt::format("{} digits cannot be had{}; {}", plan.target.digits, within, best);
 }
 
+Argument within_argument(std::optional<double>& within) {
+  return number_argument("--within", within, {0, 1e9, true, "greater than 0, at most 1e9"}, "MS",
+                         "that the run may take; alone: as accurate as fits");
+}
+
 PlanTarget plan_target(const Scene& scene, const PlanRequest& request) {
   PlanTarget target{.digits = scene.accuracy.digits};
   if (request.within) {
-    target.within_ms = read_number_option("--within", *request.within, {0, 1e9, true, "greater than 0, at most 1e9"});
+    target.within_ms = request.within;
     target.most_accurate = !request.is_given("digits");
   }
   for (const char* name : {"method", "tolerance", "step"}) {

@@ -10,6 +10,7 @@
 #include "validation/figures/picture.hpp"
 #include "validation/output/report.hpp"
 #include "validation/plan/plan.hpp"
+#include "validation/scene/argument.hpp"
 
 namespace clatter::validation::inline reports {
 
@@ -17,10 +18,11 @@ namespace clatter::validation::inline reports {
 
 /// What was asked of a plan, beside its scene.
 struct PlanRequest {
-  std::optional<std::string> within;          ///< [ms], as given
+  std::optional<double> within;               ///< [ms]
   std::function<bool(const char*)> is_given;  ///< whether the argument is ("digits")
 };
-/// @throws BadInput for a time that is none, and where an argument is given that the plan chooses or a sweep.
+[[nodiscard]] Argument within_argument(std::optional<double>& within);
+/// @throws BadInput where an argument is given that the plan chooses or a sweep.
 [[nodiscard]] PlanTarget plan_target(const Scene& scene, const PlanRequest& request);
 
 /// A row for each model of the hierarchy.

@@ -56,13 +56,13 @@ const std::vector<Quantity>& all_quantities() {
   return all;
 }
 
-std::vector<double> values_of(const RegimesTexts& input, const Quantity& quantity) {
-  const SweepTexts& texts = input.sweep;
-  if (!texts.from && !texts.to && !texts.step && !texts.count) return quantity.values;
-  if (!texts.from || !texts.to || (!texts.step && !texts.count)) {
+std::vector<double> values_of(const RegimesRequest& input, const Quantity& quantity) {
+  const RangeRequest& range = input.range;
+  if (!range.from && !range.to && !range.step && !range.count) return quantity.values;
+  if (!range.from || !range.to || (!range.step && !range.count)) {
     throw BadInput("--from, --to and --step or --count: a range needs all three");
   }
-  Sweep sweep = read_sweep(texts, {0, 0, 1}, quantity.range);
+  Sweep sweep = sweep_of(range, {0, 0, 1}, quantity.range);
   sweep.logarithmic = input.logarithmic;
   if (input.logarithmic && (!(sweep.from > 0) || sweep.step > 0)) {
     throw BadInput("--log: needs --from greater than 0 and --count");
@@ -172,13 +172,24 @@ std::string rod_words(const RodParameters& rod, const Quantity& quantity) {
 
 }  // namespace
 
-FoundRegimes find_regimes(const RegimesTexts& input) {
-  const auto& quantities = all_quantities();
+Arguments regimes_arguments(RegimesRequest& request) {
   std::vector<std::string> names;
-  for (const Quantity& quantity : quantities) names.emplace_back(quantity.name);
-  const Quantity& quantity = quantities[input.over ? read_name_option("--over", *input.over, names) : 0];
-  const RodParameters rod = read_rod(input.rod);
-  const int digits = input.digits ? read_integer_option("--digits", *input.digits, 1, 17) : 8;
+  for (const Quantity& quantity : all_quantities()) names.emplace_back(quantity.name);
+  Arguments rows{choice_argument("--over", request.over, names, "what to vary (gravity-number)", "Range")};
+  for (Argument& row : range_arguments(request.range, "value")) rows.push_back(std::move(row));
+  rows.push_back({.name = "--log",
+                  .target = &request.logarithmic,
+                  .type = "",
+                  .help = "values in geometric progression",
+                  .group = "Range"});
+  for (Argument& row : rod_arguments(request.rod)) rows.push_back(std::move(row));
+  rows.push_back(whole_argument("--digits", request.digits, 1, 17, "N", "significant digits in tables (8)", "Output"));
+  return rows;
+}
+
+FoundRegimes find_regimes(const RegimesRequest& input) {
+  const Quantity& quantity = all_quantities()[input.over];
+  const RodParameters rod = rod_parameters(input.rod);
   FoundRegimes found;
   found.name = quantity.name;
   found.words = quantity.words;
@@ -203,30 +214,9 @@ FoundRegimes find_regimes(const RegimesTexts& input) {
   found.curve = [regimes_of, values = found.values, logarithmic = found.logarithmic] {
     return regimes_of(between(values, logarithmic));
   };
-  found.report = report_of(found.all, quantity, rod, digits);
+  found.report = report_of(found.all, quantity, rod, input.digits);
   found.report.head = {rod_summary(rod) + ", but for the first column"};
   return found;
-}
-
-Report regimes_report(const NamedTexts& given) {
-  RegimesTexts input;
-  std::optional<std::string> logarithmic;
-  const std::map<std::string, std::optional<std::string>*> places{{"over", &input.over},
-                                                                  {"from", &input.sweep.from},
-                                                                  {"to", &input.sweep.to},
-                                                                  {"step", &input.sweep.step},
-                                                                  {"count", &input.sweep.count},
-                                                                  {"log", &logarithmic},
-                                                                  {"gravity_number", &input.rod.gravity_number},
-                                                                  {"gravity", &input.rod.gravity},
-                                                                  {"length", &input.rod.length},
-                                                                  {"speed", &input.rod.speed},
-                                                                  {"restitution", &input.rod.restitution},
-                                                                  {"impulse_ratio", &input.rod.impulse_ratio},
-                                                                  {"digits", &input.digits}};
-  for (const auto& [name, text] : given) *named(places, name) = text;
-  input.logarithmic = read_name_option("--log", logarithmic.value_or("false"), {"false", "true"}) == 1;
-  return find_regimes(input).report;
 }
 
 std::vector<Column> regimes_columns() {

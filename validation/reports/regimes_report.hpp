@@ -3,26 +3,26 @@
 #pragma once
 
 #include <functional>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "analytic/plane/contact_angles.hpp"
 #include "validation/figures/picture.hpp"
 #include "validation/output/report.hpp"
-#include "validation/scene/named_texts.hpp"
 #include "validation/scene/rod_parameters.hpp"
 #include "validation/scene/swept_range.hpp"
 
 namespace clatter::validation::inline reports {
 
-/// What is asked for, as texts.
-struct RegimesTexts {
-  std::optional<std::string> over, digits;
-  SweepTexts sweep;
+/// What is asked for.
+struct RegimesRequest {
+  std::size_t over = 0;  ///< the quantity that varies: gravity number, restitution, impulse ratio
+  RangeRequest range;
   bool logarithmic = false;
-  RodTexts rod;
+  RodRequest rod;
+  int digits = 8;
 };
+[[nodiscard]] Arguments regimes_arguments(RegimesRequest& request);
 
 /// One value of the parameter.
 struct Regimes {
@@ -43,13 +43,9 @@ struct FoundRegimes {
   Report report;
 };
 /// @throws BadInput as the command.
-[[nodiscard]] FoundRegimes find_regimes(const RegimesTexts& texts);
+[[nodiscard]] FoundRegimes find_regimes(const RegimesRequest& request);
 
 [[nodiscard]] std::vector<Column> regimes_columns();
-
-/// From the flags of `clatter regimes` by name: over, from, to, step, count, log, gravity_number, …, digits.
-/// @throws BadInput as the command.
-[[nodiscard]] Report regimes_report(const NamedTexts& given);
 
 /// θ₂ and θ₃ over the parameter, and the areas of one, two and three impacts: curves through many values, and marks at
 /// those of the table.

@@ -225,18 +225,15 @@ bool Requirement::is_met(const Submission& submission) const {
   return !error || (submission.verdict != Verdict::incomplete && submission.score.error() <= *error);
 }
 
-Requirement read_requirement(const std::optional<std::string>& text) {
-  if (!text) return {};
+Requirement read_requirement(const std::string& name, const std::string& text) {
   double error = 0;
-  if (read_number(*text, error)) {
-    return {.verdict = {}, .error = read_number_option("--require", *text, positive_number)};
-  }
+  if (read_number(text, error)) return {.verdict = {}, .error = read_number_option(name, text, positive_number)};
   std::vector<std::string> names = verdict_names();
   names.pop_back();
-  const auto at = std::find(names.begin(), names.end(), *text);
+  const auto at = std::find(names.begin(), names.end(), text);
   if (at == names.end()) {
-    throw BadInput(fmt::format("--require '{}': must be one of {}, or a largest error such as 1e-3; did you mean {}?",
-                               *text, fmt::join(names, ", "), nearest_name(*text, names)));
+    throw BadInput(fmt::format("{} '{}': must be one of {}, or a largest error such as 1e-3; did you mean {}?", name,
+                               text, fmt::join(names, ", "), nearest_name(text, names)));
   }
   return {.verdict = static_cast<Verdict>(at - names.begin()), .error = {}};
 }

@@ -28,6 +28,6 @@ struct Requirement {
   [[nodiscard]] bool is_met(const Submission& submission) const;
 };
 /// @throws BadInput
-[[nodiscard]] Requirement read_requirement(const std::optional<std::string>& text);
+[[nodiscard]] Requirement read_requirement(const std::string& name, const std::string& text);
 
 }  // namespace clatter::validation::inline reports

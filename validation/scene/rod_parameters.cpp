@@ -5,29 +5,33 @@
 
 #include "validation/output/bad_input.hpp"
 #include "validation/output/number.hpp"
-#include "validation/scene/option_values.hpp"
 
 namespace clatter::validation::inline scene {
 
-analytic::RodParameters read_rod(const RodTexts& t) {
-  analytic::RodParameters rod;
-  const auto read = [](double& value, const char* option, const std::optional<std::string>& text, const Range& range) {
-    if (text) value = read_number_option(option, *text, range);
-  };
-  if (t.gravity_number && t.gravity) {
-    throw BadInput("--gravity-number and --gravity: give one of them, not both");
-  }
-  double gravity = 0, length = 1, speed = 1;
-  read(gravity, "--gravity", t.gravity, not_negative_number);
-  read(length, "--length", t.length, positive_number);
-  read(speed, "--speed", t.speed, positive_number);
-  rod.gravity_number = gravity / speed * length / speed;
-  if (!(rod.gravity_number <= largest_number)) {
+Arguments rod_arguments(RodRequest& r) {
+  const char* const group = "Rod";
+  return {number_argument("--gravity-number", r.gravity_number, not_negative_number, "G", "G = g L/v_n^2 (0)", group),
+          number_argument("--gravity", r.gravity, not_negative_number, "M/S2",
+                          "or gravity, with --length and --speed (0)", group),
+          number_argument("--length", r.length, positive_number, "M", "of the rod, for --gravity (1)", group),
+          number_argument("--speed", r.speed, positive_number, "M/S", "|v_n| at the first impact, for --gravity (1)",
+                          group),
+          number_argument("--restitution", r.restitution, {0, 1, false, "from 0 to 1"}, "E",
+                          "coefficient of restitution, 0 to 1 (1)", group),
+          number_argument("--impulse-ratio", r.impulse_ratio, any_number, "MU_I",
+                          "Eq. 8's ratio of tangential to normal impulse (0)", group)};
+}
+
+analytic::RodParameters rod_parameters(const RodRequest& r) {
+  if (r.gravity_number && r.gravity) throw BadInput("--gravity-number and --gravity: give one of them, not both");
+  const double of_gravity = r.gravity.value_or(0) / r.speed * r.length / r.speed;
+  if (!(of_gravity <= largest_number)) {
     throw BadInput("--gravity, --length, --speed: the gravity number g L/v_n^2 overflows");
   }
-  read(rod.gravity_number, "--gravity-number", t.gravity_number, not_negative_number);
-  read(rod.restitution, "--restitution", t.restitution, {0, 1, false, "from 0 to 1"});
-  read(rod.impulse_ratio, "--impulse-ratio", t.impulse_ratio, any_number);
+  analytic::RodParameters rod;
+  rod.gravity_number = r.gravity_number.value_or(of_gravity);
+  rod.restitution = r.restitution;
+  rod.impulse_ratio = r.impulse_ratio;
   return rod;
 }
 

@@ -7,14 +7,19 @@
 
 #include "analytic/plane/contact_angles.hpp"
 #include "validation/output/value.hpp"
+#include "validation/scene/argument.hpp"
 
 namespace clatter::validation::inline scene {
 
-struct RodTexts {
-  std::optional<std::string> gravity_number, gravity, length, speed, restitution, impulse_ratio;
+struct RodRequest {
+  std::optional<double> gravity_number;
+  std::optional<double> gravity;  ///< [m/s²], with the next two in place of the gravity number
+  double length = 1, speed = 1;   ///< [m], [m/s]
+  double restitution = 1, impulse_ratio = 0;
 };
-/// @throws BadInput as read_scene().
-[[nodiscard]] analytic::RodParameters read_rod(const RodTexts& texts);
+[[nodiscard]] Arguments rod_arguments(RodRequest& request);
+/// @throws BadInput where gravity is given twice, or the gravity number overflows
+[[nodiscard]] analytic::RodParameters rod_parameters(const RodRequest& request);
 /// The parameters under their names in JSON.
 [[nodiscard]] Value rod_fields(const analytic::RodParameters& parameters);
 /// "thin rod, G = …, e = …, μᵢ = …".

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <utility>
 
 #include "validation/output/bad_input.hpp"
 #include "validation/output/number.hpp"
@@ -18,23 +19,36 @@ double Sweep::value(long long i) const {
   return from + (to - from) * part;
 }
 
-Sweep read_sweep(const SweepTexts& texts, const SweepDefault& fallback, const Range& range) {
-  Sweep sweep{.from = fallback.from, .to = fallback.to};
-  if (texts.from) sweep.from = read_number_option("--from", *texts.from, range);
-  if (texts.to) sweep.to = read_number_option("--to", *texts.to, range);
+Arguments range_arguments(RangeRequest& r, const std::string& what) {
+  const char* const group = "Range";
+  return {
+      number_argument("--from", r.from, any_number, "X", "first " + what, group),
+      number_argument("--to", r.to, any_number, "X", "last " + what, group),
+      number_argument("--step", r.step, positive_number, "X", "step from one to the next", group),
+      whole_argument("--count", r.count, 1, 100'000'000, "N", "or the number of values, both ends included", group)};
+}
+
+Sweep sweep_of(const RangeRequest& request, const SweepDefault& fallback, const Range& allowed) {
+  Sweep sweep{.from = request.from.value_or(fallback.from), .to = request.to.value_or(fallback.to)};
+  for (const auto& [option, value] : {std::pair{"--from", sweep.from}, std::pair{"--to", sweep.to}}) {
+    if (!allowed.holds(value)) {
+      throw BadInput(fmt::format("{} '{}': must be {}", option, shortest(value), allowed.allowed()));
+    }
+  }
   if (!(sweep.from <= sweep.to)) {
     throw BadInput(
         fmt::format("--from {}: must not be greater than --to {}", shortest(sweep.from), shortest(sweep.to)));
   }
-  if (texts.step && texts.count) {
-    throw BadInput(fmt::format("--step {} and --count {}: give one of them, not both", *texts.step, *texts.count));
+  if (request.step && request.count) {
+    throw BadInput(
+        fmt::format("--step {} and --count {}: give one of them, not both", shortest(*request.step), *request.count));
   }
-  if (texts.count) {
-    sweep.count = read_integer_option("--count", *texts.count, 1, 100000000);
+  if (request.count) {
+    sweep.count = *request.count;
     if (sweep.count == 1) sweep.to = sweep.from;
     return sweep;
   }
-  sweep.step = texts.step ? read_number_option("--step", *texts.step, positive_number) : fallback.step;
+  sweep.step = request.step.value_or(fallback.step);
   const double steps = (sweep.to - sweep.from) / sweep.step;
   if (!(steps < 1e8)) throw BadInput(fmt::format("--step {}: more than 100000000 values", sweep.step));
   sweep.count = count_of_steps(steps);

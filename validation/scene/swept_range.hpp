@@ -5,14 +5,17 @@
 #include <optional>
 #include <string>
 
-#include "validation/scene/option_values.hpp"
+#include "validation/scene/argument.hpp"
 
 namespace clatter::validation::inline scene {
 
-/// From, to and step or count of a swept quantity.
-struct SweepTexts {
-  std::optional<std::string> from, to, step, count;
+/// What is asked of a swept quantity.
+struct RangeRequest {
+  std::optional<double> from, to, step;
+  std::optional<int> count;
 };
+/// @param what  the quantity, in words
+[[nodiscard]] Arguments range_arguments(RangeRequest& request, const std::string& what);
 
 struct Sweep {
   double from = 0;
@@ -27,6 +30,7 @@ struct Sweep {
 struct SweepDefault {
   double from, to, step;
 };
-[[nodiscard]] Sweep read_sweep(const SweepTexts& texts, const SweepDefault& fallback, const Range& range);
+/// @throws BadInput where an end lies outside `allowed`, or step and count are both given
+[[nodiscard]] Sweep sweep_of(const RangeRequest& request, const SweepDefault& fallback, const Range& allowed);
 
 }  // namespace clatter::validation::inline scene

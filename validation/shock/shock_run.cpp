@@ -119,7 +119,7 @@ std::string run_discrete_side(const Scene& scene, const std::vector<Probe>& prob
                               std::optional<Run>* run) {
   const auto failure = failure_of_scene([&] {
     const PreparedScene drop = prepared(scene);
-    const DiscreteRun found = run_discrete(drop, SequenceMethod::automatic);
+    const DiscreteRun found = run_discrete(drop);
     rows = discrete_shock(drop.drop, found.sequence, places_of(scene, probes, Model::discrete));
     if (run) *run = found.run;
   });
@@ -197,7 +197,7 @@ ShockRun run_shock(const Scene& scene, const std::vector<Probe>& probes, const S
     }
   } else {
     const PreparedScene drop = prepared(scene);
-    const DiscreteRun found = run_discrete(drop, SequenceMethod::automatic);
+    const DiscreteRun found = run_discrete(drop);
     run.discrete = discrete_shock(drop.drop, found.sequence, places_of(scene, probes, Model::discrete));
     run.discrete_run = found.run;
   }

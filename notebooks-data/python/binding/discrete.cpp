@@ -37,8 +37,8 @@ Report sequence(const std::string& name, const std::optional<std::string>& text,
                 const std::string& method) {
   return run_interruptible([source = SceneSource{name, text, changes}, method](const Watch&) -> Report {
     const PreparedScene scene = read_discrete(source);
-    const auto run = std::make_shared<const validation::DiscreteRun>(
-        validation::run_discrete(scene, validation::read_sequence_method(method)));
+    validation::read_sequence_method("--method", method);
+    const auto run = std::make_shared<const validation::DiscreteRun>(validation::run_discrete(scene));
     return {[scene, run] { return validation::sequence_report(scene, *run); }};
   });
 }
@@ -64,7 +64,9 @@ py::tuple gradient(const std::string& name, const std::optional<std::string>& te
 }
 
 Report regimes(const NamedTexts& options) {
-  return kept(run_interruptible([options](const Watch&) { return validation::regimes_report(options); }));
+  validation::RegimesRequest request;
+  take(regimes_arguments(request), options);
+  return kept(run_interruptible([request](const Watch&) { return find_regimes(request).report; }));
 }
 
 using Numbers = py::array_t<double, py::array::c_style | py::array::forcecast>;
@@ -77,7 +79,9 @@ void check_angle(double theta) {
 
 /// The range of `given`, or these angles.
 AnglesRequest request_of(const std::optional<Numbers>& theta, const NamedTexts& given) {
-  AnglesRequest request = validation::angles_request(given);
+  validation::AnglesOptions options;
+  take(angles_arguments(options), given);
+  AnglesRequest request = angles_request(options);
   if (!theta) return request;
   for (const char* const name : {"from", "to", "step", "count"}) {
     if (given.contains(name)) throw validation::BadInput("theta: excludes start, stop, step and count");

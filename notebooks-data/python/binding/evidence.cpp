@@ -36,12 +36,8 @@ Report verify(bool quick, const std::vector<std::string>& only, const py::object
 
 /// @param action  fit, predict or score
 Report measured(const std::string& action, const std::string& file, const NamedTexts& options) {
-  const validation::MeasuredRequest request{.file = file,
-                                            .body = given(options, "body"),
-                                            .seed = given(options, "seed"),
-                                            .share = given(options, "share"),
-                                            .fit_on = given(options, "fit_on"),
-                                            .fit_from = given(options, "fit_from")};
+  validation::MeasuredRequest request{.file = file};
+  take(measured_arguments(request), options);
   return run_interruptible([request, action](const Watch&) {
     const validation::MeasuredRun run = validation::read_measured_run(request);
     if (action == "fit") return kept(validation::measured_fit_report(run));
@@ -75,8 +71,9 @@ using Tell = std::function<validation::Report(const Submissions& all)>;
 /// `judge` of each file.  @returns (report, whether all do what `require` asks)
 std::pair<Report, bool> judged(const std::vector<std::string>& files, const NamedTexts& options, const Watch& watch,
                                const Judge& judge, const Tell& report_of) {
-  const validation::Requirement requirement = validation::read_requirement(given(options, "require"));
-  const auto columns = given(options, "columns");
+  const auto require = given(options, "require"), columns = given(options, "columns");
+  const validation::Requirement requirement =
+      require ? validation::read_requirement("--require", *require) : validation::Requirement{};
   const validation::ColumnNames names =
       columns ? validation::read_column_names("columns", *columns) : validation::ColumnNames{};
   Submissions submissions;

@@ -41,7 +41,7 @@ def sequence(scene: Scene | float | None = None, *, method: str = "auto", **chan
 
     scene: a scene file, the name of one of cases(), a dict like case(name), or the angle; what follows takes the place
     of its keys.
-    method: "auto", "discrete" or "closed-form" (Eqs. 9 and 12).
+    method: "auto" or "discrete", which are the same.
 
     Raises BadInput; OutsideModel at the jamming limit; NotComputed.  Warns of energy that an
     impulse ratio creates, and of a sequence that ended early because a number could not be computed.

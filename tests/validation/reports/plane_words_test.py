@@ -2,7 +2,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What a first-time reader meets in the plane: names of angles, what a column counts, why models differ, how to go on."""
 
-import csv
 import json
 import os
 import re
@@ -11,8 +10,6 @@ import sys
 import unittest
 
 from run_folder import PROGRAM, ROOT, EmptyFolder, run
-
-REFERENCE = os.path.join(ROOT, "validation", "oracles", "reference", "rod_sequence_no_gravity.csv")
 
 
 def symbols(*arguments):
@@ -46,22 +43,6 @@ class Explanations(unittest.TestCase):
             said = run("explain", "1", "--angle", "10", "--friction", friction).stdout
             self.assertEqual("r₀ = |B|/C" in said, slips, said)
             self.assertIn("mode is " + ("slip" if slips else "stick"), said)
-
-
-class ClosedForm(unittest.TestCase):
-    def test_its_errors_hold_the_30_digit_values_and_its_sum_is_known(self):
-        with open(REFERENCE, encoding="utf-8") as file:
-            rows = list(csv.DictReader(line for line in file if not line.startswith("#")))
-        for row in rows:
-            if float(row["theta_deg"]) < 1 or not row["P3"]:
-                continue
-            found = json.loads(run("sequence", "--angle", row["theta_deg"], "--method", "closed-form", "--format", "json").stdout)
-            self.assertEqual(len(found["impacts"]), 3)
-            for impact, name in zip(found["impacts"], ("P1", "P2", "P3")):
-                error = impact["error_estimate"]["impulse_normal"]
-                self.assertLessEqual(abs(impact["impulse_normal"] - float(row[name])), error, row["theta_deg"])
-                self.assertLess(error, 1e-12)
-        self.assertRegex(run("sequence", "--angle", "10", "--method", "closed-form").stdout, r"achieved 1\d\.\d")
 
 
 class TheTwoModels(unittest.TestCase):

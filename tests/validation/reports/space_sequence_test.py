@@ -229,9 +229,6 @@ class Sequence(SpaceFolder):
         self.assertEqual([float(row["attitude_q0"]) for row in rows], [row["attitude"][0] for row in data])
         self.assertEqual([float(row["velocity_after_y"]) for row in rows], [row["velocity_after"][1] for row in data])
 
-    def test_the_closed_form_is_refused_in_space(self):
-        self.refused("closed-form", "sequence", *CORNER, "--method", "closed-form")
-
 
 if __name__ == "__main__":
     unittest.main()
