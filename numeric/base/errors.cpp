@@ -5,7 +5,7 @@
 #include <sstream>
 #include <string>
 
-namespace clatter::numeric::inline base::detail {
+namespace clatter::numeric::detail {
 
 void require(bool condition, const char* field, double value, const char* allowed) {
   if (condition && std::isfinite(value)) return;
@@ -23,4 +23,4 @@ void require_at_least(const char* field, int value, int least) {
   require(value >= least, field, value, allowed.c_str());
 }
 
-}  // namespace clatter::numeric::inline base::detail
+}  // namespace clatter::numeric::detail

@@ -5,7 +5,7 @@
 
 #include <stdexcept>
 
-namespace clatter::numeric::inline base {
+namespace clatter::numeric {
 
 /// A mesh or surface that cannot be the body of a simulation: inverted, degenerate, open, non-manifold,
 /// unreadable.  The message names the element, face or line (exit status 2 of the program).
@@ -30,4 +30,4 @@ void require_at_least(const char* field, int value, int least);
 
 }  // namespace detail
 
-}  // namespace clatter::numeric::inline base
+}  // namespace clatter::numeric

@@ -5,7 +5,7 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
-namespace clatter::numeric::inline base {
+namespace clatter::numeric {
 
 using Vector3 = Eigen::Vector3d;
 using Matrix3 = Eigen::Matrix3d;
@@ -17,4 +17,4 @@ using Matrix3 = Eigen::Matrix3d;
   return matrix;
 }
 
-}  // namespace clatter::numeric::inline base
+}  // namespace clatter::numeric

@@ -7,7 +7,7 @@
 #include "numeric/base/errors.hpp"
 #include "numeric/body/mass_properties.hpp"
 
-namespace clatter::numeric::inline body {
+namespace clatter::numeric {
 namespace {
 
 /// Products of lengths that leave the range of doubles give no normals.
@@ -60,4 +60,4 @@ void Body::find_outline(const MassProperties& properties, const Surface& surface
   }
 }
 
-}  // namespace clatter::numeric::inline body
+}  // namespace clatter::numeric

@@ -10,7 +10,7 @@
 #include "numeric/surface/hierarchy.hpp"
 #include "numeric/surface/smooth_shape.hpp"
 
-namespace clatter::numeric::inline body {
+namespace clatter::numeric {
 
 /// Which ends of the body touched during an impact: by the sign of x′ of the vertices that went into the ground; of a
 /// smooth shape, of its halves, or of the point that touched first.
@@ -64,4 +64,4 @@ class Body {
   std::optional<SmoothShape> smooth_;
 };
 
-}  // namespace clatter::numeric::inline body
+}  // namespace clatter::numeric

@@ -9,7 +9,7 @@
 #include "numeric/base/errors.hpp"
 #include "numeric/mesh/element_geometry.hpp"
 
-namespace clatter::numeric::inline body {
+namespace clatter::numeric {
 namespace {
 
 /// Moments of one element about its own centre, axes of the mesh.
@@ -160,4 +160,4 @@ Matrix3 inverse_inertia(const Matrix3& inertia) {
   return scaled(scaled(inertia, -exponent).inverse(), -exponent);
 }
 
-}  // namespace clatter::numeric::inline body
+}  // namespace clatter::numeric

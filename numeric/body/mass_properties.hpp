@@ -6,7 +6,7 @@
 #include "numeric/mesh/mesh.hpp"
 #include "numeric/surface/surface.hpp"
 
-namespace clatter::numeric::inline body {
+namespace clatter::numeric {
 
 struct MassProperties {
   double mass = 0;                    ///< [kg]
@@ -39,4 +39,4 @@ void check_inertia(const Matrix3& inertia);
 /// smallest moment.
 [[nodiscard]] Matrix3 inverse_inertia(const Matrix3& inertia);
 
-}  // namespace clatter::numeric::inline body
+}  // namespace clatter::numeric

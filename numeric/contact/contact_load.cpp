@@ -5,7 +5,7 @@
 #include <cassert>
 #include <cmath>
 
-namespace clatter::numeric::inline contact {
+namespace clatter::numeric {
 namespace {
 
 constexpr std::size_t most_kept = 64;    ///< polygons that press for which room is made at the start
@@ -285,4 +285,4 @@ void ContactLoader::add_slip(const Pressing& pressing, const ContactPolygon& pol
   add_force(here.north, moment(here.north, here.north_x, here.north_y), weight, view.north, load.north, load);
 }
 
-}  // namespace clatter::numeric::inline contact
+}  // namespace clatter::numeric

@@ -11,7 +11,7 @@
 #include "numeric/contact/overhangs.hpp"
 #include "numeric/contact/slip_integrals.hpp"
 
-namespace clatter::numeric::inline contact {
+namespace clatter::numeric {
 
 /// How the body lies over the ground and moves, seen from the body frame.  Height above the ground of the body's
 /// point u: (reference.normal·u + reference.offset) + (turn·u + sink); the second part is the small change since
@@ -173,4 +173,4 @@ class ContactLoader final : public ContactSurface {
   std::vector<PressedFace> faces_;
 };
 
-}  // namespace clatter::numeric::inline contact
+}  // namespace clatter::numeric

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "numeric/contact/contact_polygon.hpp"
 
-namespace clatter::numeric::inline contact {
+namespace clatter::numeric {
 namespace {
 
 /// Corners of a triangle of the fan.
@@ -129,4 +129,4 @@ DepthIntegrals depth_integrals(const ContactPolygon& polygon) {
   return sums;
 }
 
-}  // namespace clatter::numeric::inline contact
+}  // namespace clatter::numeric

@@ -7,7 +7,7 @@
 
 #include "numeric/base/linear_algebra.hpp"
 
-namespace clatter::numeric::inline contact {
+namespace clatter::numeric {
 
 /// A corner of a contact polygon.
 struct ContactCorner {
@@ -97,4 +97,4 @@ struct DepthIntegrals {
 };
 [[nodiscard]] DepthIntegrals depth_integrals(const ContactPolygon& polygon);
 
-}  // namespace clatter::numeric::inline contact
+}  // namespace clatter::numeric

@@ -9,7 +9,7 @@
 #include "numeric/contact/smooth_contact.hpp"
 #include "numeric/motion/equations_of_motion.hpp"
 
-namespace clatter::numeric::inline contact {
+namespace clatter::numeric {
 
 /// All that is known at an instant but the friction force.
 struct ContactSystem::Instant {
@@ -431,4 +431,4 @@ ContactSystem::Hold ContactSystem::stick(const Instant& at) const {
   return hold;
 }
 
-}  // namespace clatter::numeric::inline contact
+}  // namespace clatter::numeric

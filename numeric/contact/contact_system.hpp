@@ -9,7 +9,7 @@
 #include "numeric/motion/equations_of_motion.hpp"
 #include "numeric/motion/motion_state.hpp"
 
-namespace clatter::numeric::inline contact {
+namespace clatter::numeric {
 
 /// State of a contact.  Everything is relative to the touch-down, so that depths of a billionth of the body's size
 /// keep their digits.
@@ -202,4 +202,4 @@ class ContactSystem {
   long evaluations_ = 0;
 };
 
-}  // namespace clatter::numeric::inline contact
+}  // namespace clatter::numeric

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace clatter::numeric::inline contact {
+namespace clatter::numeric {
 namespace {
 
 using Rule = std::array<GaussNode, most_gauss_nodes>;
@@ -63,4 +63,4 @@ int gauss_order(double ellipse, double digits) {
   return wanted < most_gauss_nodes ? std::max(static_cast<int>(wanted), for_polynomial + 1) : most_gauss_nodes;
 }
 
-}  // namespace clatter::numeric::inline contact
+}  // namespace clatter::numeric

@@ -4,7 +4,7 @@
 
 #include <span>
 
-namespace clatter::numeric::inline contact {
+namespace clatter::numeric {
 
 struct GaussNode {
   double at;      ///< in (−1, 1)
@@ -21,4 +21,4 @@ inline constexpr int most_gauss_nodes = 24;
 /// ρ > 1 but for a factor that is a polynomial of degree 4, is below 10^−digits.  At most most_gauss_nodes.
 [[nodiscard]] int gauss_order(double ellipse, double digits = 15);
 
-}  // namespace clatter::numeric::inline contact
+}  // namespace clatter::numeric

@@ -3,7 +3,7 @@
 
 #include "numeric/base/errors.hpp"
 
-namespace clatter::numeric::inline contact {
+namespace clatter::numeric {
 
 void Ground::validate() const {
   using detail::require;
@@ -15,4 +15,4 @@ void Ground::validate() const {
   require(regularisation_speed > 0, "ground.regularisation_speed", regularisation_speed, "finite and greater than 0");
 }
 
-}  // namespace clatter::numeric::inline contact
+}  // namespace clatter::numeric

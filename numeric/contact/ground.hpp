@@ -2,7 +2,7 @@
 // The ground: a distributed viscoelastic foundation with Coulomb friction.
 #pragma once
 
-namespace clatter::numeric::inline contact {
+namespace clatter::numeric {
 
 /// Over which area the distributed load is integrated.
 enum class AreaMeasure {
@@ -53,4 +53,4 @@ struct Ground {
   [[nodiscard]] bool has_friction() const { return static_friction > 0 || sliding_friction > 0; }
 };
 
-}  // namespace clatter::numeric::inline contact
+}  // namespace clatter::numeric

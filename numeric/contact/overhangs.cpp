@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cassert>
 
-namespace clatter::numeric::inline contact {
+namespace clatter::numeric {
 
 void Overhangs::find(std::span<const PressedFace> faces, const Vector3& up) {
   faces_ = faces;
@@ -107,4 +107,4 @@ double Overhangs::depth_below(const Piece& piece, int face, int lower) const {
   return known.depth - up_.dot(away - fall * up_) - depth;
 }
 
-}  // namespace clatter::numeric::inline contact
+}  // namespace clatter::numeric

@@ -7,7 +7,7 @@
 
 #include "numeric/contact/contact_polygon.hpp"
 
-namespace clatter::numeric::inline contact {
+namespace clatter::numeric {
 
 /// Faces whose unit area has less of a vertical component than this count as upright: where they meet the lower face is
 /// rounding, and what presses on them is a part of 1e-10 of that on a level face.
@@ -63,4 +63,4 @@ class Overhangs {
   std::vector<ContactCorner> corners_;
 };
 
-}  // namespace clatter::numeric::inline contact
+}  // namespace clatter::numeric

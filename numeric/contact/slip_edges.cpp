@@ -7,7 +7,7 @@
 
 #include "numeric/contact/gauss_rules.hpp"
 
-namespace clatter::numeric::inline contact {
+namespace clatter::numeric {
 namespace {
 
 constexpr double far_ellipse = 5;  ///< ρ from which the closed form would cancel more than Gauss's rule errs
@@ -395,4 +395,4 @@ class EdgeSum {
 
 SlipIntegrals one_way_slip_integrals(const SlipPatch& patch) { return EdgeSum(patch).sum(); }
 
-}  // namespace clatter::numeric::inline contact
+}  // namespace clatter::numeric

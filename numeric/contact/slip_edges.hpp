@@ -2,7 +2,7 @@
 // Friction of slip in varying directions: integrals along the edges of a contact polygon.
 #pragma once
 
-namespace clatter::numeric::inline contact {
+namespace clatter::numeric {
 
 /// A point, or a vector, of a facet's plane [m].
 struct PlanePoint {
@@ -84,4 +84,4 @@ struct SlipSegment {
 /// cancel.
 [[nodiscard]] SlipIntegrals one_way_slip_integrals(const SlipPatch& patch);
 
-}  // namespace clatter::numeric::inline contact
+}  // namespace clatter::numeric

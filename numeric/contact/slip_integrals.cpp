@@ -9,7 +9,7 @@
 
 #include "numeric/contact/gauss_rules.hpp"
 
-namespace clatter::numeric::inline contact {
+namespace clatter::numeric {
 namespace {
 
 double cross(const PlanePoint& a, const PlanePoint& b) { return a.x * b.y - a.y * b.x; }
@@ -373,4 +373,4 @@ SlipIntegrals rough_slip_integrals(const SlipPatch& patch) {
   return add_up_fan(rounded, rough_order);
 }
 
-}  // namespace clatter::numeric::inline contact
+}  // namespace clatter::numeric

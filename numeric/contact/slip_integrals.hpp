@@ -4,7 +4,7 @@
 
 #include "numeric/contact/slip_edges.hpp"
 
-namespace clatter::numeric::inline contact {
+namespace clatter::numeric {
 
 /// The integrals, whatever the polygon's cut and the slopes of the slip.  With p₀ the point of no slip (v_r = 0):
 /// - No slip to the north, as in the plane: a sum over the edges in closed form (one_way_slip_integrals).
@@ -28,4 +28,4 @@ namespace clatter::numeric::inline contact {
 /// The same for estimates: right to some per cent, at a cost that does not depend on the slip.
 [[nodiscard]] SlipIntegrals rough_slip_integrals(const SlipPatch& patch);
 
-}  // namespace clatter::numeric::inline contact
+}  // namespace clatter::numeric

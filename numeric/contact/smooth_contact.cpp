@@ -9,7 +9,7 @@
 #include <numbers>
 #include <span>
 
-namespace clatter::numeric::inline contact {
+namespace clatter::numeric {
 namespace {
 
 using Piece = SmoothContact::Piece;
@@ -666,4 +666,4 @@ SlipRange SmoothContact::slip_range(const GroundView& view, const SlipField& fie
   return range;
 }
 
-}  // namespace clatter::numeric::inline contact
+}  // namespace clatter::numeric

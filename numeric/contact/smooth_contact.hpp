@@ -8,7 +8,7 @@
 #include "numeric/contact/contact_load.hpp"
 #include "numeric/contact/smooth_patch.hpp"
 
-namespace clatter::numeric::inline contact {
+namespace clatter::numeric {
 
 /// ∫q s and ∫q s p over a piece, q the pressure and s the direction of the slip.
 struct DirectionSums {
@@ -86,4 +86,4 @@ class SmoothContact final : public ContactSurface {
 /// That of the body: smooth where its shape is, else its facets.
 [[nodiscard]] std::unique_ptr<ContactSurface> contact_surface(const Body& body, const Ground& ground);
 
-}  // namespace clatter::numeric::inline contact
+}  // namespace clatter::numeric

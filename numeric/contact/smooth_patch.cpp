@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cassert>
 
-namespace clatter::numeric::inline contact {
+namespace clatter::numeric {
 namespace {
 
 /// A plane by its unit normal, f = distance + normal·p.
@@ -184,4 +184,4 @@ MantleSlices::Slice MantleSlices::slice(int interval, double part) const {
   return slice;
 }
 
-}  // namespace clatter::numeric::inline contact
+}  // namespace clatter::numeric

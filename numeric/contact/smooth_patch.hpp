@@ -9,7 +9,7 @@
 #include "numeric/base/linear_algebra.hpp"
 #include "numeric/contact/gauss_rules.hpp"
 
-namespace clatter::numeric::inline contact {
+namespace clatter::numeric {
 
 /// A function that is linear in space: value + slope·p.
 struct SpaceLinear {
@@ -246,4 +246,4 @@ class MantleSlices {
   int count_ = 0;
 };
 
-}  // namespace clatter::numeric::inline contact
+}  // namespace clatter::numeric

@@ -14,7 +14,7 @@
 #include "numeric/motion/free_flight.hpp"
 #include "numeric/stepping/contact_run.hpp"
 
-namespace clatter::numeric::inline drop {
+namespace clatter::numeric {
 namespace {
 
 /// Turns instants of contacts and flights into history samples.
@@ -339,4 +339,4 @@ DropRun run_drop(const Body& body, const World& world, const MotionState& start,
   return Run(body, world, start, request, integration, observer).run();
 }
 
-}  // namespace clatter::numeric::inline drop
+}  // namespace clatter::numeric

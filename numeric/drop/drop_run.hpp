@@ -10,7 +10,7 @@
 #include "numeric/drop/settings.hpp"
 #include "numeric/stepping/step_control.hpp"
 
-namespace clatter::numeric::inline drop {
+namespace clatter::numeric {
 
 /// How finely a run is computed: an Accuracy put in figures.
 struct Integration {
@@ -41,4 +41,4 @@ struct DropRun {
 /// Translational + rotational + potential (m g z) energy [J].
 [[nodiscard]] double mechanical_energy(const Body& body, const MotionState& state, const Gravity& gravity);
 
-}  // namespace clatter::numeric::inline drop
+}  // namespace clatter::numeric

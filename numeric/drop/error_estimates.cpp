@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-namespace clatter::numeric::inline drop {
+namespace clatter::numeric {
 namespace {
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
@@ -175,4 +175,4 @@ void forget_errors(std::vector<ImpactRecord>& rows) {
   }
 }
 
-}  // namespace clatter::numeric::inline drop
+}  // namespace clatter::numeric

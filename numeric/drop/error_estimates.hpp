@@ -6,7 +6,7 @@
 
 #include "numeric/drop/drop_run.hpp"
 
-namespace clatter::numeric::inline drop {
+namespace clatter::numeric {
 
 /// How the second run is computed, and how many times its distance from the main run the error of that run may be.
 struct SecondRun {
@@ -52,4 +52,4 @@ void estimate_errors(const Body& body, double error_per_distance, std::vector<Im
 /// Errors of all rows: not known (NaN).
 void forget_errors(std::vector<ImpactRecord>& rows);
 
-}  // namespace clatter::numeric::inline drop
+}  // namespace clatter::numeric

@@ -7,7 +7,7 @@
 #include "numeric/motion/equations_of_motion.hpp"
 #include "numeric/motion/free_flight.hpp"
 
-namespace clatter::numeric::inline drop {
+namespace clatter::numeric {
 namespace {
 
 constexpr double radians_per_step = 0.1;
@@ -157,4 +157,4 @@ void ErrorGrowth::touch(const ContactRuns& runs, const ContactControl& control, 
   take(between(here, there) / size);
 }
 
-}  // namespace clatter::numeric::inline drop
+}  // namespace clatter::numeric

@@ -5,7 +5,7 @@
 #include "numeric/motion/free_flight.hpp"
 #include "numeric/stepping/contact_run.hpp"
 
-namespace clatter::numeric::inline drop {
+namespace clatter::numeric {
 
 /// What a neighbour's contact is run by: `same` as the contact beside it, or `rough`, which is cheap at the tolerance
 /// that its deviation needs.  Both of one system.
@@ -47,4 +47,4 @@ class ErrorGrowth {
   double factor_ = 1;
 };
 
-}  // namespace clatter::numeric::inline drop
+}  // namespace clatter::numeric

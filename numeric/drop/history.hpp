@@ -4,7 +4,7 @@
 
 #include "numeric/motion/motion_state.hpp"
 
-namespace clatter::numeric::inline drop {
+namespace clatter::numeric {
 
 /// One instant.
 struct HistorySample {
@@ -30,4 +30,4 @@ class HistoryRecorder {
   virtual void record(const HistorySample& sample) = 0;
 };
 
-}  // namespace clatter::numeric::inline drop
+}  // namespace clatter::numeric

@@ -6,7 +6,7 @@
 
 #include "numeric/drop/history.hpp"
 
-namespace clatter::numeric::inline drop {
+namespace clatter::numeric {
 
 /// Samples of a piece lie at the Chebyshev points of the second kind: a polynomial through them stands for all of it.
 inline constexpr int piece_points = 9;
@@ -38,4 +38,4 @@ class PieceRecorder : public HistoryRecorder {
   virtual void record_piece(const HistoryPiece& piece) = 0;
 };
 
-}  // namespace clatter::numeric::inline drop
+}  // namespace clatter::numeric

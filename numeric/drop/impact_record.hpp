@@ -9,7 +9,7 @@
 #include "numeric/body/body.hpp"
 #include "numeric/stepping/contact_result.hpp"
 
-namespace clatter::numeric::inline drop {
+namespace clatter::numeric {
 
 /// The numbers of an impact.  The same struct holds their error estimates.
 struct ImpactNumbers {
@@ -77,4 +77,4 @@ enum class Outcome {
   interrupted,        ///< by `progress`
 };
 
-}  // namespace clatter::numeric::inline drop
+}  // namespace clatter::numeric

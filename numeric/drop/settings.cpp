@@ -6,7 +6,7 @@
 
 #include "numeric/base/errors.hpp"
 
-namespace clatter::numeric::inline drop {
+namespace clatter::numeric {
 
 using detail::require;
 
@@ -38,4 +38,4 @@ void Accuracy::validate() const {
   }
 }
 
-}  // namespace clatter::numeric::inline drop
+}  // namespace clatter::numeric

@@ -10,7 +10,7 @@
 #include "numeric/motion/motion_state.hpp"
 #include "numeric/stepping/stepper.hpp"
 
-namespace clatter::numeric::inline drop {
+namespace clatter::numeric {
 
 /// What is simulated: the laws that hold around the body.
 struct World {
@@ -73,4 +73,4 @@ struct Observer {
   std::function<bool(const ImpactRecord&)> impact = nullptr;
 };
 
-}  // namespace clatter::numeric::inline drop
+}  // namespace clatter::numeric

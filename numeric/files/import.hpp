@@ -7,7 +7,7 @@
 #include "numeric/mesh/mesh.hpp"
 #include "numeric/surface/surface.hpp"
 
-namespace clatter::numeric::inline files {
+namespace clatter::numeric {
 
 /// Whether this build can read Gmsh files (CLATTER_GMSH).
 [[nodiscard]] bool has_gmsh() noexcept;
@@ -25,4 +25,4 @@ namespace clatter::numeric::inline files {
 /// degenerate; open, non-manifold, or inward (see check_closed).
 [[nodiscard]] Surface read_stl(const std::string& path, double unit = 1);
 
-}  // namespace clatter::numeric::inline files
+}  // namespace clatter::numeric

@@ -16,7 +16,7 @@
 #include "numeric/files/import.hpp"
 #include "numeric/mesh/element_geometry.hpp"
 
-namespace clatter::numeric::inline files {
+namespace clatter::numeric {
 namespace {
 
 using Tag = std::size_t;
@@ -252,4 +252,4 @@ Mesh read_gmsh(const std::string& path, double density, double unit) {
   }
 }
 
-}  // namespace clatter::numeric::inline files
+}  // namespace clatter::numeric

@@ -3,7 +3,7 @@
 #include "numeric/base/errors.hpp"
 #include "numeric/files/import.hpp"
 
-namespace clatter::numeric::inline files {
+namespace clatter::numeric {
 
 bool has_gmsh() noexcept { return false; }
 
@@ -11,4 +11,4 @@ Mesh read_gmsh(const std::string& path, double /*density*/, double /*unit*/) {
   throw MeshError(path + ": this build has no Gmsh (Debian package libgmsh-dev)");
 }
 
-}  // namespace clatter::numeric::inline files
+}  // namespace clatter::numeric

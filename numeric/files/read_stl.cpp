@@ -13,7 +13,7 @@
 #include "numeric/base/errors.hpp"
 #include "numeric/files/import.hpp"
 
-namespace clatter::numeric::inline files {
+namespace clatter::numeric {
 namespace {
 
 constexpr std::size_t header_size = 84;    // 80 bytes of comment, then the number of triangles
@@ -224,4 +224,4 @@ Surface read_stl(const std::string& path, double unit) {
   return builder.surface();
 }
 
-}  // namespace clatter::numeric::inline files
+}  // namespace clatter::numeric

@@ -7,7 +7,7 @@
 
 #include "numeric/base/errors.hpp"
 
-namespace clatter::numeric::inline mesh {
+namespace clatter::numeric {
 namespace {
 
 constexpr Face tetrahedron_faces[] = {{0, 2, 1, -1}, {0, 1, 3, -1}, {0, 3, 2, -1}, {1, 2, 3, -1}};
@@ -199,4 +199,4 @@ void check_element(const Mesh& mesh, int index) {
   for (const ReferencePoint& point : reference.quadrature) static_cast<void>(map.at(point));
 }
 
-}  // namespace clatter::numeric::inline mesh
+}  // namespace clatter::numeric

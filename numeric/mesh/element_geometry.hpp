@@ -9,7 +9,7 @@
 
 #include "numeric/mesh/mesh.hpp"
 
-namespace clatter::numeric::inline mesh {
+namespace clatter::numeric {
 
 /// Corners of a face as positions in Element::nodes, counter-clockwise seen from outside; [3] = -1
 /// for a triangle.
@@ -67,4 +67,4 @@ class ElementMap {
 /// @throws MeshError as ElementMap, at every corner and quadrature point.
 void check_element(const Mesh& mesh, int index);
 
-}  // namespace clatter::numeric::inline mesh
+}  // namespace clatter::numeric

@@ -9,7 +9,7 @@
 
 #include "numeric/base/errors.hpp"
 
-namespace clatter::numeric::inline mesh {
+namespace clatter::numeric {
 namespace {
 
 /// Point i of n + 1 equidistant ones from −half to half, symmetric to the bit.
@@ -213,4 +213,4 @@ Mesh box_mesh(const BoxMesh& box) {
   return mesh;
 }
 
-}  // namespace clatter::numeric::inline mesh
+}  // namespace clatter::numeric

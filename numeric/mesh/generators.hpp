@@ -4,7 +4,7 @@
 
 #include "numeric/mesh/mesh.hpp"
 
-namespace clatter::numeric::inline mesh {
+namespace clatter::numeric {
 
 /// A solid cylinder along x, centred at the origin.  Its faceted mesh has less volume than the round
 /// cylinder; the density is scaled so that the mass is `mass`.
@@ -41,4 +41,4 @@ struct RoundMesh {
 [[nodiscard]] Mesh box_mesh(const BoxMesh& box);
 [[nodiscard]] Mesh round_mesh(const RoundMesh& shape);
 
-}  // namespace clatter::numeric::inline mesh
+}  // namespace clatter::numeric

@@ -7,7 +7,7 @@
 
 #include "numeric/base/linear_algebra.hpp"
 
-namespace clatter::numeric::inline mesh {
+namespace clatter::numeric {
 
 enum class ElementShape { tetrahedron, prism, hexahedron };
 
@@ -25,4 +25,4 @@ struct Mesh {
   std::vector<Element> elements;
 };
 
-}  // namespace clatter::numeric::inline mesh
+}  // namespace clatter::numeric

@@ -6,7 +6,7 @@
 #include "numeric/base/errors.hpp"
 #include "numeric/body/mass_properties.hpp"
 
-namespace clatter::numeric::inline motion {
+namespace clatter::numeric {
 
 NewtonEuler::NewtonEuler(double mass, const Matrix3& inertia) : mass_(mass), inertia_(inertia) {
   detail::require_positive("mass", mass);
@@ -61,4 +61,4 @@ LagrangeAcceleration solve(const LagrangeSystem& system) {
   return {.coordinates = solution.head<7>(), .angular = rate_matrix(system.beta) * solution.segment<4>(3)};
 }
 
-}  // namespace clatter::numeric::inline motion
+}  // namespace clatter::numeric

@@ -6,7 +6,7 @@
 #include "numeric/base/linear_algebra.hpp"
 #include "numeric/motion/motion_state.hpp"
 
-namespace clatter::numeric::inline motion {
+namespace clatter::numeric {
 
 /// Resultant of the forces on a body.
 struct BodyWrench {
@@ -113,4 +113,4 @@ struct LagrangeAcceleration {
 /// Accuracy: some eps times the ratio of the largest to the smallest moment of inertia.
 [[nodiscard]] LagrangeAcceleration solve(const LagrangeSystem& system);
 
-}  // namespace clatter::numeric::inline motion
+}  // namespace clatter::numeric

@@ -7,7 +7,7 @@
 #include <limits>
 #include <vector>
 
-namespace clatter::numeric::inline motion {
+namespace clatter::numeric {
 namespace {
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
@@ -233,4 +233,4 @@ FirstTouch first_touch(const Body& body, const MotionState& state) {
   return touch;
 }
 
-}  // namespace clatter::numeric::inline motion
+}  // namespace clatter::numeric

@@ -6,7 +6,7 @@
 #include "numeric/motion/free_rotation.hpp"
 #include "numeric/motion/motion_state.hpp"
 
-namespace clatter::numeric::inline motion {
+namespace clatter::numeric {
 
 /// A parabola of the centre of mass and a torque-free rotation about it.
 class FreeFlight {
@@ -68,4 +68,4 @@ struct FirstTouch {
   return state.velocity + state.attitude * state.angular_velocity.cross(u);
 }
 
-}  // namespace clatter::numeric::inline motion
+}  // namespace clatter::numeric

@@ -10,7 +10,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace clatter::numeric::inline motion {
+namespace clatter::numeric {
 namespace {
 
 // Quadrature over a fine mesh leaves this much, relative to the largest moment.
@@ -274,4 +274,4 @@ double FreeRotation::largest_acceleration() const {
          std::visit([](const auto& rotation) { return rotation.largest_acceleration(); }, rotation_);
 }
 
-}  // namespace clatter::numeric::inline motion
+}  // namespace clatter::numeric

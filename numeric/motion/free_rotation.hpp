@@ -8,7 +8,7 @@
 #include "numeric/motion/jacobi_functions.hpp"
 #include "numeric/motion/motion_state.hpp"
 
-namespace clatter::numeric::inline motion {
+namespace clatter::numeric {
 
 struct PrincipalAxes {
   Vector3 moments = Vector3::Ones();   ///< ascending, units of the tensor
@@ -132,4 +132,4 @@ class FreeRotation {
   std::variant<SteadyPrecession, EllipticRotation> rotation_;
 };
 
-}  // namespace clatter::numeric::inline motion
+}  // namespace clatter::numeric

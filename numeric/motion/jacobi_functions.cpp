@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace clatter::numeric::inline motion {
+namespace clatter::numeric {
 namespace {
 
 using Policy = boost::math::policies::policy<boost::math::policies::promote_double<false>>;
@@ -57,4 +57,4 @@ double JacobiFunctions::remaining_integral(const Values& values, double h) const
          boost::math::ellint_rj(sn * sn, 1.0, dn * dn / complement_, (1 + h * sn * sn) / (1 + h), Policy());
 }
 
-}  // namespace clatter::numeric::inline motion
+}  // namespace clatter::numeric

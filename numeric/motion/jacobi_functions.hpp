@@ -4,7 +4,7 @@
 
 #include <array>
 
-namespace clatter::numeric::inline motion {
+namespace clatter::numeric {
 
 /// sn, cn, dn for a given complementary parameter k'² = 1 − k².
 ///
@@ -50,4 +50,4 @@ class JacobiFunctions {
   double quarter_period_ = 0;
 };
 
-}  // namespace clatter::numeric::inline motion
+}  // namespace clatter::numeric

@@ -4,7 +4,7 @@
 
 #include "numeric/base/linear_algebra.hpp"
 
-namespace clatter::numeric::inline motion {
+namespace clatter::numeric {
 
 /// World frame: x right, y into the page, z up, ground at z = 0.  Body frame: axes of the mesh, origin at the
 /// centre of mass.  `attitude` holds the Euler parameters (β₀; β₁, β₂, β₃) as (w; x, y, z) of a unit quaternion and
@@ -36,4 +36,4 @@ struct Rotation {
   Vector3 angular_velocity = Vector3::Zero();                    ///< body frame [rad/s]
 };
 
-}  // namespace clatter::numeric::inline motion
+}  // namespace clatter::numeric

@@ -5,7 +5,7 @@
 #include "numeric/body/body.hpp"
 #include "numeric/motion/motion_state.hpp"
 
-namespace clatter::numeric::inline stepping {
+namespace clatter::numeric {
 
 /// How friction acted during an impact: its phases in their order.
 enum class FrictionMode {
@@ -61,4 +61,4 @@ struct ContactResult {
   double step = 0;  ///< fixed step used [s]; 0: adaptive
 };
 
-}  // namespace clatter::numeric::inline stepping
+}  // namespace clatter::numeric

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-namespace clatter::numeric::inline stepping {
+namespace clatter::numeric {
 namespace {
 
 constexpr double unit_rounding = 1e-14;     ///< of the Euler parameters, which each step makes unit again
@@ -242,4 +242,4 @@ void ContactRun::collect() {
   result_.end = contact_end(touches_.touched_a(), touches_.touched_b());
 }
 
-}  // namespace clatter::numeric::inline stepping
+}  // namespace clatter::numeric

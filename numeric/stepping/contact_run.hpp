@@ -15,7 +15,7 @@
 #include "numeric/stepping/stepper.hpp"
 #include "numeric/stepping/touch_counter.hpp"
 
-namespace clatter::numeric::inline stepping {
+namespace clatter::numeric {
 
 /// How a contact is run.
 struct ContactControl {
@@ -85,4 +85,4 @@ class ContactRun {
   ContactResult result_;
 };
 
-}  // namespace clatter::numeric::inline stepping
+}  // namespace clatter::numeric

@@ -5,7 +5,7 @@
 #include <cassert>
 #include <cmath>
 
-namespace clatter::numeric::inline stepping {
+namespace clatter::numeric {
 namespace {
 
 using Kind = FrictionPhase::Kind;
@@ -252,4 +252,4 @@ FrictionMode FrictionPhases::end(const ContactInstant& now) {
   return ground.friction == FrictionLaw::local ? FrictionMode::local : log_.mode();
 }
 
-}  // namespace clatter::numeric::inline stepping
+}  // namespace clatter::numeric

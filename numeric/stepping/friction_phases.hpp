@@ -8,7 +8,7 @@
 #include "numeric/stepping/contact_result.hpp"
 #include "numeric/stepping/stepper.hpp"
 
-namespace clatter::numeric::inline stepping {
+namespace clatter::numeric {
 
 /// Notes the phases of slip and stick that mattered: slip by its work or its part of the normal impulse, stick by its
 /// time.  (A sticking end slips for an instant when the force on it fades; such a phase names nothing.)
@@ -108,4 +108,4 @@ class FrictionPhases {
   bool has_slipped_ = false;  ///< whether a slip phase with spin has come to where it can end
 };
 
-}  // namespace clatter::numeric::inline stepping
+}  // namespace clatter::numeric

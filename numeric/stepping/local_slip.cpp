@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-namespace clatter::numeric::inline stepping {
+namespace clatter::numeric {
 namespace {
 
 constexpr double enough = 1e-9;  ///< of the bound of friction: a difference of the laws that needs no solving
@@ -129,4 +129,4 @@ void LocalSlipEstimate::part_of_step(ContactSystem& system, const ContactPatch& 
   impulse_.north += needed.north;
 }
 
-}  // namespace clatter::numeric::inline stepping
+}  // namespace clatter::numeric

@@ -4,7 +4,7 @@
 
 #include "numeric/contact/contact_system.hpp"
 
-namespace clatter::numeric::inline stepping {
+namespace clatter::numeric {
 
 /// Carries, along a contact with FrictionLaw::coulomb, the deviation y that the slip of the pressure centre c would
 /// have under FrictionLaw::local, to first order in it:
@@ -37,4 +37,4 @@ class LocalSlipEstimate {
   AlongGround last_;  ///< slip of the pressure centre at the end of the last step
 };
 
-}  // namespace clatter::numeric::inline stepping
+}  // namespace clatter::numeric

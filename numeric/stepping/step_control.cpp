@@ -5,7 +5,7 @@
 #include <cassert>
 #include <cmath>
 
-namespace clatter::numeric::inline stepping {
+namespace clatter::numeric {
 namespace {
 
 constexpr double adaptive_first_steps = 20;  ///< first step: this part of the expected contact time
@@ -82,4 +82,4 @@ std::optional<ContactEnding> StepControl::find(const ContactInstant& now, const 
   }
 }
 
-}  // namespace clatter::numeric::inline stepping
+}  // namespace clatter::numeric

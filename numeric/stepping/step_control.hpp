@@ -8,7 +8,7 @@
 #include "numeric/stepping/stepper.hpp"
 #include "numeric/stepping/touch_counter.hpp"
 
-namespace clatter::numeric::inline stepping {
+namespace clatter::numeric {
 
 struct StepSettings {
   double tolerance = 1e-10;  ///< of an adaptive method: local error <= tolerance × scale, per step
@@ -54,4 +54,4 @@ class StepControl {
   double taken_ = 0, fixed_ = 0;
 };
 
-}  // namespace clatter::numeric::inline stepping
+}  // namespace clatter::numeric

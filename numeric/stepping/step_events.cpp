@@ -8,7 +8,7 @@
 
 #include "numeric/motion/free_flight.hpp"
 
-namespace clatter::numeric::inline stepping {
+namespace clatter::numeric {
 namespace {
 
 constexpr double resolved_part = 1e-3;  ///< of the tolerance: an event's time over the contact's
@@ -151,4 +151,4 @@ void DeepestPoint::look(const ContactInstant& now, const ContactInstant& next) {
   depth_ = std::max(depth_, fall > 0 ? depth + slope * slope / (2 * fall) : depth);
 }
 
-}  // namespace clatter::numeric::inline stepping
+}  // namespace clatter::numeric

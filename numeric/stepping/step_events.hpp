@@ -7,7 +7,7 @@
 #include "numeric/stepping/contact_result.hpp"
 #include "numeric/stepping/stepper.hpp"
 
-namespace clatter::numeric::inline stepping {
+namespace clatter::numeric {
 
 /// Events are roots of the numerical solution: the step is repeated with the length that ends on the event.
 class EventLocator {
@@ -83,4 +83,4 @@ class DeepestPoint {
   double depth_ = 0;
 };
 
-}  // namespace clatter::numeric::inline stepping
+}  // namespace clatter::numeric

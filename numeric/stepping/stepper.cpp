@@ -7,7 +7,7 @@
 #include <new>
 #include <stdexcept>
 
-namespace clatter::numeric::inline stepping {
+namespace clatter::numeric {
 namespace {
 
 /// Integrates Eq. 3 of Shan et al. (2005) as they did: third-order total-variation-diminishing Runge–Kutta method of
@@ -99,4 +99,4 @@ bool ContactStep::take(const ContactInstant& from, double h, ContactInstant& to)
   return to.rate.allFinite();
 }
 
-}  // namespace clatter::numeric::inline stepping
+}  // namespace clatter::numeric

@@ -7,7 +7,7 @@
 
 #include "numeric/contact/contact_system.hpp"
 
-namespace clatter::numeric::inline stepping {
+namespace clatter::numeric {
 
 /// How contacts are integrated in time.
 enum class Method {
@@ -65,4 +65,4 @@ class ContactStep {
   std::vector<int> submerged_;
 };
 
-}  // namespace clatter::numeric::inline stepping
+}  // namespace clatter::numeric

@@ -5,7 +5,7 @@
 #include <cassert>
 #include <utility>
 
-namespace clatter::numeric::inline stepping {
+namespace clatter::numeric {
 
 TouchCounter::TouchCounter(const Body& body) : body_(body) {
   const std::size_t vertices =
@@ -148,4 +148,4 @@ bool TouchCounter::joins_old(int seed) {
   return joins;
 }
 
-}  // namespace clatter::numeric::inline stepping
+}  // namespace clatter::numeric

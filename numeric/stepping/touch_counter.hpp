@@ -6,7 +6,7 @@
 
 #include "numeric/body/body.hpp"
 
-namespace clatter::numeric::inline stepping {
+namespace clatter::numeric {
 
 /// A new place is a set of the outline's vertices that go below the ground together, apart from all that were below
 /// before and from one another's: not connected, over vertices below the ground, by edges shorter than a quarter of the
@@ -66,4 +66,4 @@ class TouchCounter {
   bool touched_a_ = false, touched_b_ = false;
 };
 
-}  // namespace clatter::numeric::inline stepping
+}  // namespace clatter::numeric

@@ -9,7 +9,7 @@
 #include <tuple>
 #include <vector>
 
-namespace clatter::numeric::inline surface {
+namespace clatter::numeric {
 
 /// One polygon's side of the edge between the nodes low < high.
 struct EdgeSide {
@@ -55,4 +55,4 @@ class Edges {
   return sides.size() == 2 && sides[0].reversed != sides[1].reversed;
 }
 
-}  // namespace clatter::numeric::inline surface
+}  // namespace clatter::numeric

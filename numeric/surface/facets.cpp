@@ -9,7 +9,7 @@
 
 #include "numeric/surface/edges.hpp"
 
-namespace clatter::numeric::inline surface {
+namespace clatter::numeric {
 namespace {
 
 /// Polygon p has the corners begin[p] … begin[p + 1] − 1.  A corner also stands for the edge from
@@ -319,4 +319,4 @@ Facets planar_facets(const Surface& surface, bool merge) {
   return Assembly(polygons, outline, std::move(dropped)).facets(groups);
 }
 
-}  // namespace clatter::numeric::inline surface
+}  // namespace clatter::numeric

@@ -7,7 +7,7 @@
 
 #include "numeric/surface/surface.hpp"
 
-namespace clatter::numeric::inline surface {
+namespace clatter::numeric {
 
 /// A closed polygon of a facet: corners[begin] … corners[end − 1].  Outer loops run counter-clockwise seen from
 /// outside the body, holes clockwise, so that signed areas add up.
@@ -48,4 +48,4 @@ struct Facets {
 /// only two facets share are dropped.  Vertices that no corner uses are dropped.
 [[nodiscard]] Facets planar_facets(const Surface& surface, bool merge = true);
 
-}  // namespace clatter::numeric::inline surface
+}  // namespace clatter::numeric

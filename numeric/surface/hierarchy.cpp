@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <numeric>
 
-namespace clatter::numeric::inline surface {
+namespace clatter::numeric {
 namespace {
 
 constexpr int leaf_size = 4;
@@ -50,4 +50,4 @@ int Hierarchy::build(const std::vector<Node>& boxes, int begin, int end) {
   return index;
 }
 
-}  // namespace clatter::numeric::inline surface
+}  // namespace clatter::numeric

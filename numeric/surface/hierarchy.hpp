@@ -7,7 +7,7 @@
 
 #include "numeric/surface/facets.hpp"
 
-namespace clatter::numeric::inline surface {
+namespace clatter::numeric {
 
 /// The half-space below the ground in body coordinates: height(u) = normal·u + offset < 0.
 struct GroundPlane {
@@ -71,4 +71,4 @@ class Hierarchy {
   std::vector<int> order_;
 };
 
-}  // namespace clatter::numeric::inline surface
+}  // namespace clatter::numeric

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace clatter::numeric::inline surface {
+namespace clatter::numeric {
 
 Vector3 SmoothShape::end_centre(int end) const {
   return centre + Vector3(end == 0 ? -straight / 2 : straight / 2, 0, 0);
@@ -18,4 +18,4 @@ double SmoothShape::reach() const {
   return std::max(end_centre(0).norm(), end_centre(ends() - 1).norm()) + semiaxes.maxCoeff();
 }
 
-}  // namespace clatter::numeric::inline surface
+}  // namespace clatter::numeric

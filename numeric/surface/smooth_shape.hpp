@@ -4,7 +4,7 @@
 
 #include "numeric/base/linear_algebra.hpp"
 
-namespace clatter::numeric::inline surface {
+namespace clatter::numeric {
 
 /// An ellipsoid with its axes along x, y, z, or two halves of one with a straight part of the same section in between:
 /// a capsule.  The affine map u = centre + S w, S = diag(semiaxes), takes a ball of radius 1, or one that moves from
@@ -27,4 +27,4 @@ struct SmoothShape {
   [[nodiscard]] bool is_ball() const { return semiaxes.x() == semiaxes.y() && semiaxes.y() == semiaxes.z(); }
 };
 
-}  // namespace clatter::numeric::inline surface
+}  // namespace clatter::numeric

@@ -12,7 +12,7 @@
 #include "numeric/mesh/element_geometry.hpp"
 #include "numeric/surface/edges.hpp"
 
-namespace clatter::numeric::inline surface {
+namespace clatter::numeric {
 namespace {
 
 int corner_count(const SurfaceElement& element) { return element.nodes[3] < 0 ? 3 : 4; }
@@ -212,4 +212,4 @@ void check_closed(const Surface& surface) {
   }
 }
 
-}  // namespace clatter::numeric::inline surface
+}  // namespace clatter::numeric

@@ -7,7 +7,7 @@
 
 #include "numeric/mesh/mesh.hpp"
 
-namespace clatter::numeric::inline surface {
+namespace clatter::numeric {
 
 /// Corners counter-clockwise seen from outside; nodes[3] = -1 for a triangle.
 struct SurfaceElement {
@@ -32,4 +32,4 @@ struct Surface {
 /// @throws MeshError naming the element.
 void check_closed(const Surface& surface);
 
-}  // namespace clatter::numeric::inline surface
+}  // namespace clatter::numeric

@@ -8,7 +8,7 @@
 
 #include "validation/benchmark/score.hpp"
 
-namespace clatter::validation::inline benchmark {
+namespace clatter::validation {
 
 /// A hypothesis that explains a run, where the problem's own statement does not.
 struct Cause {
@@ -41,4 +41,4 @@ struct Fitted {
 /// "to 2e-16": the misfit of a hypothesis, for its words.
 [[nodiscard]] std::string misfit_words(double misfit);
 
-}  // namespace clatter::validation::inline benchmark
+}  // namespace clatter::validation

@@ -16,7 +16,7 @@
 #include "validation/benchmark/start_cause.hpp"
 #include "validation/output/number.hpp"
 
-namespace clatter::validation::inline benchmark {
+namespace clatter::validation {
 namespace {
 
 namespace space = analytic::space;
@@ -377,4 +377,4 @@ std::vector<Cause> causes_of(const Answer& answer, const Reference& reference, c
   return !causes.empty() ? causes : causes_of_impacts(run, misses);
 }
 
-}  // namespace clatter::validation::inline benchmark
+}  // namespace clatter::validation

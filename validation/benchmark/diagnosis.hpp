@@ -7,7 +7,7 @@
 
 #include "validation/benchmark/cause.hpp"
 
-namespace clatter::validation::inline benchmark {
+namespace clatter::validation {
 
 /// The one or two hypotheses that explain a run that fails; none where all leave more than a twentieth of the error.
 ///
@@ -17,4 +17,4 @@ namespace clatter::validation::inline benchmark {
 /// units and frames; lists mass, ends and the sense of Omega.
 [[nodiscard]] std::vector<Cause> causes_of(const Answer& answer, const Reference& reference, const Score& score);
 
-}  // namespace clatter::validation::inline benchmark
+}  // namespace clatter::validation

@@ -11,7 +11,7 @@
 #include "analytic/base/angle.hpp"
 #include "validation/output/number.hpp"
 
-namespace clatter::validation::inline benchmark {
+namespace clatter::validation {
 namespace {
 
 using analytic::space::Vector3;
@@ -265,4 +265,4 @@ std::optional<Cause> first_order_step_of(const Motion& motion, const Reference& 
   return {};
 }
 
-}  // namespace clatter::validation::inline benchmark
+}  // namespace clatter::validation

@@ -8,7 +8,7 @@
 #include "validation/benchmark/cause.hpp"
 #include "validation/benchmark/motion.hpp"
 
-namespace clatter::validation::inline benchmark {
+namespace clatter::validation {
 
 /// Velocities k times those with which the places change, if one k explains at least three quarters of the run's steps:
 ///     Δx = v Δt / k                                                                                  (1)
@@ -35,4 +35,4 @@ namespace clatter::validation::inline benchmark {
                                                        const ReferenceSequence& sequence,
                                                        const std::vector<FoundImpact>& impacts, double flight_error);
 
-}  // namespace clatter::validation::inline benchmark
+}  // namespace clatter::validation

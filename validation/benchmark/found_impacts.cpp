@@ -8,7 +8,7 @@
 #include <cmath>
 #include <limits>
 
-namespace clatter::validation::inline benchmark {
+namespace clatter::validation {
 namespace {
 
 namespace space = analytic::space;
@@ -464,4 +464,4 @@ std::vector<FoundImpact> listed_impacts(const NumericTable& table, const Referen
   return found;
 }
 
-}  // namespace clatter::validation::inline benchmark
+}  // namespace clatter::validation

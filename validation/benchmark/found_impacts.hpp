@@ -7,7 +7,7 @@
 
 #include "validation/benchmark/motion.hpp"
 
-namespace clatter::validation::inline benchmark {
+namespace clatter::validation {
 
 /// How a code may have booked an impact.  One that resolves the instant has the point on the ground then.  Any other
 /// strikes with the pose at the begin or the end of its step, or between, and adds the step's gravity before the
@@ -52,4 +52,4 @@ struct ImpactSearch {
                                                       bool is_counter_clockwise = false);
 [[nodiscard]] TableRequest impact_list_request(bool in_space, const ColumnNames& names);
 
-}  // namespace clatter::validation::inline benchmark
+}  // namespace clatter::validation

@@ -14,7 +14,7 @@
 #include "validation/output/number.hpp"
 #include "validation/scene/drop_gradient.hpp"
 
-namespace clatter::validation::inline benchmark {
+namespace clatter::validation {
 namespace {
 
 constexpr double degree = std::numbers::pi / 180;
@@ -165,4 +165,4 @@ void score_gradients(const Answer& answer, const std::vector<GradientColumn>& co
   for (const GradientColumn& column : columns) judge.judge(column, wanted_of(column, gradient, sequence));
 }
 
-}  // namespace clatter::validation::inline benchmark
+}  // namespace clatter::validation

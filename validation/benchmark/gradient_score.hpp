@@ -7,7 +7,7 @@
 
 #include "validation/benchmark/cause.hpp"
 
-namespace clatter::validation::inline benchmark {
+namespace clatter::validation {
 
 /// A column of derivatives of a list: of a number with respect to one of the drop, the angle, in space the
 /// tilt (both per radian), the speed at the first touch, restitution or friction.
@@ -27,4 +27,4 @@ struct GradientColumn {
 void score_gradients(const Answer& answer, const std::vector<GradientColumn>& columns, const Reference& reference,
                      Score& score);
 
-}  // namespace clatter::validation::inline benchmark
+}  // namespace clatter::validation

@@ -11,7 +11,7 @@
 
 #include "validation/output/number.hpp"
 
-namespace clatter::validation::inline benchmark {
+namespace clatter::validation {
 namespace {
 
 namespace space = analytic::space;
@@ -402,4 +402,4 @@ std::vector<Cause> far_body_causes_of(const Answer& answer, const Reference& ref
   return causes;
 }
 
-}  // namespace clatter::validation::inline benchmark
+}  // namespace clatter::validation

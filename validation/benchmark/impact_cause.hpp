@@ -6,7 +6,7 @@
 
 #include "validation/benchmark/cause.hpp"
 
-namespace clatter::validation::inline benchmark {
+namespace clatter::validation {
 
 /// Restitution, friction, another law, inertia, levers, a restitution that is left out for slow contacts or acts at the
 /// centre of mass, each by the exact map at the run's own state before an impact (Score::law).
@@ -21,4 +21,4 @@ namespace clatter::validation::inline benchmark {
 [[nodiscard]] std::vector<Cause> far_body_causes_of(const Answer& answer, const Reference& reference,
                                                     const DeclaredLaw& law, const std::vector<FoundImpact>& impacts);
 
-}  // namespace clatter::validation::inline benchmark
+}  // namespace clatter::validation

@@ -9,7 +9,7 @@
 #include "validation/output/bad_input.hpp"
 #include "validation/output/number.hpp"
 
-namespace clatter::validation::inline benchmark {
+namespace clatter::validation {
 namespace {
 
 namespace space = analytic::space;
@@ -199,4 +199,4 @@ void Motion::find_first_touch() {
   }
 }
 
-}  // namespace clatter::validation::inline benchmark
+}  // namespace clatter::validation

@@ -8,7 +8,7 @@
 #include "validation/benchmark/reference.hpp"
 #include "validation/tables/numeric_table.hpp"
 
-namespace clatter::validation::inline benchmark {
+namespace clatter::validation {
 
 /// "FILE:LINE:1: KEY": where a line "# KEY: …" stands.
 [[nodiscard]] std::string place_of(const NumericTable& table, const std::string& key);
@@ -76,4 +76,4 @@ class Motion {
   double origin_ = 0;  ///< x of the first touch, where the ground slopes [m]
 };
 
-}  // namespace clatter::validation::inline benchmark
+}  // namespace clatter::validation

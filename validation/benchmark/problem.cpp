@@ -12,7 +12,7 @@
 #include "validation/scene/keys.hpp"
 #include "validation/tables/numeric_table.hpp"
 
-namespace clatter::validation::inline benchmark {
+namespace clatter::validation {
 namespace {
 
 const std::string folder = "validation/benchmark/problems/";
@@ -151,4 +151,4 @@ std::string oracle_of(const Problem& problem) {
          "the discrete model";
 }
 
-}  // namespace clatter::validation::inline benchmark
+}  // namespace clatter::validation

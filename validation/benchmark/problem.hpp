@@ -8,7 +8,7 @@
 
 #include "validation/scene/scene.hpp"
 
-namespace clatter::validation::inline benchmark {
+namespace clatter::validation {
 
 /// One impact of the truth, in the world frame.
 struct TruthRow {
@@ -56,4 +56,4 @@ struct Problem {
 /// What gave the truth, in words.
 [[nodiscard]] std::string oracle_of(const Problem& problem);
 
-}  // namespace clatter::validation::inline benchmark
+}  // namespace clatter::validation

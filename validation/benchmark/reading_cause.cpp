@@ -14,7 +14,7 @@
 
 #include "validation/benchmark/flight_cause.hpp"
 
-namespace clatter::validation::inline benchmark {
+namespace clatter::validation {
 namespace {
 
 namespace space = analytic::space;
@@ -280,4 +280,4 @@ std::vector<Cause> late_velocities_of(const Answer& answer, const Reference& ref
   return readings.causes();
 }
 
-}  // namespace clatter::validation::inline benchmark
+}  // namespace clatter::validation

@@ -6,7 +6,7 @@
 
 #include "validation/benchmark/cause.hpp"
 
-namespace clatter::validation::inline benchmark {
+namespace clatter::validation {
 
 /// The ways to read an answer's rows by which all of it is right: other signs, axes, units and frames, and of a list
 /// other ends.
@@ -15,4 +15,4 @@ namespace clatter::validation::inline benchmark {
 [[nodiscard]] std::vector<Cause> late_velocities_of(const Answer& answer, const Reference& reference,
                                                     const Score& score);
 
-}  // namespace clatter::validation::inline benchmark
+}  // namespace clatter::validation

@@ -16,7 +16,7 @@
 #include "validation/output/bad_input.hpp"
 #include "validation/output/number.hpp"
 
-namespace clatter::validation::inline benchmark {
+namespace clatter::validation {
 namespace {
 
 namespace space = analytic::space;
@@ -415,4 +415,4 @@ State exact_map(const Reference& reference, const DeclaredLaw& law, const State&
   return after;
 }
 
-}  // namespace clatter::validation::inline benchmark
+}  // namespace clatter::validation

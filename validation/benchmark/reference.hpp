@@ -13,7 +13,7 @@
 #include "validation/benchmark/problem.hpp"
 #include "validation/scene/discrete_scene.hpp"
 
-namespace clatter::validation::inline benchmark {
+namespace clatter::validation {
 
 /// A law of impact that a run may declare.
 struct DeclaredLaw {
@@ -104,4 +104,4 @@ struct Reference {
 [[nodiscard]] analytic::space::State exact_map(const Reference& reference, const DeclaredLaw& law,
                                                const analytic::space::State& before, const std::vector<int>& points);
 
-}  // namespace clatter::validation::inline benchmark
+}  // namespace clatter::validation

@@ -11,7 +11,7 @@
 #include "validation/benchmark/start.hpp"
 #include "validation/output/number.hpp"
 
-namespace clatter::validation::inline benchmark {
+namespace clatter::validation {
 namespace {
 
 namespace space = analytic::space;
@@ -544,4 +544,4 @@ Score score_list(const std::vector<FoundImpact>& impacts, const Reference& refer
   });
 }
 
-}  // namespace clatter::validation::inline benchmark
+}  // namespace clatter::validation

@@ -10,7 +10,7 @@
 
 #include "validation/benchmark/found_impacts.hpp"
 
-namespace clatter::validation::inline benchmark {
+namespace clatter::validation {
 
 /// Classes of tolerance, the best first; each has its largest error in Reference::tolerances.
 enum class Verdict {
@@ -119,4 +119,4 @@ struct Ending {
 [[nodiscard]] Score score_list(const std::vector<FoundImpact>& impacts, const Reference& reference,
                                const std::string& law, const Ending& ending = {});
 
-}  // namespace clatter::validation::inline benchmark
+}  // namespace clatter::validation

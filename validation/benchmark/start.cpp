@@ -10,7 +10,7 @@
 #include "analytic/base/angle.hpp"
 #include "validation/output/number.hpp"
 
-namespace clatter::validation::inline benchmark {
+namespace clatter::validation {
 namespace {
 
 using analytic::space::State;
@@ -88,4 +88,4 @@ std::string start_differences(const Motion& motion, const Reference& reference) 
   return fmt::format("{}", fmt::join(fewest, "; "));
 }
 
-}  // namespace clatter::validation::inline benchmark
+}  // namespace clatter::validation

@@ -6,7 +6,7 @@
 
 #include "validation/benchmark/motion.hpp"
 
-namespace clatter::validation::inline benchmark {
+namespace clatter::validation {
 
 /// By how much a planar body is turned with end a low, phi of a motion without whole turns [rad].
 [[nodiscard]] double inclination_of(const analytic::space::State& state);
@@ -18,4 +18,4 @@ namespace clatter::validation::inline benchmark {
 /// one of Reference::gaps or at the row's own height; empty where all of it is as there.
 [[nodiscard]] std::string start_differences(const Motion& motion, const Reference& reference);
 
-}  // namespace clatter::validation::inline benchmark
+}  // namespace clatter::validation

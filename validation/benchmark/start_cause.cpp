@@ -11,7 +11,7 @@
 #include "validation/benchmark/start.hpp"
 #include "validation/output/number.hpp"
 
-namespace clatter::validation::inline benchmark {
+namespace clatter::validation {
 namespace {
 
 namespace space = analytic::space;
@@ -182,4 +182,4 @@ std::vector<Cause> size_causes_of(const Motion& motion, const Reference& referen
   return causes;
 }
 
-}  // namespace clatter::validation::inline benchmark
+}  // namespace clatter::validation

@@ -6,7 +6,7 @@
 
 #include "validation/benchmark/cause.hpp"
 
-namespace clatter::validation::inline benchmark {
+namespace clatter::validation {
 
 /// Which part of the state at the start is another one: angle, spin or speed, or an angle in degrees.
 /// @param left_after what flights and impacts after it leave
@@ -18,4 +18,4 @@ namespace clatter::validation::inline benchmark {
 [[nodiscard]] std::vector<Cause> size_causes_of(const Motion& motion, const Reference& reference,
                                                 const DeclaredLaw& law, const FoundImpact& first, double law_left);
 
-}  // namespace clatter::validation::inline benchmark
+}  // namespace clatter::validation

@@ -14,7 +14,7 @@
 #include "validation/output/number.hpp"
 #include "validation/tables/numeric_table.hpp"
 
-namespace clatter::validation::inline benchmark {
+namespace clatter::validation {
 namespace {
 
 /// A file's text as a table of the kind that its header says.
@@ -194,4 +194,4 @@ std::vector<SubmissionGroup> group_submissions(const std::vector<Submission>& su
   return all;
 }
 
-}  // namespace clatter::validation::inline benchmark
+}  // namespace clatter::validation

@@ -8,7 +8,7 @@
 
 #include "validation/benchmark/diagnosis.hpp"
 
-namespace clatter::validation::inline benchmark {
+namespace clatter::validation {
 
 /// Lines above a file's header, "# key: value"; the problem alone is required, and not even that where a scene is
 /// given.
@@ -56,4 +56,4 @@ struct SubmissionGroup {
 /// @param submissions in any order
 [[nodiscard]] std::vector<SubmissionGroup> group_submissions(const std::vector<Submission>& submissions);
 
-}  // namespace clatter::validation::inline benchmark
+}  // namespace clatter::validation

@@ -9,7 +9,7 @@
 #include "validation/output/bad_input.hpp"
 #include "validation/reports/atlas_report.hpp"
 
-namespace clatter::validation::inline cli {
+namespace clatter::validation {
 namespace {
 
 struct AtlasInput {
@@ -93,4 +93,4 @@ Command atlas_command() {
   return command;
 }
 
-}  // namespace clatter::validation::inline cli
+}  // namespace clatter::validation

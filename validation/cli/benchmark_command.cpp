@@ -12,7 +12,7 @@
 #include "validation/scene/failure.hpp"
 #include "validation/scene/option_values.hpp"
 
-namespace clatter::validation::inline cli {
+namespace clatter::validation {
 namespace {
 
 struct BenchmarkInput {
@@ -127,4 +127,4 @@ Command benchmark_command() {
   return command;
 }
 
-}  // namespace clatter::validation::inline cli
+}  // namespace clatter::validation

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "validation/cli/command.hpp"
 
-namespace clatter::validation::inline cli {
+namespace clatter::validation {
 
 std::vector<std::string> Command::option_names() const {
   std::vector<std::string> names{"--help"};
@@ -22,4 +22,4 @@ const std::vector<Command>& all_commands() {
   return commands;
 }
 
-}  // namespace clatter::validation::inline cli
+}  // namespace clatter::validation

@@ -11,7 +11,7 @@
 
 #include "validation/scene/argument.hpp"
 
-namespace clatter::validation::inline cli {
+namespace clatter::validation {
 
 struct Command {
   std::string name;
@@ -77,4 +77,4 @@ struct Command {
 /// All of them, in the order of the help.
 [[nodiscard]] const std::vector<Command>& all_commands();
 
-}  // namespace clatter::validation::inline cli
+}  // namespace clatter::validation

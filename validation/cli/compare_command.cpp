@@ -17,7 +17,7 @@
 #include "validation/scene/failure.hpp"
 #include "validation/scene/shortfall.hpp"
 
-namespace clatter::validation::inline cli {
+namespace clatter::validation {
 namespace {
 
 const char* const comparison_summary = "discrete and continuous model, impact by impact";
@@ -143,4 +143,4 @@ Command compare_command() {
   return command;
 }
 
-}  // namespace clatter::validation::inline cli
+}  // namespace clatter::validation

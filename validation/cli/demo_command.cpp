@@ -16,7 +16,7 @@
 #include "validation/output/html.hpp"
 #include "validation/output/sink.hpp"
 
-namespace clatter::validation::inline cli {
+namespace clatter::validation {
 namespace {
 
 struct DemoInput {
@@ -136,4 +136,4 @@ Command demo_command() {
   return command;
 }
 
-}  // namespace clatter::validation::inline cli
+}  // namespace clatter::validation

@@ -17,7 +17,7 @@
 #include "validation/reports/verify_report.hpp"
 #include "validation/verify/check.hpp"
 
-namespace clatter::validation::inline cli {
+namespace clatter::validation {
 
 namespace {
 
@@ -210,4 +210,4 @@ Command extremes_command() {
   return command;
 }
 
-}  // namespace clatter::validation::inline cli
+}  // namespace clatter::validation

@@ -7,7 +7,7 @@
 #include "validation/output/bad_input.hpp"
 #include "validation/reports/explanation_report.hpp"
 
-namespace clatter::validation::inline cli {
+namespace clatter::validation {
 namespace {
 
 struct ExplainInput {
@@ -43,4 +43,4 @@ Command explain_command() {
   return command;
 }
 
-}  // namespace clatter::validation::inline cli
+}  // namespace clatter::validation

@@ -8,7 +8,7 @@
 #include "validation/reports/gradient_report.hpp"
 #include "validation/scene/failure.hpp"
 
-namespace clatter::validation::inline cli {
+namespace clatter::validation {
 namespace {
 
 struct GradientInput {
@@ -42,4 +42,4 @@ Command gradient_command() {
   return command;
 }
 
-}  // namespace clatter::validation::inline cli
+}  // namespace clatter::validation

@@ -13,7 +13,7 @@
 #include "validation/scene/failure.hpp"
 #include "validation/shock/damage_boundary.hpp"
 
-namespace clatter::validation::inline cli {
+namespace clatter::validation {
 namespace {
 
 struct GroundInput {
@@ -153,4 +153,4 @@ Command ground_command() {
   return command;
 }
 
-}  // namespace clatter::validation::inline cli
+}  // namespace clatter::validation

@@ -16,7 +16,7 @@
 #include "validation/output/sink.hpp"
 #include "validation/sweep/sweep_file.hpp"
 
-namespace clatter::validation::inline cli {
+namespace clatter::validation {
 namespace {
 
 struct MapInput {
@@ -205,4 +205,4 @@ Command map_command() {
   return command;
 }
 
-}  // namespace clatter::validation::inline cli
+}  // namespace clatter::validation

@@ -13,7 +13,7 @@
 #include "validation/reports/measured_report.hpp"
 #include "validation/scene/option_values.hpp"
 
-namespace clatter::validation::inline cli {
+namespace clatter::validation {
 
 namespace {
 
@@ -176,4 +176,4 @@ Command measured_command() {
   return command;
 }
 
-}  // namespace clatter::validation::inline cli
+}  // namespace clatter::validation

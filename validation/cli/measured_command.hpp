@@ -7,7 +7,7 @@
 
 #include "validation/reports/measured_report.hpp"
 
-namespace clatter::validation::inline cli {
+namespace clatter::validation {
 
 struct MeasuredRequest {
   std::string file;             ///< poses, or the name of a data set that comes with the program
@@ -24,4 +24,4 @@ struct MeasuredRequest {
 /// @throws BadInput naming the option or the file.
 [[nodiscard]] MeasuredRun read_measured_run(const MeasuredRequest& request);
 
-}  // namespace clatter::validation::inline cli
+}  // namespace clatter::validation

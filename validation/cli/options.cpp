@@ -15,7 +15,7 @@
 #include "validation/scene/keys.hpp"
 #include "validation/scene/scene_value.hpp"
 
-namespace clatter::validation::inline cli {
+namespace clatter::validation {
 
 void add_output_options(Command& command, OutputChoice& choice) {
   command.add(format_argument(choice.style.format, "form of the output (table)", "Output"));
@@ -176,4 +176,4 @@ void PlotFile::leave_out(const std::string& reason) const {
   if (picture_) say(fmt::format("--plot {}: no picture: {}", path_, reason));
 }
 
-}  // namespace clatter::validation::inline cli
+}  // namespace clatter::validation

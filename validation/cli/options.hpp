@@ -15,7 +15,7 @@
 #include "validation/scene/discrete_scene.hpp"
 #include "validation/scene/scene.hpp"
 
-namespace clatter::validation::inline cli {
+namespace clatter::validation {
 
 /// Where and how to write.
 struct OutputChoice {
@@ -98,4 +98,4 @@ class PlotFile {
 [[nodiscard]] std::vector<std::string> run_words(const std::string& command, const std::string& what,
                                                  const Scene& scene, Model model = Model::continuous);
 
-}  // namespace clatter::validation::inline cli
+}  // namespace clatter::validation

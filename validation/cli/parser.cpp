@@ -14,7 +14,7 @@
 #include "validation/output/version.hpp"
 #include "validation/scene/keys.hpp"
 
-namespace clatter::validation::inline cli {
+namespace clatter::validation {
 
 namespace {
 
@@ -280,4 +280,4 @@ ParsedLine parse_line(const std::vector<Command>& commands, const std::vector<st
   return {.command = &*found};
 }
 
-}  // namespace clatter::validation::inline cli
+}  // namespace clatter::validation

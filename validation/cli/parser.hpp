@@ -7,7 +7,7 @@
 
 #include "validation/cli/command.hpp"
 
-namespace clatter::validation::inline cli {
+namespace clatter::validation {
 
 /// What the arguments ask for: a command whose targets are set, or a text to print (help, version).
 struct ParsedLine {
@@ -36,4 +36,4 @@ Environment:
 /// @throws BadInput with one line.
 [[nodiscard]] ParsedLine parse_line(const std::vector<Command>& commands, const std::vector<std::string>& arguments);
 
-}  // namespace clatter::validation::inline cli
+}  // namespace clatter::validation

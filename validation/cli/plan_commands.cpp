@@ -13,7 +13,7 @@
 #include "validation/reports/tradeoff_report.hpp"
 #include "validation/scene/failure.hpp"
 
-namespace clatter::validation::inline cli {
+namespace clatter::validation {
 
 namespace {
 
@@ -113,4 +113,4 @@ Command tradeoff_command() {
   return command;
 }
 
-}  // namespace clatter::validation::inline cli
+}  // namespace clatter::validation

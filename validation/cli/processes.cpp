@@ -10,7 +10,7 @@
 #include "validation/output/bad_input.hpp"
 #include "validation/output/interrupt.hpp"
 
-namespace clatter::validation::inline cli {
+namespace clatter::validation {
 
 int run_in_processes(const std::function<int(Ranks& ranks)>& command) {
   Ranks ranks;
@@ -45,4 +45,4 @@ int serve_ranges(const MakeCompute& make, Ranks& ranks) {
   return interrupt.requested() ? interrupted_status : 0;
 }
 
-}  // namespace clatter::validation::inline cli
+}  // namespace clatter::validation

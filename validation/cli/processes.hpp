@@ -9,7 +9,7 @@
 #include "validation/cli/command.hpp"
 #include "validation/sweep/sweep_run.hpp"
 
-namespace clatter::validation::inline cli {
+namespace clatter::validation {
 
 /// Runs a command in each process.  Of several processes only the one that writes has something to say, and a status:
 /// at another's, mpirun would end it before it has spoken.
@@ -23,4 +23,4 @@ void compute_ranges(RangeQueue& queue, int threads, const MakeCompute& make, con
 /// The part of a process that does not write.  @returns its exit status
 int serve_ranges(const MakeCompute& make, Ranks& ranks);
 
-}  // namespace clatter::validation::inline cli
+}  // namespace clatter::validation

@@ -7,7 +7,7 @@
 #include "validation/output/sink.hpp"
 #include "validation/scene/failure.hpp"
 
-namespace clatter::validation::inline cli {
+namespace clatter::validation {
 namespace {
 
 int parse_and_run(const std::vector<std::string>& given) {
@@ -38,4 +38,4 @@ int run_program(const std::vector<std::string>& arguments) {
   return guarded([&] { return parse_and_run(arguments); });
 }
 
-}  // namespace clatter::validation::inline cli
+}  // namespace clatter::validation

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace clatter::validation::inline cli {
+namespace clatter::validation {
 
 /// Runs the program with the arguments after its name; returns the exit status: 0 done, 1 a check
 /// failed, 2 bad input, 3 a number could not be computed, 4 outside the model's range, 70 a defect of the program,
@@ -16,4 +16,4 @@ namespace clatter::validation::inline cli {
 /// The status of `run`; an exception becomes one line on stderr and the status of its kind.
 [[nodiscard]] int guarded(const std::function<int()>& run);
 
-}  // namespace clatter::validation::inline cli
+}  // namespace clatter::validation

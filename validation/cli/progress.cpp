@@ -8,7 +8,7 @@
 
 #include "validation/output/interrupt.hpp"
 
-namespace clatter::validation::inline cli {
+namespace clatter::validation {
 
 void Progress::show(const std::string& text) {
   if (!shows_progress()) return;
@@ -38,4 +38,4 @@ std::string progress_bar(std::size_t done, std::size_t of) {
   return std::string(filled, '#') + std::string(width - filled, '.') + fmt::format(" {} of {}", done, of);
 }
 
-}  // namespace clatter::validation::inline cli
+}  // namespace clatter::validation

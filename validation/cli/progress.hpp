@@ -5,7 +5,7 @@
 #include <chrono>
 #include <string>
 
-namespace clatter::validation::inline cli {
+namespace clatter::validation {
 
 /// A line on stderr that renews itself, for runs that last; nothing where progress is not shown.
 class Progress {
@@ -29,4 +29,4 @@ class Progress {
 /// "40 s left".
 [[nodiscard]] std::string time_left(double seconds);
 
-}  // namespace clatter::validation::inline cli
+}  // namespace clatter::validation

@@ -45,7 +45,7 @@
 #include "validation/sweep/rows.hpp"
 #include "validation/sweep/summary.hpp"
 
-namespace clatter::validation::inline cli {
+namespace clatter::validation {
 
 namespace {
 
@@ -522,4 +522,4 @@ Command man_command() {
   return command;
 }
 
-}  // namespace clatter::validation::inline cli
+}  // namespace clatter::validation

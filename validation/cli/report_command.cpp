@@ -23,7 +23,7 @@
 #include "validation/sweep/summary.hpp"
 #include "validation/sweep/sweep_run.hpp"
 
-namespace clatter::validation::inline cli {
+namespace clatter::validation {
 namespace {
 
 struct ReportInput : ShockInput {
@@ -298,4 +298,4 @@ Command report_command() {
   return command;
 }
 
-}  // namespace clatter::validation::inline cli
+}  // namespace clatter::validation

@@ -15,7 +15,7 @@
 #include "validation/reports/angles_report.hpp"
 #include "validation/reports/regimes_report.hpp"
 
-namespace clatter::validation::inline cli {
+namespace clatter::validation {
 
 namespace {
 
@@ -126,4 +126,4 @@ Command regimes_command() {
   return command;
 }
 
-}  // namespace clatter::validation::inline cli
+}  // namespace clatter::validation

@@ -15,7 +15,7 @@
 #include "validation/reports/sequence_report.hpp"
 #include "validation/scene/shortfall.hpp"
 
-namespace clatter::validation::inline cli {
+namespace clatter::validation {
 namespace {
 
 struct SequenceInput {
@@ -93,4 +93,4 @@ Command sequence_command() {
   return command;
 }
 
-}  // namespace clatter::validation::inline cli
+}  // namespace clatter::validation

@@ -11,7 +11,7 @@
 #include "validation/scene/failure.hpp"
 #include "validation/scene/shortfall.hpp"
 
-namespace clatter::validation::inline cli {
+namespace clatter::validation {
 namespace {
 
 const char* const shock_summary = "shock at points of the body";
@@ -83,4 +83,4 @@ Command shock_command() {
   return command;
 }
 
-}  // namespace clatter::validation::inline cli
+}  // namespace clatter::validation

@@ -8,7 +8,7 @@
 
 #include "validation/output/bad_input.hpp"
 
-namespace clatter::validation::inline cli {
+namespace clatter::validation {
 namespace {
 
 double quality_of(const std::string& text) {
@@ -116,4 +116,4 @@ void add_shock_options(Command& command, ShockInput& input) {
   command.add_flag("--no-sensitivity", input.no_sensitivity, "leave out the four runs that it takes", "Shock");
 }
 
-}  // namespace clatter::validation::inline cli
+}  // namespace clatter::validation

@@ -12,7 +12,7 @@
 #include "validation/scene/probes.hpp"
 #include "validation/shock/shock_run.hpp"
 
-namespace clatter::validation::inline cli {
+namespace clatter::validation {
 
 /// What was typed.
 struct ShockInput {
@@ -33,4 +33,4 @@ void add_shock_options(Command& command, ShockInput& input);
 [[nodiscard]] ShockRequest request_of(const ShockInput& input);
 [[nodiscard]] ShockView view_of(const ShockInput& input);
 
-}  // namespace clatter::validation::inline cli
+}  // namespace clatter::validation

@@ -22,7 +22,7 @@
 #include "validation/scene/scene_value.hpp"
 #include "validation/scene/shortfall.hpp"
 
-namespace clatter::validation::inline cli {
+namespace clatter::validation {
 namespace {
 
 using numeric::Outcome;
@@ -186,4 +186,4 @@ Command simulate_command() {
   return command;
 }
 
-}  // namespace clatter::validation::inline cli
+}  // namespace clatter::validation

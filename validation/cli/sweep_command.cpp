@@ -23,7 +23,7 @@
 #include "validation/sweep/sweep_run.hpp"
 #include "validation/tables/csv_line.hpp"
 
-namespace clatter::validation::inline cli {
+namespace clatter::validation {
 namespace {
 
 using Clock = std::chrono::steady_clock;
@@ -342,4 +342,4 @@ Command sweep_command() {
   return command;
 }
 
-}  // namespace clatter::validation::inline cli
+}  // namespace clatter::validation

@@ -5,7 +5,7 @@
 
 #include "validation/record/history_file.hpp"
 
-namespace clatter::validation::inline compare {
+namespace clatter::validation {
 namespace {
 
 class SampleList : public numeric::HistoryRecorder {
@@ -127,4 +127,4 @@ const std::vector<CaseRuns::SweptComparison>& CaseRuns::swept_comparison(const s
   });
 }
 
-}  // namespace clatter::validation::inline compare
+}  // namespace clatter::validation

@@ -13,7 +13,7 @@
 #include "validation/compare/comparison.hpp"
 #include "validation/scene/scene.hpp"
 
-namespace clatter::validation::inline compare {
+namespace clatter::validation {
 
 /// One value of a swept case.
 struct SweptSimulation {
@@ -83,4 +83,4 @@ class CaseRuns {
 /// The case's scene with the options put in.
 [[nodiscard]] Scene scene_of_case(const std::string& name, const RunOptions& options);
 
-}  // namespace clatter::validation::inline compare
+}  // namespace clatter::validation

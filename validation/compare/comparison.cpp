@@ -14,7 +14,7 @@
 #include "validation/record/names.hpp"
 #include "validation/scene/shortfall.hpp"
 
-namespace clatter::validation::inline compare {
+namespace clatter::validation {
 namespace {
 
 using numeric::ImpactRecord;
@@ -345,4 +345,4 @@ Comparison compare_models(const Scene& scene, const numeric::Body& body) {
   return comparison;
 }
 
-}  // namespace clatter::validation::inline compare
+}  // namespace clatter::validation

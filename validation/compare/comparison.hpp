@@ -13,7 +13,7 @@
 #include "validation/record/motion_numbers.hpp"
 #include "validation/scene/scene.hpp"
 
-namespace clatter::validation::inline compare {
+namespace clatter::validation {
 
 /// One impact of both models.  Deviations are continuous − discrete.
 struct ComparedImpact {
@@ -81,4 +81,4 @@ struct Comparison {
 /// @throws analytic::OutsideModelError if the discrete model cannot represent the scene.
 [[nodiscard]] Comparison compare_models(const Scene& scene, const numeric::Body& body);
 
-}  // namespace clatter::validation::inline compare
+}  // namespace clatter::validation

@@ -12,7 +12,7 @@
 #include "validation/output/number.hpp"
 #include "validation/scene/discrete_scene.hpp"
 
-namespace clatter::validation::inline compare {
+namespace clatter::validation {
 namespace {
 
 namespace space = analytic::space;
@@ -250,4 +250,4 @@ DiscreteSide discrete_side(const Scene& scene, DiscreteBody& body) {
   return planar_side(scene, *planar, sequence);
 }
 
-}  // namespace clatter::validation::inline compare
+}  // namespace clatter::validation

@@ -11,7 +11,7 @@
 #include "validation/record/motion_numbers.hpp"
 #include "validation/scene/discrete_scene.hpp"
 
-namespace clatter::validation::inline compare {
+namespace clatter::validation {
 
 /// One impact.
 struct SequenceImpact {
@@ -55,4 +55,4 @@ struct DiscreteSide {
 /// @throws analytic::OutsideModelError if the first impact leaves the model.
 [[nodiscard]] DiscreteSide discrete_side(const Scene& scene, DiscreteBody& body);
 
-}  // namespace clatter::validation::inline compare
+}  // namespace clatter::validation

@@ -7,7 +7,7 @@
 #include "validation/compare/comparison.hpp"
 #include "validation/output/estimated.hpp"
 
-namespace clatter::validation::inline compare {
+namespace clatter::validation {
 
 /// A number of an impact in both models.  Each function needs the models, or the limit, that its words name.
 struct NumberPair {
@@ -33,4 +33,4 @@ struct NumberPair {
   [[nodiscard]] double bar() const { return impact.limit->error[quantity]; }
 };
 
-}  // namespace clatter::validation::inline compare
+}  // namespace clatter::validation

@@ -9,7 +9,7 @@
 #include "analytic/base/errors.hpp"
 #include "validation/output/estimated.hpp"
 
-namespace clatter::validation::inline compare {
+namespace clatter::validation {
 namespace {
 
 namespace space = analytic::space;
@@ -228,4 +228,4 @@ std::vector<PredictedSize> predicted_sizes(const space::Drop& drop, const space:
   return sizes_of(drop, sequence, contact_times);
 }
 
-}  // namespace clatter::validation::inline compare
+}  // namespace clatter::validation

@@ -8,7 +8,7 @@
 #include "analytic/space/sequence.hpp"
 #include "validation/record/motion_numbers.hpp"
 
-namespace clatter::validation::inline compare {
+namespace clatter::validation {
 
 /// Sizes of the deviations of one impact's numbers; the sum over this impact and those before it, whose deviations
 /// are carried along by the motion between them.
@@ -54,4 +54,4 @@ struct FaceTipping {
 /// The same in space: the state before it as it is.
 [[nodiscard]] analytic::space::Drop drop_at(const analytic::space::Drop& drop, const analytic::space::ImpactRow& row);
 
-}  // namespace clatter::validation::inline compare
+}  // namespace clatter::validation

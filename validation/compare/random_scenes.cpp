@@ -10,7 +10,7 @@
 #include "validation/compare/comparison.hpp"
 #include "validation/compare/uniform.hpp"
 
-namespace clatter::validation::inline compare {
+namespace clatter::validation {
 namespace {
 
 void choose_body(Uniform& random, BodyScene& body) {
@@ -99,4 +99,4 @@ RandomScenesResult run_random_scenes(const RandomScenes& scenes) {
   return result;
 }
 
-}  // namespace clatter::validation::inline compare
+}  // namespace clatter::validation

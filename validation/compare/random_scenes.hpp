@@ -8,7 +8,7 @@
 
 #include "validation/scene/scene.hpp"
 
-namespace clatter::validation::inline compare {
+namespace clatter::validation {
 
 /// Scene number `index` of the random family `seed`: a rod or a box of random size with random k_G, e (by c_G at the
 /// speed of the drop), μ, angle, spin, tangential velocity and gravity.  The same on every machine.
@@ -39,4 +39,4 @@ struct RandomScenesResult {
 /// Numbers that are equal by construction (the first start and angle) or zero in the discrete model are no samples.
 [[nodiscard]] RandomScenesResult run_random_scenes(const RandomScenes& scenes);
 
-}  // namespace clatter::validation::inline compare
+}  // namespace clatter::validation

@@ -11,7 +11,7 @@
 #include "validation/compare/number_pair.hpp"
 #include "validation/compare/uniform.hpp"
 
-namespace clatter::validation::inline compare {
+namespace clatter::validation {
 namespace {
 
 using numeric::Vector3;
@@ -170,4 +170,4 @@ RandomSpaceResult run_random_space_scenes(const RandomSpaceScenes& scenes) {
   return result;
 }
 
-}  // namespace clatter::validation::inline compare
+}  // namespace clatter::validation

@@ -9,7 +9,7 @@
 
 #include "validation/compare/comparison.hpp"
 
-namespace clatter::validation::inline compare {
+namespace clatter::validation {
 
 /// A scene with its body, which no file describes where it is a tetrahedron or an L.
 struct SpaceScene {
@@ -50,4 +50,4 @@ struct RandomSpaceResult {
 
 [[nodiscard]] RandomSpaceResult run_random_space_scenes(const RandomSpaceScenes& scenes);
 
-}  // namespace clatter::validation::inline compare
+}  // namespace clatter::validation

@@ -8,7 +8,7 @@
 #include "validation/compare/stiff_runs.hpp"
 #include "validation/record/names.hpp"
 
-namespace clatter::validation::inline compare {
+namespace clatter::validation {
 
 using numeric::ImpactRecord;
 using numeric::Vector3;
@@ -54,4 +54,4 @@ PartedBlows parted_blows(const DiscreteSide& side, const std::vector<ImpactRecor
   return {};
 }
 
-}  // namespace clatter::validation::inline compare
+}  // namespace clatter::validation

@@ -8,7 +8,7 @@
 #include "numeric/simulate.hpp"
 #include "validation/compare/discrete_side.hpp"
 
-namespace clatter::validation::inline compare {
+namespace clatter::validation {
 
 /// Whether both models touch down with the same end, or in space with the same corners.
 /// @param place   of the continuous model's contact, body frame from the centre of mass [m]
@@ -40,4 +40,4 @@ struct PartedBlows {
 [[nodiscard]] PartedBlows parted_blows(const DiscreteSide& side, const std::vector<numeric::ImpactRecord>& records,
                                        const numeric::Body& body);
 
-}  // namespace clatter::validation::inline compare
+}  // namespace clatter::validation

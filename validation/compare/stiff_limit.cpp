@@ -11,7 +11,7 @@
 #include "validation/compare/stiff_runs.hpp"
 #include "validation/output/number.hpp"
 
-namespace clatter::validation::inline compare {
+namespace clatter::validation {
 namespace {
 
 using numeric::ImpactRecord;
@@ -222,4 +222,4 @@ StiffLimit stiff_limit(const Scene& scene, const numeric::Body& body, const Limi
   return limit;
 }
 
-}  // namespace clatter::validation::inline compare
+}  // namespace clatter::validation

@@ -9,7 +9,7 @@
 #include "validation/record/motion_numbers.hpp"
 #include "validation/scene/scene.hpp"
 
-namespace clatter::validation::inline compare {
+namespace clatter::validation {
 
 /// One impact in the limit.
 struct LimitRow {
@@ -54,4 +54,4 @@ struct LimitRequest {
 /// Where c_G v/k_G > 1 numbers go like T ln T over many runs, and the bars are four times as wide.
 [[nodiscard]] StiffLimit stiff_limit(const Scene& scene, const numeric::Body& body, const LimitRequest& request);
 
-}  // namespace clatter::validation::inline compare
+}  // namespace clatter::validation

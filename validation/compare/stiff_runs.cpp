@@ -11,7 +11,7 @@
 #include "validation/output/number.hpp"
 #include "validation/record/names.hpp"
 
-namespace clatter::validation::inline compare {
+namespace clatter::validation {
 namespace {
 
 using numeric::ImpactRecord;
@@ -154,4 +154,4 @@ CommonRows common_rows(const std::vector<Simulation>& ladder, const ContactSizes
   return rows;
 }
 
-}  // namespace clatter::validation::inline compare
+}  // namespace clatter::validation

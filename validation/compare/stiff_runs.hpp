@@ -9,7 +9,7 @@
 #include "numeric/simulate.hpp"
 #include "validation/scene/scene.hpp"
 
-namespace clatter::validation::inline compare {
+namespace clatter::validation {
 
 /// Against what contacts are short, and how their ground is damped.
 struct ContactSizes {
@@ -36,4 +36,4 @@ struct CommonRows {
 /// moves with the attitude.
 [[nodiscard]] bool is_same_place(const numeric::Body& body, const numeric::Vector3& one, const numeric::Vector3& other);
 
-}  // namespace clatter::validation::inline compare
+}  // namespace clatter::validation

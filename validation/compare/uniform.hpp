@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <random>
 
-namespace clatter::validation::inline compare {
+namespace clatter::validation {
 
 /// Random numbers of member `index` of the random family `seed`.
 class Uniform {
@@ -22,4 +22,4 @@ class Uniform {
   std::mt19937_64 engine_;
 };
 
-}  // namespace clatter::validation::inline compare
+}  // namespace clatter::validation

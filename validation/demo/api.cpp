@@ -29,7 +29,7 @@
 #include "validation/scene/named_texts.hpp"
 #include "validation/scene/scene_text.hpp"
 
-namespace clatter::validation::inline demo {
+namespace clatter::validation {
 namespace {
 
 NamedTexts texts_of(const std::string& body) {
@@ -153,7 +153,7 @@ std::string answer(const std::string& path, const std::string& body) {
 }
 
 }  // namespace
-}  // namespace clatter::validation::inline demo
+}  // namespace clatter::validation
 
 /// The text lasts until the next call.
 extern "C" EMSCRIPTEN_KEEPALIVE const char* clatter_answer(const char* path, const char* body) {

@@ -4,7 +4,7 @@
 #include "validation/output/bad_input.hpp"
 #include "validation/scene/scene_text.hpp"
 
-namespace clatter::validation::inline demo {
+namespace clatter::validation {
 
 void require_shown(const Scene& scene) {
   if (scene.body.shape == BodyScene::Shape::mesh)
@@ -20,4 +20,4 @@ Value::Fields scene_arguments(const Scene& scene) {
   return arguments;
 }
 
-}  // namespace clatter::validation::inline demo
+}  // namespace clatter::validation

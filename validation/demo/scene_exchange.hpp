@@ -5,7 +5,7 @@
 #include "validation/output/value.hpp"
 #include "validation/scene/scene.hpp"
 
-namespace clatter::validation::inline demo {
+namespace clatter::validation {
 
 /// @throws BadInput for what the page does not draw: a mesh, a round body, a sweep
 void require_shown(const Scene& scene);
@@ -15,4 +15,4 @@ void require_shown(const Scene& scene);
 /// require_shown
 [[nodiscard]] Value::Fields scene_arguments(const Scene& scene);
 
-}  // namespace clatter::validation::inline demo
+}  // namespace clatter::validation

@@ -12,7 +12,7 @@ file(WRITE "${OUTPUT}" "// Made by the build from the files named in it.
 #include <stdexcept>
 #include <string>
 
-namespace clatter::validation::inline embedded {
+namespace clatter::validation {
 
 const std::vector<EmbeddedFile>& embedded_files() {
   static const std::vector<EmbeddedFile> files{
@@ -27,5 +27,5 @@ std::string_view embedded_text(std::string_view name) {
   throw std::out_of_range(\"no file \" + std::string(name));
 }
 
-}  // namespace clatter::validation::inline embedded
+}  // namespace clatter::validation
 ")

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-namespace clatter::validation::inline embedded {
+namespace clatter::validation {
 
 struct EmbeddedFile {
   std::string_view name;  ///< path in the source tree
@@ -17,4 +17,4 @@ struct EmbeddedFile {
 /// @throws std::out_of_range if there is no such file.
 [[nodiscard]] std::string_view embedded_text(std::string_view name);
 
-}  // namespace clatter::validation::inline embedded
+}  // namespace clatter::validation

@@ -11,7 +11,7 @@
 #include "validation/record/names.hpp"
 #include "validation/scene/shortfall.hpp"
 
-namespace clatter::validation::inline explain {
+namespace clatter::validation {
 namespace {
 
 /// Why impact n of a run does not happen.
@@ -165,4 +165,4 @@ void write_energy(StepWriter& writer, const Words& words, const Energies& energi
   writer.found(energies.loss_value, energies.loss, {"energy that the impact took, the difference of both"});
 }
 
-}  // namespace clatter::validation::inline explain
+}  // namespace clatter::validation

@@ -9,7 +9,7 @@
 #include "validation/scene/discrete_scene.hpp"
 #include "validation/scene/scene.hpp"
 
-namespace clatter::validation::inline explain {
+namespace clatter::validation {
 
 /// How impact n of a scene came about, in the plane or in space.
 struct Explanation {
@@ -27,4 +27,4 @@ struct Explanation {
 /// @throws as analytic::impact_sequence and analytic::space::impact_sequence
 [[nodiscard]] Explanation explain_impact(const PreparedScene& prepared, int n);
 
-}  // namespace clatter::validation::inline explain
+}  // namespace clatter::validation

@@ -10,7 +10,7 @@
 #include <numbers>
 #include <stdexcept>
 
-namespace clatter::validation::inline explain {
+namespace clatter::validation {
 namespace {
 
 using Eigen::MatrixXd;
@@ -142,4 +142,4 @@ std::vector<Quantity> quantities_in(const Expression& expression) {
   return all;
 }
 
-}  // namespace clatter::validation::inline explain
+}  // namespace clatter::validation

@@ -9,7 +9,7 @@
 #include <variant>
 #include <vector>
 
-namespace clatter::validation::inline explain {
+namespace clatter::validation {
 
 /// How a quantity is called: made from "V_n1" or "ω_x′", name, index and mark.
 struct Symbol {
@@ -110,4 +110,4 @@ struct Step {
   std::vector<Equation> equations{};
 };
 
-}  // namespace clatter::validation::inline explain
+}  // namespace clatter::validation

@@ -12,7 +12,7 @@
 #include "validation/output/number.hpp"
 #include "validation/record/names.hpp"
 
-namespace clatter::validation::inline explain {
+namespace clatter::validation {
 namespace {
 
 using analytic::ImpactMode;
@@ -517,4 +517,4 @@ std::vector<Step> impact_steps(const Scene& scene, const analytic::Drop& drop, c
   return PlanarImpact(scene, drop, sequence, n).steps();
 }
 
-}  // namespace clatter::validation::inline explain
+}  // namespace clatter::validation

@@ -17,7 +17,7 @@
 #include "validation/record/names.hpp"
 #include "validation/scene/discrete_scene.hpp"
 
-namespace clatter::validation::inline explain {
+namespace clatter::validation {
 namespace {
 
 namespace space = analytic::space;
@@ -536,4 +536,4 @@ std::vector<Step> impact_steps(const Scene& scene, const space::Drop& drop, cons
   return SpatialImpact(scene, drop, sequence, n).steps();
 }
 
-}  // namespace clatter::validation::inline explain
+}  // namespace clatter::validation

@@ -11,7 +11,7 @@
 #include "validation/explain/formula.hpp"
 #include "validation/scene/scene.hpp"
 
-namespace clatter::validation::inline explain {
+namespace clatter::validation {
 
 /// A single number with its name.
 [[nodiscard]] Quantity number(const Symbol& symbol, double value, const std::string& unit, double error = 0,
@@ -80,4 +80,4 @@ void write_energy(StepWriter& writer, const Words& words, const Energies& energi
 [[nodiscard]] std::vector<Step> impact_steps(const Scene& scene, const analytic::space::Drop& drop,
                                              const analytic::space::Sequence& sequence, int n);
 
-}  // namespace clatter::validation::inline explain
+}  // namespace clatter::validation

@@ -15,7 +15,7 @@
 #include "validation/measured/tracked_body.hpp"
 #include "validation/output/number.hpp"
 
-namespace clatter::validation::inline extremes {
+namespace clatter::validation {
 namespace {
 
 using Values = std::vector<AxisValue>;
@@ -275,4 +275,4 @@ const MapAxis& map_axis(const std::string& name) {
   throw std::out_of_range("no axis " + name);
 }
 
-}  // namespace clatter::validation::inline extremes
+}  // namespace clatter::validation

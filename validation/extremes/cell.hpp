@@ -11,7 +11,7 @@
 
 #include "validation/plan/model_hierarchy.hpp"
 
-namespace clatter::validation::inline extremes {
+namespace clatter::validation {
 
 inline constexpr double eps = std::numeric_limits<double>::epsilon();
 inline constexpr double infinite = std::numeric_limits<double>::infinity();
@@ -126,4 +126,4 @@ template <class Work>
   return std::chrono::duration<double>(CellClock::Clock::now() - begin).count();
 }
 
-}  // namespace clatter::validation::inline extremes
+}  // namespace clatter::validation

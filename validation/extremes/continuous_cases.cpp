@@ -13,7 +13,7 @@
 #include "validation/extremes/oracles.hpp"
 #include "validation/record/names.hpp"
 
-namespace clatter::validation::inline extremes {
+namespace clatter::validation {
 namespace {
 
 using numeric::ImpactNumbers;
@@ -262,4 +262,4 @@ CellMeasure kept_energy(int impacts, long evaluation_limit, bool planar, const G
   return measure;
 }
 
-}  // namespace clatter::validation::inline extremes
+}  // namespace clatter::validation

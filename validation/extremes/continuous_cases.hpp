@@ -8,7 +8,7 @@
 #include "numeric/simulate.hpp"
 #include "validation/extremes/cell.hpp"
 
-namespace clatter::validation::inline extremes {
+namespace clatter::validation {
 
 /// A box (the paper's phone unless said otherwise) and the ground that it falls on.
 struct ContinuousCase {
@@ -66,4 +66,4 @@ struct RunDistance {
 /// Cells of the continuous model, planar and spatial, on an axis; none if it has no such quantity.
 [[nodiscard]] std::vector<ExtremeCase> continuous_cases(const MapAxis& axis);
 
-}  // namespace clatter::validation::inline extremes
+}  // namespace clatter::validation

@@ -11,7 +11,7 @@
 #include "validation/extremes/oracles.hpp"
 #include "validation/record/names.hpp"
 
-namespace clatter::validation::inline extremes {
+namespace clatter::validation {
 namespace {
 
 using analytic::Angle;
@@ -178,4 +178,4 @@ std::vector<ExtremeCase> discrete_cases(const MapAxis& axis) {
   return cases;
 }
 
-}  // namespace clatter::validation::inline extremes
+}  // namespace clatter::validation

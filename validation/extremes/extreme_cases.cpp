@@ -16,7 +16,7 @@
 #include "validation/measured/score.hpp"
 #include "validation/record/names.hpp"
 
-namespace clatter::validation::inline extremes {
+namespace clatter::validation {
 namespace {
 
 /// The drops whose arm at impact 1 is inclined from `low` on.
@@ -141,4 +141,4 @@ std::vector<ExtremeCase> turn_cases(const MapAxis& axis) {
   return cases;
 }
 
-}  // namespace clatter::validation::inline extremes
+}  // namespace clatter::validation

@@ -9,7 +9,7 @@
 #include "analytic/plane/sequence.hpp"
 #include "validation/extremes/cell.hpp"
 
-namespace clatter::validation::inline extremes {
+namespace clatter::validation {
 
 /// The sequence of a drop, without amplification; its outcome, time and evaluations go to `measure`.
 /// @throws analytic::NumericalError if a number of it could not be computed, OutsideModelError if an impact jams.
@@ -38,4 +38,4 @@ struct LongRuns {
 /// @param goes_on asked now and then; false ends the cell early
 [[nodiscard]] std::vector<ExtremeCase> long_cases(const LongRuns& runs, const std::function<bool()>& goes_on);
 
-}  // namespace clatter::validation::inline extremes
+}  // namespace clatter::validation

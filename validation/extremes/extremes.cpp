@@ -9,7 +9,7 @@
 #include "validation/extremes/continuous_cases.hpp"
 #include "validation/output/interrupt.hpp"
 
-namespace clatter::validation::inline extremes {
+namespace clatter::validation {
 namespace {
 
 constexpr double digits_within_a_region = 1;
@@ -108,4 +108,4 @@ const ExtremeCell* slowest_cell(const ExtremesMap& map) {
   return slowest;
 }
 
-}  // namespace clatter::validation::inline extremes
+}  // namespace clatter::validation

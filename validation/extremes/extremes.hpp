@@ -9,7 +9,7 @@
 #include "validation/extremes/cell.hpp"
 #include "validation/extremes/extreme_cases.hpp"
 
-namespace clatter::validation::inline extremes {
+namespace clatter::validation {
 
 /// Neighbouring values of one quantity for which one model does the same, with digits within one of each other.
 struct MapRegion {
@@ -49,4 +49,4 @@ struct ExtremesOptions {
 /// The cell that took longest, long runs left out; null if there is none.
 [[nodiscard]] const ExtremeCell* slowest_cell(const ExtremesMap& map);
 
-}  // namespace clatter::validation::inline extremes
+}  // namespace clatter::validation

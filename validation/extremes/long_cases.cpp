@@ -20,7 +20,7 @@
 #include "validation/record/names.hpp"
 #include "validation/sweep/counter_random.hpp"
 
-namespace clatter::validation::inline extremes {
+namespace clatter::validation {
 namespace {
 
 /// A discrete scene's laws of motion hold if they do to this: rounding, grown by sizes that differ by tens of decades.
@@ -240,4 +240,4 @@ std::vector<ExtremeCase> long_cases(const LongRuns& runs, const std::function<bo
   return cases;
 }
 
-}  // namespace clatter::validation::inline extremes
+}  // namespace clatter::validation

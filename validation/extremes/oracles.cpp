@@ -14,7 +14,7 @@
 #include "validation/oracles/impulse_path.hpp"
 #include "validation/oracles/rod.hpp"
 
-namespace clatter::validation::inline extremes {
+namespace clatter::validation {
 namespace {
 
 using Digits50 = oracle::Digits50;
@@ -423,4 +423,4 @@ double PeriodicSpin::error(const numeric::Rotation& rotation, double time) const
   return static_cast<double>(std::fmax(worst, std::fmin(same, other)));
 }
 
-}  // namespace clatter::validation::inline extremes
+}  // namespace clatter::validation

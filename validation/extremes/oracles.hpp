@@ -11,7 +11,7 @@
 #include "numeric/motion/motion_state.hpp"
 #include "validation/oracles/free_top.hpp"
 
-namespace clatter::validation::inline extremes {
+namespace clatter::validation {
 
 /// What is held against the truth, and what it is called in the map.
 inline constexpr const char* exact_rod_oracle = "momentum balances and flight in 50 digits";
@@ -91,4 +91,4 @@ class PeriodicSpin {
   long double longest_step_ = 0, period_ = 0, angle_ = 0;
 };
 
-}  // namespace clatter::validation::inline extremes
+}  // namespace clatter::validation

@@ -11,7 +11,7 @@
 #include "validation/oracles/free_top.hpp"
 #include "validation/record/names.hpp"
 
-namespace clatter::validation::inline extremes {
+namespace clatter::validation {
 namespace {
 
 namespace space = analytic::space;
@@ -185,4 +185,4 @@ std::vector<ExtremeCase> rim_cases(const MapAxis& axis) {
   return cases;
 }
 
-}  // namespace clatter::validation::inline extremes
+}  // namespace clatter::validation

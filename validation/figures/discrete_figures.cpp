@@ -10,7 +10,7 @@
 #include "analytic/plane/contact_angles.hpp"
 #include "validation/figures/figure.hpp"
 
-namespace clatter::validation::inline figures {
+namespace clatter::validation {
 namespace {
 
 using analytic::Angle;
@@ -206,4 +206,4 @@ Figure figure_impulses_with_gravity() {
                          {.y_label = "normal impulse P₁, P₂, P₃", .y = {0, no_number}, .legend_place = "beside"});
 }
 
-}  // namespace clatter::validation::inline figures
+}  // namespace clatter::validation

@@ -14,7 +14,7 @@
 #include "validation/output/sink.hpp"
 #include "validation/output/version.hpp"
 
-namespace clatter::validation::inline figures {
+namespace clatter::validation {
 
 std::size_t column_index(const std::vector<FigureColumn>& columns, const std::string& name) {
   for (std::size_t i = 0; i < columns.size(); ++i) {
@@ -174,4 +174,4 @@ void write_figure(const Figure& figure, const FigureFiles& files) {
   sink.commit();
 }
 
-}  // namespace clatter::validation::inline figures
+}  // namespace clatter::validation

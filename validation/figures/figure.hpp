@@ -12,7 +12,7 @@
 #include "validation/output/palette.hpp"
 #include "validation/output/report.hpp"
 
-namespace clatter::validation::inline figures {
+namespace clatter::validation {
 
 /// In place of a number that a row or a range does not have: nothing is drawn there.
 inline constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
@@ -168,4 +168,4 @@ void check_figure_files(const std::vector<int>& numbers, const FigureFiles& file
 /// Writes the figure's file, whole or not at all.  @throws BadInput naming the file if it cannot be written.
 void write_figure(const Figure& figure, const FigureFiles& files);
 
-}  // namespace clatter::validation::inline figures
+}  // namespace clatter::validation

@@ -23,7 +23,7 @@
 #include "validation/output/shell_word.hpp"
 #include "validation/output/symbols.hpp"
 
-namespace clatter::validation::inline figures {
+namespace clatter::validation {
 
 namespace {
 
@@ -387,4 +387,4 @@ std::string plot_command(const PlotData& data, const FigurePlot& plot, const std
   return command + "\n";
 }
 
-}  // namespace clatter::validation::inline figures
+}  // namespace clatter::validation

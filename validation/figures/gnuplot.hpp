@@ -7,7 +7,7 @@
 
 #include "validation/figures/figure.hpp"
 
-namespace clatter::validation::inline figures {
+namespace clatter::validation {
 
 /// Runs a script with gnuplot's default settings; returns what it writes to its standard output.
 /// @throws BadInput if gnuplot is not there; std::runtime_error with its first line of complaint if it fails, or if no
@@ -44,4 +44,4 @@ struct PlotData {
 /// plot says so.
 [[nodiscard]] std::string plot_command(const PlotData& data, const FigurePlot& plot, const std::string& name);
 
-}  // namespace clatter::validation::inline figures
+}  // namespace clatter::validation

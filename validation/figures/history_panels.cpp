@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "validation/figures/history_panels.hpp"
 
-namespace clatter::validation::inline figures {
+namespace clatter::validation {
 
 FigurePlot energy_panel(FigurePlot axes, const std::vector<EnergyCurve>& energies, const RowFilter& where) {
   axes.y_label = "energy [J]";
@@ -42,4 +42,4 @@ void add_history_panels(Figure& figure, const std::string& caption, const std::s
                                       where));
 }
 
-}  // namespace clatter::validation::inline figures
+}  // namespace clatter::validation

@@ -8,7 +8,7 @@
 
 #include "validation/figures/figure.hpp"
 
-namespace clatter::validation::inline figures {
+namespace clatter::validation {
 
 /// A column, its name in the legend and its colour.
 struct EnergyCurve {
@@ -29,4 +29,4 @@ void add_history_row(Figure& figure, std::vector<double> front, const numeric::H
 void add_history_panels(Figure& figure, const std::string& caption, const std::string& force_legend,
                         const RowFilter& where = {});
 
-}  // namespace clatter::validation::inline figures
+}  // namespace clatter::validation

@@ -9,7 +9,7 @@
 #include "validation/figures/history_panels.hpp"
 #include "validation/scene/discrete_scene.hpp"
 
-namespace clatter::validation::inline figures {
+namespace clatter::validation {
 namespace {
 
 using Style = FigureCurve::Style;
@@ -182,4 +182,4 @@ Figure figure_phone_over_angle(CaseRuns& case_runs) {
   return figure;
 }
 
-}  // namespace clatter::validation::inline figures
+}  // namespace clatter::validation

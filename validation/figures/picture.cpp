@@ -11,7 +11,7 @@
 #include "validation/figures/gnuplot.hpp"
 #include "validation/output/report.hpp"
 
-namespace clatter::validation::inline figures {
+namespace clatter::validation {
 
 namespace {
 
@@ -176,4 +176,4 @@ std::vector<std::string> draw(const Figure& figure) {
   return pictures;
 }
 
-}  // namespace clatter::validation::inline figures
+}  // namespace clatter::validation

@@ -7,7 +7,7 @@
 
 #include "validation/figures/figure.hpp"
 
-namespace clatter::validation::inline figures {
+namespace clatter::validation {
 
 /// One plot with the numbers that it shows.
 struct PicturePanel {
@@ -37,4 +37,4 @@ enum class PictureFormat { svg, png };
 /// @throws as run_gnuplot.
 [[nodiscard]] std::vector<std::string> draw(const Figure& figure);
 
-}  // namespace clatter::validation::inline figures
+}  // namespace clatter::validation

@@ -12,7 +12,7 @@
 #include "validation/figures/history_panels.hpp"
 #include "validation/scene/discrete_scene.hpp"
 
-namespace clatter::validation::inline figures {
+namespace clatter::validation {
 
 namespace {
 
@@ -325,4 +325,4 @@ Figure figure_rod_sequence(CaseRuns& case_runs) {
   return figure;
 }
 
-}  // namespace clatter::validation::inline figures
+}  // namespace clatter::validation

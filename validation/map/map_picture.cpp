@@ -18,7 +18,7 @@
 #include "validation/output/number.hpp"
 #include "validation/output/palette.hpp"
 
-namespace clatter::validation::inline map {
+namespace clatter::validation {
 namespace {
 
 constexpr double missing = std::numeric_limits<double>::quiet_NaN();
@@ -485,4 +485,4 @@ std::string map_array(const MapPlan& plan, const MapImage& image) {
          });
 }
 
-}  // namespace clatter::validation::inline map
+}  // namespace clatter::validation

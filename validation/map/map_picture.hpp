@@ -7,7 +7,7 @@
 
 #include "validation/map/map_run.hpp"
 
-namespace clatter::validation::inline map {
+namespace clatter::validation {
 
 /// The pixels of a map, row by row from below, as they came.
 struct MapImage {
@@ -32,4 +32,4 @@ struct FoldCurve {
 /// classes' names; with samples three of them: probability, low, high.
 [[nodiscard]] std::string map_array(const MapPlan& plan, const MapImage& image);
 
-}  // namespace clatter::validation::inline map
+}  // namespace clatter::validation

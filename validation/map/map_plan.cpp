@@ -10,7 +10,7 @@
 #include "validation/output/number.hpp"
 #include "validation/scene/option_values.hpp"
 
-namespace clatter::validation::inline map {
+namespace clatter::validation {
 namespace {
 
 constexpr int most_pixels_across = 20'000, most_impacts = 1'000'000;
@@ -244,4 +244,4 @@ MapPlan read_map_plan(const MapRequest& request) {
   return plan;
 }
 
-}  // namespace clatter::validation::inline map
+}  // namespace clatter::validation

@@ -9,7 +9,7 @@
 #include "analytic/batch/batch.hpp"
 #include "validation/sweep/sweep_plan.hpp"
 
-namespace clatter::validation::inline map {
+namespace clatter::validation {
 
 /// A quantity that a map may show.
 struct MapQuantity {
@@ -62,4 +62,4 @@ struct MapPlan {
 /// @throws BadInput with one line.
 [[nodiscard]] MapPlan read_map_plan(const MapRequest& request);
 
-}  // namespace clatter::validation::inline map
+}  // namespace clatter::validation

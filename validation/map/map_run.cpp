@@ -13,7 +13,7 @@
 #include "validation/output/number.hpp"
 #include "validation/scene/failure.hpp"
 
-namespace clatter::validation::inline map {
+namespace clatter::validation {
 namespace {
 
 using analytic::BatchEnd;
@@ -279,4 +279,4 @@ std::vector<MapPixel> read_map_row(const std::string& line) {
   return pixels;
 }
 
-}  // namespace clatter::validation::inline map
+}  // namespace clatter::validation

@@ -8,7 +8,7 @@
 #include "validation/map/map_plan.hpp"
 #include "validation/sweep/sweep_run.hpp"
 
-namespace clatter::validation::inline map {
+namespace clatter::validation {
 
 /// How the rows of a map are written: as CSV, a line for each pixel; or for the picture, a line for each row.
 enum class MapForm { csv, compact };
@@ -35,4 +35,4 @@ struct Wilson {
 /// The pixels of a line of the compact form.
 [[nodiscard]] std::vector<MapPixel> read_map_row(const std::string& line);
 
-}  // namespace clatter::validation::inline map
+}  // namespace clatter::validation

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace clatter::validation::inline measured {
+namespace clatter::validation {
 namespace {
 
 constexpr double least_ground_error = 1e-6;  // [m]
@@ -194,4 +194,4 @@ std::vector<PartImpact> impacts_of(const MeasuredFile& file, const TrackPart& pa
   return impacts;
 }
 
-}  // namespace clatter::validation::inline measured
+}  // namespace clatter::validation

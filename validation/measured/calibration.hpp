@@ -7,7 +7,7 @@
 #include "validation/measured/meetings.hpp"
 #include "validation/measured/robust_fit.hpp"
 
-namespace clatter::validation::inline measured {
+namespace clatter::validation {
 
 /// Indices of tracks in a file: those to fit on, or those to score.
 using TrackPart = std::vector<std::size_t>;
@@ -42,4 +42,4 @@ struct PartImpact {
 [[nodiscard]] std::vector<PartImpact> impacts_of(const MeasuredFile& file, const TrackPart& part,
                                                  const TrackedBody& body, double ground_error, int number);
 
-}  // namespace clatter::validation::inline measured
+}  // namespace clatter::validation

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace clatter::validation::inline measured {
+namespace clatter::validation {
 
 namespace {
 
@@ -345,4 +345,4 @@ FallGravity fall_gravity(const TrackFile& file, const PoseNoise& noise) {
   return {middle, std::max(least_spread, std::sqrt(rest))};
 }
 
-}  // namespace clatter::validation::inline measured
+}  // namespace clatter::validation

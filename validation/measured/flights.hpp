@@ -16,7 +16,7 @@
 
 #include "validation/measured/track.hpp"
 
-namespace clatter::validation::inline measured {
+namespace clatter::validation {
 
 /// Covariance of a state: position [m], attitude (rotation vector in the world frame) [rad], velocity [m/s], angular
 /// velocity [rad/s], world frame, in this order.
@@ -114,4 +114,4 @@ enum class FlightSide { first, last };
 /// errors; where there are fewer than 5 of those the description's, known to 5 %.
 [[nodiscard]] FallGravity fall_gravity(const TrackFile& file, const PoseNoise& noise);
 
-}  // namespace clatter::validation::inline measured
+}  // namespace clatter::validation

@@ -14,7 +14,7 @@
 #include "validation/record/names.hpp"
 #include "validation/sweep/counter_random.hpp"
 
-namespace clatter::validation::inline measured {
+namespace clatter::validation {
 namespace {
 
 using analytic::space::FirstContact;
@@ -219,4 +219,4 @@ Forecast forecast(const ForecastModel& model, const TrackImpact& start, const Fo
   return result;
 }
 
-}  // namespace clatter::validation::inline measured
+}  // namespace clatter::validation

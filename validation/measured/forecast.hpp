@@ -8,7 +8,7 @@
 
 #include "validation/measured/law_fit.hpp"
 
-namespace clatter::validation::inline measured {
+namespace clatter::validation {
 
 /// Velocity and k Ω after an impact, world frame: six numbers in m/s, k² = I/m.
 using MotionParts = Eigen::Matrix<double, 6, 1>;
@@ -84,4 +84,4 @@ struct ForecastRequest {
 /// A sample of a measured state.
 [[nodiscard]] analytic::space::State sample_of(const MeasuredState& state, std::uint64_t seed, std::uint64_t sample);
 
-}  // namespace clatter::validation::inline measured
+}  // namespace clatter::validation

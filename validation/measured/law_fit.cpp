@@ -7,7 +7,7 @@
 #include "analytic/base/errors.hpp"
 #include "analytic/space/impact.hpp"
 
-namespace clatter::validation::inline measured {
+namespace clatter::validation {
 namespace {
 
 using analytic::RestitutionLaw;
@@ -141,4 +141,4 @@ const char* fitted_law_name(RestitutionLaw law) {
   return "";
 }
 
-}  // namespace clatter::validation::inline measured
+}  // namespace clatter::validation

@@ -8,7 +8,7 @@
 #include "analytic/plane/impact.hpp"
 #include "validation/measured/calibration.hpp"
 
-namespace clatter::validation::inline measured {
+namespace clatter::validation {
 
 /// An impact law with numbers.  Restitution may depend on the effective mass of the corner,
 ///     e = e₀ + e₁ ν,   ν = 1/(m W_nn) in (0, 1]: 1 where the centre is above the corner,           (1)
@@ -61,4 +61,4 @@ struct LawFit {
 [[nodiscard]] const std::array<analytic::RestitutionLaw, 3>& fitted_laws();
 [[nodiscard]] const char* fitted_law_name(analytic::RestitutionLaw law);
 
-}  // namespace clatter::validation::inline measured
+}  // namespace clatter::validation

@@ -10,7 +10,7 @@
 #include "analytic/base/errors.hpp"
 #include "analytic/space/first_contact.hpp"
 
-namespace clatter::validation::inline measured {
+namespace clatter::validation {
 
 namespace {
 
@@ -366,4 +366,4 @@ TrackImpact measured_impact(const Meeting& meeting, const TrackedBody& body, dou
   return impact;
 }
 
-}  // namespace clatter::validation::inline measured
+}  // namespace clatter::validation

@@ -8,7 +8,7 @@
 
 #include "validation/measured/flights.hpp"
 
-namespace clatter::validation::inline measured {
+namespace clatter::validation {
 
 /// Why the motion changed between two flights.
 enum class Change {
@@ -97,4 +97,4 @@ struct TrackImpact {
 [[nodiscard]] TrackImpact measured_impact(const Meeting& meeting, const TrackedBody& body, double ground_error,
                                           double lever_tolerance);
 
-}  // namespace clatter::validation::inline measured
+}  // namespace clatter::validation

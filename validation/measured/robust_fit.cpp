@@ -12,7 +12,7 @@
 
 #include "analytic/base/errors.hpp"
 
-namespace clatter::validation::inline measured {
+namespace clatter::validation {
 namespace {
 
 constexpr double missing = std::numeric_limits<double>::quiet_NaN();
@@ -171,4 +171,4 @@ PairedDifference paired_difference(const Eigen::VectorXd& a, const Eigen::Vector
   return {mean, spread / std::sqrt(n)};
 }
 
-}  // namespace clatter::validation::inline measured
+}  // namespace clatter::validation

@@ -6,7 +6,7 @@
 #include <functional>
 #include <vector>
 
-namespace clatter::validation::inline measured {
+namespace clatter::validation {
 
 /// The loss of each item (a drop, say) for given parameters.
 using Losses = std::function<Eigen::VectorXd(const Eigen::VectorXd& parameters)>;
@@ -43,4 +43,4 @@ struct PairedDifference {
 };
 [[nodiscard]] PairedDifference paired_difference(const Eigen::VectorXd& a, const Eigen::VectorXd& b);
 
-}  // namespace clatter::validation::inline measured
+}  // namespace clatter::validation

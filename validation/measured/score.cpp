@@ -11,7 +11,7 @@
 #include "validation/output/number.hpp"
 #include "validation/sweep/counter_random.hpp"
 
-namespace clatter::validation::inline measured {
+namespace clatter::validation {
 
 namespace {
 
@@ -373,4 +373,4 @@ CrossedScores crossed_scores(const std::string& name) {
   return {residual_bins(one.drops), std::fmax(flat(one), flat(other))};
 }
 
-}  // namespace clatter::validation::inline measured
+}  // namespace clatter::validation

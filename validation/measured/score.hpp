@@ -7,7 +7,7 @@
 
 #include "validation/measured/forecast.hpp"
 
-namespace clatter::validation::inline measured {
+namespace clatter::validation {
 
 /// Which drops to fit on and which to score: never the same.
 struct TrackSplit {
@@ -114,4 +114,4 @@ struct CrossedScores {
 };
 [[nodiscard]] CrossedScores crossed_scores(const std::string& name);
 
-}  // namespace clatter::validation::inline measured
+}  // namespace clatter::validation

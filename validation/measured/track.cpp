@@ -12,7 +12,7 @@
 #include "validation/output/number.hpp"
 #include "validation/tables/numeric_table.hpp"
 
-namespace clatter::validation::inline measured {
+namespace clatter::validation {
 namespace {
 
 constexpr double least_noise = 1e-7;     // [m], [rad]
@@ -162,4 +162,4 @@ PoseNoise pose_noise(const TrackFile& file) {
   return noise;
 }
 
-}  // namespace clatter::validation::inline measured
+}  // namespace clatter::validation

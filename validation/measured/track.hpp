@@ -7,7 +7,7 @@
 
 #include "validation/measured/tracked_body.hpp"
 
-namespace clatter::validation::inline measured {
+namespace clatter::validation {
 
 /// One pose.
 struct Frame {
@@ -64,4 +64,4 @@ inline constexpr double deviation_of_median = 1.4826;
 /// The value below which a share of a list lies, between neighbours in proportion; NaN of none.
 [[nodiscard]] double quantile(std::vector<double> values, double share);
 
-}  // namespace clatter::validation::inline measured
+}  // namespace clatter::validation

@@ -11,7 +11,7 @@
 #include "validation/output/bad_input.hpp"
 #include "validation/scene/scene_values.hpp"
 
-namespace clatter::validation::inline measured {
+namespace clatter::validation {
 namespace {
 
 using analytic::space::Body;
@@ -199,4 +199,4 @@ std::size_t TrackedBody::down_face(const Quaternion& attitude) const {
   return static_cast<std::size_t>(place - faces_.begin());
 }
 
-}  // namespace clatter::validation::inline measured
+}  // namespace clatter::validation

@@ -17,7 +17,7 @@
 
 #include "analytic/space/body.hpp"
 
-namespace clatter::validation::inline measured {
+namespace clatter::validation {
 
 using analytic::space::cross_matrix;
 using analytic::space::Matrix3;
@@ -111,4 +111,4 @@ class TrackedBody {
 /// Ends of the ranges of the angle between arm and vertical [°] by which scores and extremes list measured drops.
 inline constexpr double arm_angle_edges[] = {0, 10, 20, 25, 30, 35, 40, 60};
 
-}  // namespace clatter::validation::inline measured
+}  // namespace clatter::validation

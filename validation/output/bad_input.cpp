@@ -7,7 +7,7 @@
 
 #include "validation/output/symbols.hpp"
 
-namespace clatter::validation::inline output {
+namespace clatter::validation {
 namespace {
 
 std::size_t edit_distance(const std::string& from, const std::string& to) {
@@ -45,4 +45,4 @@ void say(const std::string& words) {
   std::fwrite(line.data(), 1, line.size(), stderr);
 }
 
-}  // namespace clatter::validation::inline output
+}  // namespace clatter::validation

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace clatter::validation::inline output {
+namespace clatter::validation {
 
 class BadInput : public std::runtime_error {
  public:
@@ -20,4 +20,4 @@ class BadInput : public std::runtime_error {
 /// or hung up), which changes neither the run nor its status.
 void say(const std::string& words);
 
-}  // namespace clatter::validation::inline output
+}  // namespace clatter::validation

@@ -9,7 +9,7 @@
 #include "validation/output/number.hpp"
 #include "validation/output/report.hpp"
 
-namespace clatter::validation::inline output {
+namespace clatter::validation {
 
 void CellWriter::pack(double value) {
   char bytes[1 + sizeof value] = {'d'};
@@ -87,4 +87,4 @@ bool PackedRows::next(std::vector<PackedCell>& row) {
   return true;
 }
 
-}  // namespace clatter::validation::inline output
+}  // namespace clatter::validation

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-namespace clatter::validation::inline output {
+namespace clatter::validation {
 
 /// Appends cells to a text.  CSV: a comma before each, numbers in their shortest form.  Packed: a letter, then what it
 /// announces, in the byte order of the machine:
@@ -61,4 +61,4 @@ class PackedRows {
   std::string_view rest_;
 };
 
-}  // namespace clatter::validation::inline output
+}  // namespace clatter::validation

@@ -6,7 +6,7 @@
 #include <cstdlib>
 #include <string_view>
 
-namespace clatter::validation::inline output {
+namespace clatter::validation {
 
 bool shows_colours() {
   const char* const terminal = std::getenv("TERM");
@@ -29,4 +29,4 @@ std::string with_colours(const std::string& table) {
   return out;
 }
 
-}  // namespace clatter::validation::inline output
+}  // namespace clatter::validation

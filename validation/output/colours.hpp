@@ -4,7 +4,7 @@
 
 #include <string>
 
-namespace clatter::validation::inline output {
+namespace clatter::validation {
 
 /// Whether stdout is a terminal that knows colours, and NO_COLOR is not set.
 [[nodiscard]] bool shows_colours();
@@ -12,4 +12,4 @@ namespace clatter::validation::inline output {
 /// The text of a report as a table: dim as far as the heading of its first block, and each "?" that stands alone bold.
 [[nodiscard]] std::string with_colours(const std::string& table);
 
-}  // namespace clatter::validation::inline output
+}  // namespace clatter::validation

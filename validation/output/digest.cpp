@@ -6,7 +6,7 @@
 
 #include "validation/output/bad_input.hpp"
 
-namespace clatter::validation::inline output {
+namespace clatter::validation {
 
 std::uint64_t file_digest(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
@@ -21,4 +21,4 @@ std::uint64_t file_digest(const std::string& path) {
   return digest.value();
 }
 
-}  // namespace clatter::validation::inline output
+}  // namespace clatter::validation

@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-namespace clatter::validation::inline output {
+namespace clatter::validation {
 
 /// CRC-64/XZ: any damage within 64 bits in a row is noticed, any other but with a chance of 5e-20.  No secret, so that
 /// it guards against accidents and not against intent.
@@ -23,4 +23,4 @@ class Digest {
 /// The digest of a file's contents.  @throws BadInput naming the file if it cannot be read.
 [[nodiscard]] std::uint64_t file_digest(const std::string& path);
 
-}  // namespace clatter::validation::inline output
+}  // namespace clatter::validation

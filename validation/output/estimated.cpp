@@ -5,7 +5,7 @@
 
 #include "validation/output/number.hpp"
 
-namespace clatter::validation::inline output {
+namespace clatter::validation {
 namespace {
 
 constexpr int digits_of_zero = 6;
@@ -39,4 +39,4 @@ Cell known_cell(const Estimated& number, const Shown& shown) {
 
 std::string known_text(const Estimated& number, const Shown& shown) { return shown_text(known_cell(number, shown)); }
 
-}  // namespace clatter::validation::inline output
+}  // namespace clatter::validation

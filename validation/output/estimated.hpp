@@ -9,7 +9,7 @@
 #include "validation/output/number.hpp"
 #include "validation/output/report.hpp"
 
-namespace clatter::validation::inline output {
+namespace clatter::validation {
 
 /// The error of a number of which nothing is known.
 inline constexpr double unknown_error = std::numeric_limits<double>::infinity();
@@ -54,4 +54,4 @@ struct Shown {
   return number.is_known() ? Value(rounded_up(number.error)) : Value();
 }
 
-}  // namespace clatter::validation::inline output
+}  // namespace clatter::validation

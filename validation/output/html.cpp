@@ -5,7 +5,7 @@
 
 #include "validation/output/number.hpp"
 
-namespace clatter::validation::inline output {
+namespace clatter::validation {
 namespace {
 
 std::string paragraphs(const std::vector<std::string>& lines) {
@@ -60,4 +60,4 @@ std::string html_table(const Report& report) {
   return out + "</tbody>\n</table>\n" + paragraphs(notes_and_commands(report));
 }
 
-}  // namespace clatter::validation::inline output
+}  // namespace clatter::validation

@@ -6,7 +6,7 @@
 
 #include "validation/output/report.hpp"
 
-namespace clatter::validation::inline output {
+namespace clatter::validation {
 
 /// With &, <, > and " as entities.
 [[nodiscard]] std::string html_escaped(const std::string& text);
@@ -14,4 +14,4 @@ namespace clatter::validation::inline output {
 /// The shown columns as a `table` between paragraphs with head and notes; numbers to the right.
 [[nodiscard]] std::string html_table(const Report& report);
 
-}  // namespace clatter::validation::inline output
+}  // namespace clatter::validation

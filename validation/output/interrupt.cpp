@@ -13,7 +13,7 @@
 #include <stdexcept>
 #include <string_view>
 
-namespace clatter::validation::inline output {
+namespace clatter::validation {
 namespace {
 
 std::atomic<bool> requested_flag{false};
@@ -95,4 +95,4 @@ void keep_on_interrupt(const std::string& path) {
   }
 }
 
-}  // namespace clatter::validation::inline output
+}  // namespace clatter::validation

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace clatter::validation::inline output {
+namespace clatter::validation {
 
 /// Installs the handlers; a broken pipe and a file that may not grow become write errors instead of signals.  SIGHUP
 /// stays ignored where nohup wants that.
@@ -50,4 +50,4 @@ void keep_on_interrupt(const std::string& path);
 /// Status of an interrupted run.
 inline constexpr int interrupted_status = 130;
 
-}  // namespace clatter::validation::inline output
+}  // namespace clatter::validation

@@ -9,7 +9,7 @@
 
 #include "validation/output/long_report.hpp"
 
-namespace clatter::validation::inline output {
+namespace clatter::validation {
 namespace {
 
 using List = Value::List;
@@ -127,4 +127,4 @@ void write_json(const Value& fields, const std::string& list, std::size_t count,
   write((count > 0 ? "\n  " : "") + whole.substr(cut));
 }
 
-}  // namespace clatter::validation::inline output
+}  // namespace clatter::validation

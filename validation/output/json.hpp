@@ -7,7 +7,7 @@
 
 #include "validation/output/value.hpp"
 
-namespace clatter::validation::inline output {
+namespace clatter::validation {
 
 using Json = nlohmann::ordered_json;
 
@@ -20,4 +20,4 @@ using Json = nlohmann::ordered_json;
 /// The same without blanks, on one line.
 [[nodiscard]] std::string compact_json(const Value& value);
 
-}  // namespace clatter::validation::inline output
+}  // namespace clatter::validation

@@ -9,7 +9,7 @@
 
 #include "validation/output/report.hpp"
 
-namespace clatter::validation::inline output {
+namespace clatter::validation {
 
 /// Rows by their number, from 0.  A row is valid until the next one is asked for.
 struct RowSource {
@@ -29,4 +29,4 @@ void write_rows(const Report& report, const RowSource& rows, const TextStyle& st
 void write_json(const Value& fields, const std::string& list, std::size_t count,
                 const std::function<Value(std::size_t)>& item, const WriteText& write);
 
-}  // namespace clatter::validation::inline output
+}  // namespace clatter::validation

@@ -9,7 +9,7 @@
 #include <cmath>
 #include <limits>
 
-namespace clatter::validation::inline output {
+namespace clatter::validation {
 
 std::string shortest(double value) { return fmt::format("{}", value + 0.0); }
 
@@ -133,4 +133,4 @@ bool read_integer(std::string_view text, long long& value) {
   return error == std::errc() && stop == end;
 }
 
-}  // namespace clatter::validation::inline output
+}  // namespace clatter::validation

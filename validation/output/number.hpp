@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-namespace clatter::validation::inline output {
+namespace clatter::validation {
 
 /// Shortest decimal text that reads back as the same double; "nan", "inf", "-inf" otherwise.
 [[nodiscard]] std::string shortest(double value);
@@ -47,4 +47,4 @@ void append_number(std::string& out, double value);
 /// Reads a whole text as a decimal integer.
 [[nodiscard]] bool read_integer(std::string_view text, long long& value);
 
-}  // namespace clatter::validation::inline output
+}  // namespace clatter::validation

@@ -6,7 +6,7 @@
 
 #include <array>
 
-namespace clatter::validation::inline output::palette {
+namespace clatter::validation::palette {
 
 inline constexpr const char *discrete = "#0072b2", *continuous = "#d55e00";
 inline constexpr const char *beta = "#0072b2", *gamma = "#cc79a7";
@@ -23,4 +23,4 @@ inline constexpr const char *infinite = "#14141f", *beyond = "#6b7280", *refused
 /// Numbers from the least to the greatest, in equal steps between which colours are mixed.
 inline constexpr std::array<const char*, 6> numbers{"#0b1f4a", "#27508a", "#4f86a6", "#86b29b", "#cfd08a", "#fdf6c4"};
 
-}  // namespace clatter::validation::inline output::palette
+}  // namespace clatter::validation::palette

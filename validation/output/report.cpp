@@ -14,7 +14,7 @@
 #include "validation/output/symbols.hpp"
 #include "validation/output/version.hpp"
 
-namespace clatter::validation::inline output {
+namespace clatter::validation {
 namespace {
 
 constexpr std::size_t table_width = 80;   // of a terminal
@@ -505,4 +505,4 @@ std::string report_text(const Report& report, const TextStyle& style) {
   return text;
 }
 
-}  // namespace clatter::validation::inline output
+}  // namespace clatter::validation

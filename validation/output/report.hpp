@@ -9,7 +9,7 @@
 
 #include "validation/output/value.hpp"
 
-namespace clatter::validation::inline output {
+namespace clatter::validation {
 
 enum class Format { table, csv, json, markdown, latex };
 
@@ -124,4 +124,4 @@ void note_interrupt(const std::string& left_out, Report& report);
 [[nodiscard]] std::string folded_command(const std::string& command, const std::string& indent = "  ",
                                          std::size_t width = 79);
 
-}  // namespace clatter::validation::inline output
+}  // namespace clatter::validation

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "validation/output/shell_word.hpp"
 
-namespace clatter::validation::inline output {
+namespace clatter::validation {
 
 std::string shell_word(const std::string& word) {
   const char* const plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./+,@%=:";
@@ -14,4 +14,4 @@ std::string shell_word(const std::string& word) {
   return text + "'";
 }
 
-}  // namespace clatter::validation::inline output
+}  // namespace clatter::validation

@@ -3,9 +3,9 @@
 
 #include <string>
 
-namespace clatter::validation::inline output {
+namespace clatter::validation {
 
 /// A word of a command as a shell takes it: in quotes where it needs them.
 [[nodiscard]] std::string shell_word(const std::string& word);
 
-}  // namespace clatter::validation::inline output
+}  // namespace clatter::validation

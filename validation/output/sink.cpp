@@ -21,7 +21,7 @@
 #include "validation/output/bad_input.hpp"
 #include "validation/output/interrupt.hpp"
 
-namespace clatter::validation::inline output {
+namespace clatter::validation {
 namespace {
 
 namespace fs = std::filesystem;
@@ -224,4 +224,4 @@ void Sink::commit() {
   temporary_.clear();
 }
 
-}  // namespace clatter::validation::inline output
+}  // namespace clatter::validation

@@ -11,7 +11,7 @@
 #include <string>
 #include <string_view>
 
-namespace clatter::validation::inline output {
+namespace clatter::validation {
 
 /// A file that a run writes; an empty path: none.
 struct RunFile {
@@ -87,4 +87,4 @@ class Sink {
   std::FILE* stream_ = nullptr;
 };
 
-}  // namespace clatter::validation::inline output
+}  // namespace clatter::validation

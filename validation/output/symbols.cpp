@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-namespace clatter::validation::inline output {
+namespace clatter::validation {
 namespace {
 
 /// Characters, and after each what stands for it: separated by blanks, or a text for each.
@@ -90,4 +90,4 @@ std::string printable(std::string_view text, Lines lines) {
   return out;
 }
 
-}  // namespace clatter::validation::inline output
+}  // namespace clatter::validation

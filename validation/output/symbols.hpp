@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-namespace clatter::validation::inline output {
+namespace clatter::validation {
 
 /// LaTeX for the characters that it reads as commands, and for the symbols that the program prints.
 [[nodiscard]] std::string to_latex(const std::string& text);
@@ -17,4 +17,4 @@ enum class Lines { escaped, kept };
 /// that are no UTF-8 become escapes such as \x1b.  Line feeds stay where lines are kept.
 [[nodiscard]] std::string printable(std::string_view text, Lines lines = Lines::escaped);
 
-}  // namespace clatter::validation::inline output
+}  // namespace clatter::validation

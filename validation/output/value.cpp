@@ -7,7 +7,7 @@
 
 #include "validation/output/number.hpp"
 
-namespace clatter::validation::inline output {
+namespace clatter::validation {
 
 Value::Value() : content_(nullptr) {}
 Value::Value(std::nullptr_t) : content_(nullptr) {}
@@ -61,4 +61,4 @@ void Value::push_back(Value value) {
 
 Value text_or_nothing(const std::string& text) { return text.empty() ? Value() : Value(text); }
 
-}  // namespace clatter::validation::inline output
+}  // namespace clatter::validation

@@ -7,7 +7,7 @@
 #include <variant>
 #include <vector>
 
-namespace clatter::validation::inline output {
+namespace clatter::validation {
 
 struct Field;
 
@@ -70,4 +70,4 @@ struct Field {
 /// Nothing in place of an empty text.
 [[nodiscard]] Value text_or_nothing(const std::string& text);
 
-}  // namespace clatter::validation::inline output
+}  // namespace clatter::validation

@@ -8,7 +8,7 @@
 #include "analytic/plane/contact_angles.hpp"
 #include "analytic/plane/sequence.hpp"
 
-namespace clatter::validation::inline plan {
+namespace clatter::validation {
 namespace {
 
 using analytic::Drop;
@@ -108,4 +108,4 @@ Sequence closed_form_sequence(const Drop& drop, int impacts) {
   return sequence;
 }
 
-}  // namespace clatter::validation::inline plan
+}  // namespace clatter::validation

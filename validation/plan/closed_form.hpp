@@ -6,7 +6,7 @@
 
 #include "analytic/plane/sequence.hpp"
 
-namespace clatter::validation::inline plan {
+namespace clatter::validation {
 
 /// Why the closed form does not apply to a drop; empty: it does.  It is for a thin rod that falls straight, one end
 /// first, with Newton's restitution and an impulse ratio as given, or none.
@@ -17,4 +17,4 @@ namespace clatter::validation::inline plan {
 /// the rows' errors are left unknown.
 [[nodiscard]] analytic::Sequence closed_form_sequence(const analytic::Drop& drop, int impacts);
 
-}  // namespace clatter::validation::inline plan
+}  // namespace clatter::validation

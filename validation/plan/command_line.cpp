@@ -9,7 +9,7 @@
 #include "validation/plan/plan.hpp"
 #include "validation/scene/keys.hpp"
 
-namespace clatter::validation::inline plan {
+namespace clatter::validation {
 namespace {
 
 using Overrides = std::vector<SceneOverride>;
@@ -50,4 +50,4 @@ std::string command_line(const Plan& plan) {
                      flag_words(chosen));
 }
 
-}  // namespace clatter::validation::inline plan
+}  // namespace clatter::validation

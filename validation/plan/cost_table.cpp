@@ -9,7 +9,7 @@
 #include "validation/embedded/embedded.hpp"
 #include "validation/scene/scene.hpp"
 
-namespace clatter::validation::inline plan {
+namespace clatter::validation {
 namespace {
 
 using numeric::Method;
@@ -156,4 +156,4 @@ double CostTable::evaluations(Method method, double tolerance) const {
 
 double CostTable::error(Method method, double tolerance) const { return at(method, tolerance, &Curve::log_error); }
 
-}  // namespace clatter::validation::inline plan
+}  // namespace clatter::validation

@@ -8,7 +8,7 @@
 
 #include "numeric/stepping/stepper.hpp"
 
-namespace clatter::validation::inline plan {
+namespace clatter::validation {
 
 /// The adaptive methods on the eight scenes of the table, each scene taken relative to its own run with rkck, and the
 /// median taken over the scenes.  Counts of evaluations and errors are used, no times, so that what follows from the
@@ -39,4 +39,4 @@ class CostTable {
   std::map<numeric::Method, Curve> curves_;
 };
 
-}  // namespace clatter::validation::inline plan
+}  // namespace clatter::validation

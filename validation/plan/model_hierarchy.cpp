@@ -11,7 +11,7 @@
 #include "validation/record/names.hpp"
 #include "validation/scene/discrete_scene.hpp"
 
-namespace clatter::validation::inline plan {
+namespace clatter::validation {
 namespace {
 
 using numeric::Method;
@@ -183,4 +183,4 @@ Truth true_values(const ModelHierarchy& hierarchy, double trusted) {
   return truth;
 }
 
-}  // namespace clatter::validation::inline plan
+}  // namespace clatter::validation

@@ -11,7 +11,7 @@
 #include "validation/record/motion_numbers.hpp"
 #include "validation/scene/scene.hpp"
 
-namespace clatter::validation::inline plan {
+namespace clatter::validation {
 
 /// The models, from the cheapest to the one that leaves nothing out.
 enum class ModelLevel {
@@ -118,4 +118,4 @@ struct Truth {
 };
 [[nodiscard]] Truth true_values(const ModelHierarchy& hierarchy, double trusted = 1e-6);
 
-}  // namespace clatter::validation::inline plan
+}  // namespace clatter::validation

@@ -11,7 +11,7 @@
 #include "validation/plan/tolerance_search.hpp"
 #include "validation/record/names.hpp"
 
-namespace clatter::validation::inline plan {
+namespace clatter::validation {
 namespace {
 
 using numeric::Method;
@@ -293,4 +293,4 @@ Plan make_plan(const Scene& scene, const PlanTarget& target, const numeric::Obse
   return Planner(scene, target, observer).make();
 }
 
-}  // namespace clatter::validation::inline plan
+}  // namespace clatter::validation

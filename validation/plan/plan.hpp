@@ -9,7 +9,7 @@
 
 #include "validation/plan/model_hierarchy.hpp"
 
-namespace clatter::validation::inline plan {
+namespace clatter::validation {
 
 /// What is asked for.
 struct PlanTarget {
@@ -81,4 +81,4 @@ struct Plan {
 /// The command line that runs the plan's choice.
 [[nodiscard]] std::string command_line(const Plan& plan);
 
-}  // namespace clatter::validation::inline plan
+}  // namespace clatter::validation

@@ -18,7 +18,7 @@
 #include "validation/record/names.hpp"
 #include "validation/scene/shortfall.hpp"
 
-namespace clatter::validation::inline plan {
+namespace clatter::validation {
 namespace {
 
 using numeric::Accuracy;
@@ -256,4 +256,4 @@ std::string shortfall(const Scene& scene, const PlannedRun& planned) {
   return digits_shortfall(scene.accuracy.digits, planned.achieved);
 }
 
-}  // namespace clatter::validation::inline plan
+}  // namespace clatter::validation

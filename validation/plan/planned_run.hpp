@@ -8,7 +8,7 @@
 #include "validation/record/motion_numbers.hpp"
 #include "validation/scene/scene.hpp"
 
-namespace clatter::validation::inline plan {
+namespace clatter::validation {
 
 struct PlannedRun {
   numeric::Simulation run;
@@ -42,4 +42,4 @@ struct PlannedRun {
 /// As shortfall() of a sequence.
 [[nodiscard]] std::string shortfall(const Scene& scene, const PlannedRun& planned);
 
-}  // namespace clatter::validation::inline plan
+}  // namespace clatter::validation

@@ -5,7 +5,7 @@
 
 #include "validation/output/bad_input.hpp"
 
-namespace clatter::validation::inline plan {
+namespace clatter::validation {
 
 std::string read_sequence_method(const std::string& option, const std::string& name) {
   if (name == "closed-form")
@@ -26,4 +26,4 @@ DiscreteRun run_discrete(const PreparedScene& prepared) {
   return {std::move(sequence), std::move(run)};
 }
 
-}  // namespace clatter::validation::inline plan
+}  // namespace clatter::validation

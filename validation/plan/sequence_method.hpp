@@ -6,7 +6,7 @@
 
 #include "validation/scene/discrete_scene.hpp"
 
-namespace clatter::validation::inline plan {
+namespace clatter::validation {
 
 /// The method of the discrete model under its name, "auto" or "discrete", which are the same.
 /// @throws BadInput for closed-form, which former versions had, and for unknown names.
@@ -22,4 +22,4 @@ struct DiscreteRun {
 /// @throws as impact_sequence.
 [[nodiscard]] DiscreteRun run_discrete(const PreparedScene& prepared);
 
-}  // namespace clatter::validation::inline plan
+}  // namespace clatter::validation

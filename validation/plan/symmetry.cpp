@@ -6,7 +6,7 @@
 #include <unordered_map>
 #include <vector>
 
-namespace clatter::validation::inline plan {
+namespace clatter::validation {
 namespace {
 
 using numeric::Matrix3;
@@ -79,4 +79,4 @@ bool is_mirror_image(const numeric::Body& body, const numeric::MotionState& stat
   return true;
 }
 
-}  // namespace clatter::validation::inline plan
+}  // namespace clatter::validation

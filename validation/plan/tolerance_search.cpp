@@ -7,7 +7,7 @@
 
 #include "validation/plan/cost_table.hpp"
 
-namespace clatter::validation::inline plan {
+namespace clatter::validation {
 namespace {
 
 using numeric::Method;
@@ -120,4 +120,4 @@ FoundSetting ToleranceSearch::cheapest(double asked) {
   return best;
 }
 
-}  // namespace clatter::validation::inline plan
+}  // namespace clatter::validation

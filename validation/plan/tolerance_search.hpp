@@ -6,7 +6,7 @@
 
 #include "validation/plan/model_hierarchy.hpp"
 
-namespace clatter::validation::inline plan {
+namespace clatter::validation {
 
 /// Tolerances are tried by half decades: 1e-4, 3e-5, … down to the smallest allowed.  Above 1e-4 a run is not cheaper:
 /// events cost the most.
@@ -69,4 +69,4 @@ class ToleranceSearch {
   long spent_ = 0;
 };
 
-}  // namespace clatter::validation::inline plan
+}  // namespace clatter::validation

@@ -5,7 +5,7 @@
 
 #include "validation/output/number.hpp"
 
-namespace clatter::validation::inline record {
+namespace clatter::validation {
 
 using numeric::HistorySample;
 using numeric::Vector3;
@@ -95,4 +95,4 @@ void record_fall(numeric::HistoryRecorder& recorder, const numeric::MotionState&
   }
 }
 
-}  // namespace clatter::validation::inline record
+}  // namespace clatter::validation

@@ -10,7 +10,7 @@
 #include "validation/output/sink.hpp"
 #include "validation/record/time_window.hpp"
 
-namespace clatter::validation::inline record {
+namespace clatter::validation {
 
 /// A sample's numbers: t, x, …, in_contact.
 [[nodiscard]] std::vector<Column> history_columns();
@@ -37,4 +37,4 @@ class HistoryFile : public numeric::HistoryRecorder {
 void record_fall(numeric::HistoryRecorder& recorder, const numeric::MotionState& touch, double mass, double gravity,
                  int parts);
 
-}  // namespace clatter::validation::inline record
+}  // namespace clatter::validation

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "validation/record/impact_quantities.hpp"
 
-namespace clatter::validation::inline record {
+namespace clatter::validation {
 namespace {
 
 using Number = Entry (*)(const Numbers&);
@@ -124,4 +124,4 @@ Entry ImpactQuantity::kind() const {
 
 std::span<const ImpactQuantity> impact_quantities() { return all; }
 
-}  // namespace clatter::validation::inline record
+}  // namespace clatter::validation

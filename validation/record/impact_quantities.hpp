@@ -10,7 +10,7 @@
 
 #include "validation/record/run.hpp"
 
-namespace clatter::validation::inline record {
+namespace clatter::validation {
 
 /// A quantity of one impact; nothing where it has none, a number that is not finite where it is not to be had.
 using Entry = std::variant<std::nullptr_t, bool, int, double, std::string, EntryVector, EntryParameters>;
@@ -49,4 +49,4 @@ struct ImpactQuantity {
 /// All of them, in the order of CSV and JSON.
 [[nodiscard]] std::span<const ImpactQuantity> impact_quantities();
 
-}  // namespace clatter::validation::inline record
+}  // namespace clatter::validation

@@ -12,7 +12,7 @@
 #include "validation/output/estimated.hpp"
 #include "validation/output/number.hpp"
 
-namespace clatter::validation::inline record {
+namespace clatter::validation {
 namespace {
 
 Value to_value(const Entry& entry) {
@@ -186,4 +186,4 @@ void append_impact(CellWriter& out, const Impact& impact, const ImpactText& text
   }
 }
 
-}  // namespace clatter::validation::inline record
+}  // namespace clatter::validation

@@ -9,7 +9,7 @@
 #include "validation/output/report.hpp"
 #include "validation/record/impact_quantities.hpp"
 
-namespace clatter::validation::inline record {
+namespace clatter::validation {
 
 /// The columns of a model's quantities, then those of their errors as NAME_error.
 /// @param shown names of the columns that tables have
@@ -40,4 +40,4 @@ struct ImpactText {
 /// Appends the cells; what the impact has no value of is left empty.
 void append_impact(CellWriter& out, const Impact& impact, const ImpactText& text);
 
-}  // namespace clatter::validation::inline record
+}  // namespace clatter::validation

@@ -7,7 +7,7 @@
 
 #include "analytic/base/angle.hpp"
 
-namespace clatter::validation::inline record {
+namespace clatter::validation {
 namespace {
 
 MotionNumbers sizes_of(double time, double speed, const BodySize& body) {
@@ -70,4 +70,4 @@ double distance(const std::vector<MotionNumbers>& rows, const std::vector<Motion
   return worst;
 }
 
-}  // namespace clatter::validation::inline record
+}  // namespace clatter::validation

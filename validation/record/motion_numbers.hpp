@@ -9,7 +9,7 @@
 
 #include "validation/record/run.hpp"
 
-namespace clatter::validation::inline record {
+namespace clatter::validation {
 
 /// Time of touch-down [s], contact angle [°], impulse x, y, z [N·s], velocity
 /// after x, y, z [m/s], angular velocity after x, y, z [rad/s]; world frame.  What lies out of the plane is zero in a
@@ -72,4 +72,4 @@ inline constexpr std::size_t normal_impulse_place = 4;  ///< in MotionNumbers
 [[nodiscard]] double distance(const std::vector<MotionNumbers>& rows, const std::vector<MotionNumbers>& truth,
                               const MotionNumbers& sizes);
 
-}  // namespace clatter::validation::inline record
+}  // namespace clatter::validation

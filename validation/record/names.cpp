@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "validation/record/names.hpp"
 
-namespace clatter::validation::inline record {
+namespace clatter::validation {
 
 using analytic::ImpactMode;
 using numeric::FrictionMode;
@@ -105,4 +105,4 @@ const char* end_name(numeric::ContactEnd end) {
   return "";
 }
 
-}  // namespace clatter::validation::inline record
+}  // namespace clatter::validation

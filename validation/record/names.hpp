@@ -6,7 +6,7 @@
 #include "analytic/space/impact.hpp"
 #include "numeric/drop/impact_record.hpp"
 
-namespace clatter::validation::inline record {
+namespace clatter::validation {
 
 [[nodiscard]] const char* mode_name(analytic::ImpactMode mode);
 [[nodiscard]] const char* mode_name(analytic::space::PathKind path);
@@ -19,4 +19,4 @@ namespace clatter::validation::inline record {
 [[nodiscard]] bool is_cut_short(numeric::Outcome outcome);
 [[nodiscard]] const char* end_name(numeric::ContactEnd end);
 
-}  // namespace clatter::validation::inline record
+}  // namespace clatter::validation

@@ -7,7 +7,7 @@
 #include "analytic/base/angle.hpp"
 #include "validation/record/names.hpp"
 
-namespace clatter::validation::inline record {
+namespace clatter::validation {
 namespace {
 
 namespace space = analytic::space;
@@ -330,4 +330,4 @@ Run run_of(const numeric::Simulation& simulation) {
   return run;
 }
 
-}  // namespace clatter::validation::inline record
+}  // namespace clatter::validation

@@ -13,7 +13,7 @@
 #include "numeric/simulate.hpp"
 #include "validation/output/estimated.hpp"
 
-namespace clatter::validation::inline record {
+namespace clatter::validation {
 
 /// The model of a run, which decides what is known of its impacts.
 enum class RunModel { plane, space, continuous };
@@ -105,4 +105,4 @@ inline constexpr double no_inclination = 360;
 [[nodiscard]] Run run_of(const analytic::space::Sequence& sequence);
 [[nodiscard]] Run run_of(const numeric::Simulation& simulation);
 
-}  // namespace clatter::validation::inline record
+}  // namespace clatter::validation

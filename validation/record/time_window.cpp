@@ -8,7 +8,7 @@
 #include "validation/output/bad_input.hpp"
 #include "validation/output/number.hpp"
 
-namespace clatter::validation::inline record {
+namespace clatter::validation {
 
 std::string TimeWindow::text() const { return shortest(from) + ":" + shortest(to); }
 
@@ -47,4 +47,4 @@ std::vector<std::vector<double>> clipped(const std::vector<std::vector<double>>&
   return kept;
 }
 
-}  // namespace clatter::validation::inline record
+}  // namespace clatter::validation

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace clatter::validation::inline record {
+namespace clatter::validation {
 
 /// From one time to another after the first touch-down, both taken [s].
 struct TimeWindow {
@@ -24,4 +24,4 @@ struct TimeWindow {
 [[nodiscard]] std::vector<std::vector<double>> clipped(const std::vector<std::vector<double>>& rows,
                                                        const TimeWindow& window);
 
-}  // namespace clatter::validation::inline record
+}  // namespace clatter::validation

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "validation/record/totals.hpp"
 
-namespace clatter::validation::inline record {
+namespace clatter::validation {
 
 Totals totals(const Run& run) {
   Totals sums;
@@ -41,4 +41,4 @@ std::string totals_line(const Totals& sums) {
          "; total_normal_impulse_error: " + text(error_or_nothing(sums.normal_impulse));
 }
 
-}  // namespace clatter::validation::inline record
+}  // namespace clatter::validation

@@ -6,7 +6,7 @@
 
 #include "validation/record/run.hpp"
 
-namespace clatter::validation::inline record {
+namespace clatter::validation {
 
 /// Sums and extremes over the impacts listed; the normal impulse with that of the discrete model's tail.  Errors of
 /// impacts may be correlated, so their sizes add up.  One impact that cannot be predicted leaves all unknown but the
@@ -29,4 +29,4 @@ void add_totals(const Totals& sums, Value& fields);
 /// The sum and its error as a comment of CSV.
 [[nodiscard]] std::string totals_line(const Totals& sums);
 
-}  // namespace clatter::validation::inline record
+}  // namespace clatter::validation

@@ -14,7 +14,7 @@
 #include "analytic/batch/rod_batch.hpp"
 #include "validation/output/number.hpp"
 
-namespace clatter::validation::inline reports {
+namespace clatter::validation {
 
 namespace {
 
@@ -405,4 +405,4 @@ Picture angles_picture(const AnglesRequest& request) {
           .panels = {angles, impulses}};
 }
 
-}  // namespace clatter::validation::inline reports
+}  // namespace clatter::validation

@@ -13,7 +13,7 @@
 #include "validation/scene/rod_parameters.hpp"
 #include "validation/scene/swept_range.hpp"
 
-namespace clatter::validation::inline reports {
+namespace clatter::validation {
 
 /// What may be given.
 struct AnglesOptions {
@@ -56,4 +56,4 @@ using AnglesRow = std::array<double, 19>;
 /// both rows between which an impact begins or ceases to happen, so that the branches end where they do.
 [[nodiscard]] Picture angles_picture(const AnglesRequest& request);
 
-}  // namespace clatter::validation::inline reports
+}  // namespace clatter::validation

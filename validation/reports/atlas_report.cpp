@@ -10,7 +10,7 @@
 #include "validation/output/number.hpp"
 #include "validation/scene/scene_value.hpp"
 
-namespace clatter::validation::inline reports {
+namespace clatter::validation {
 namespace {
 
 using analytic::degrees_per_radian;
@@ -385,4 +385,4 @@ Picture atlas_picture(const Atlas& atlas) {
           .panels = {atlas.in_plane() ? strike_panel(atlas) : tilt_panel(atlas), shape_panel(atlas)}};
 }
 
-}  // namespace clatter::validation::inline reports
+}  // namespace clatter::validation

@@ -10,7 +10,7 @@
 #include "validation/output/report.hpp"
 #include "validation/scene/flat_body.hpp"
 
-namespace clatter::validation::inline reports {
+namespace clatter::validation {
 
 /// A body with its strikes.
 struct Atlas {
@@ -38,4 +38,4 @@ struct Atlas {
 /// "121/49" of a number that is a fraction with a denominator up to 200 to 1e-11, "½"; else empty.
 [[nodiscard]] std::string as_fraction(double number);
 
-}  // namespace clatter::validation::inline reports
+}  // namespace clatter::validation

@@ -13,7 +13,7 @@
 #include "validation/scene/body_properties.hpp"
 #include "validation/scene/scene_value.hpp"
 
-namespace clatter::validation::inline reports {
+namespace clatter::validation {
 namespace {
 
 constexpr int certain = 12;
@@ -381,4 +381,4 @@ Report benchmark_truth_report(const Problem& problem, const std::string& law) {
 
 std::vector<double> parts(const analytic::space::Vector3& v) { return {v.x(), v.y(), v.z()}; }
 
-}  // namespace clatter::validation::inline reports
+}  // namespace clatter::validation

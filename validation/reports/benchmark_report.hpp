@@ -6,7 +6,7 @@
 #include "validation/benchmark/problem.hpp"
 #include "validation/output/report.hpp"
 
-namespace clatter::validation::inline reports {
+namespace clatter::validation {
 
 [[nodiscard]] std::vector<Column> benchmark_list_columns();
 [[nodiscard]] std::vector<Column> benchmark_truth_columns();
@@ -25,4 +25,4 @@ namespace clatter::validation::inline reports {
 /// A vector as a list of its parts.
 [[nodiscard]] std::vector<double> parts(const analytic::space::Vector3& v);
 
-}  // namespace clatter::validation::inline reports
+}  // namespace clatter::validation

@@ -5,7 +5,7 @@
 
 #include "validation/reports/swept_column.hpp"
 
-namespace clatter::validation::inline reports {
+namespace clatter::validation {
 namespace {
 
 using Style = FigureCurve::Style;
@@ -106,4 +106,4 @@ Picture swept_comparison_picture(const Scene& scene, const std::vector<SweptComp
       .what = "Discrete and continuous model, first impact", .scene = scene.summary(), .panels = panels(axis, rows)};
 }
 
-}  // namespace clatter::validation::inline reports
+}  // namespace clatter::validation

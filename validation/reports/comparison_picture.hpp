@@ -7,7 +7,7 @@
 #include "validation/figures/picture.hpp"
 #include "validation/reports/swept_comparison_report.hpp"
 
-namespace clatter::validation::inline reports {
+namespace clatter::validation {
 
 /// Normal impulses over the number of the impact, and how far each impact's worst number deviates.
 [[nodiscard]] Picture comparison_picture(const Scene& scene, const Comparison& comparison);
@@ -15,4 +15,4 @@ namespace clatter::validation::inline reports {
 /// The same of the first impact over the swept value.
 [[nodiscard]] Picture swept_comparison_picture(const Scene& scene, const std::vector<SweptComparison>& swept);
 
-}  // namespace clatter::validation::inline reports
+}  // namespace clatter::validation

@@ -14,7 +14,7 @@
 #include "validation/scene/discrete_scene.hpp"
 #include "validation/scene/scene_value.hpp"
 
-namespace clatter::validation::inline reports {
+namespace clatter::validation {
 namespace {
 
 /// Zero in both models and in the limit, by symmetry; a limit that misses is something.
@@ -364,4 +364,4 @@ Report comparison_report(const Scene& scene, const Comparison& comparison) {
   return report;
 }
 
-}  // namespace clatter::validation::inline reports
+}  // namespace clatter::validation

@@ -8,7 +8,7 @@
 #include "validation/output/estimated.hpp"
 #include "validation/output/report.hpp"
 
-namespace clatter::validation::inline reports {
+namespace clatter::validation {
 
 [[nodiscard]] std::vector<Column> comparison_columns();
 /// A row for each impact and number; tables leave out those that are zero by symmetry.
@@ -26,4 +26,4 @@ void add_comparison(const Comparison& comparison, const Row& front, Value& field
 /// By how much the limit is off; 0 where the error bar, which stands beside it, leaves no digit.
 [[nodiscard]] Cell miss_cell(const Estimated& miss);
 
-}  // namespace clatter::validation::inline reports
+}  // namespace clatter::validation

@@ -12,7 +12,7 @@
 #include "validation/scene/body_properties.hpp"
 #include "validation/scene/scene_value.hpp"
 
-namespace clatter::validation::inline reports {
+namespace clatter::validation {
 namespace {
 
 /// An equation in its parts; numbers are left out where they would only repeat the value.
@@ -232,4 +232,4 @@ std::string explanation_text(const Explanation& explanation, const TextStyle& st
   return report_text(report, style);
 }
 
-}  // namespace clatter::validation::inline reports
+}  // namespace clatter::validation

@@ -8,7 +8,7 @@
 #include "validation/explain/explanation.hpp"
 #include "validation/output/report.hpp"
 
-namespace clatter::validation::inline reports {
+namespace clatter::validation {
 
 [[nodiscard]] std::vector<Column> explain_columns();
 /// All of its JSON.  Of an equation: `symbolic` and `numeric` are text, `tex` is lines of an aligned environment; the
@@ -19,4 +19,4 @@ namespace clatter::validation::inline reports {
 /// In any format: tables, Markdown and LaTeX have the steps as text with equations.
 [[nodiscard]] std::string explanation_text(const Explanation& explanation, const TextStyle& style);
 
-}  // namespace clatter::validation::inline reports
+}  // namespace clatter::validation

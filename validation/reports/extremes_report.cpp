@@ -11,7 +11,7 @@
 #include "validation/output/number.hpp"
 #include "validation/output/version.hpp"
 
-namespace clatter::validation::inline reports {
+namespace clatter::validation {
 
 namespace {
 
@@ -344,4 +344,4 @@ std::string extremes_picture(const ExtremesMap& map) {
          legend() + body + "</svg>\n";
 }
 
-}  // namespace clatter::validation::inline reports
+}  // namespace clatter::validation

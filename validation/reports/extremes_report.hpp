@@ -8,7 +8,7 @@
 #include "validation/extremes/extremes.hpp"
 #include "validation/output/report.hpp"
 
-namespace clatter::validation::inline reports {
+namespace clatter::validation {
 
 [[nodiscard]] std::vector<Column> extremes_columns();
 /// A row for each cell; tables have one for each region, and the reasons of refusals as notes.
@@ -16,4 +16,4 @@ namespace clatter::validation::inline reports {
 /// SVG: a strip for each quantity and model, its values side by side, coloured by digits, refusals hatched.
 [[nodiscard]] std::string extremes_picture(const ExtremesMap& map);
 
-}  // namespace clatter::validation::inline reports
+}  // namespace clatter::validation

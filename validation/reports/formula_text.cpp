@@ -12,7 +12,7 @@
 #include "validation/output/number.hpp"
 #include "validation/output/symbols.hpp"
 
-namespace clatter::validation::inline reports {
+namespace clatter::validation {
 namespace {
 
 /// How tightly an operation binds.
@@ -195,4 +195,4 @@ std::string FormulaWriter::bare(const Expression& e, bool with_numbers) const {
   return "";
 }
 
-}  // namespace clatter::validation::inline reports
+}  // namespace clatter::validation

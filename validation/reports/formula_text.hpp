@@ -6,7 +6,7 @@
 
 #include "validation/explain/formula.hpp"
 
-namespace clatter::validation::inline reports {
+namespace clatter::validation {
 
 /// How formulas are written: "−(1 + e) m u/A" or "-\frac{(1 + e) m u}{A}", which needs amsmath.
 enum class Notation { text, tex };
@@ -44,4 +44,4 @@ class FormulaWriter {
   int digits_;
 };
 
-}  // namespace clatter::validation::inline reports
+}  // namespace clatter::validation

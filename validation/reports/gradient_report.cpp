@@ -11,7 +11,7 @@
 #include "validation/scene/drop_gradient.hpp"
 #include "validation/scene/scene_value.hpp"
 
-namespace clatter::validation::inline reports {
+namespace clatter::validation {
 namespace {
 
 /// A number of the drop: its name in rows, and the unit that derivatives are taken per.
@@ -146,4 +146,4 @@ GradientReport gradient_report(const PreparedScene& prepared) {
   return made;
 }
 
-}  // namespace clatter::validation::inline reports
+}  // namespace clatter::validation

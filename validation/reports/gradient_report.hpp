@@ -8,7 +8,7 @@
 #include "validation/output/report.hpp"
 #include "validation/scene/discrete_scene.hpp"
 
-namespace clatter::validation::inline reports {
+namespace clatter::validation {
 
 [[nodiscard]] std::vector<Column> gradient_columns(bool in_space);
 
@@ -23,4 +23,4 @@ struct GradientReport {
 /// @throws as analytic::sequence_gradient
 [[nodiscard]] GradientReport gradient_report(const PreparedScene& prepared);
 
-}  // namespace clatter::validation::inline reports
+}  // namespace clatter::validation

@@ -9,7 +9,7 @@
 #include "validation/scene/body_properties.hpp"
 #include "validation/scene/scene_value.hpp"
 
-namespace clatter::validation::inline reports {
+namespace clatter::validation {
 namespace {
 
 constexpr const char* units[] = {"", " s", " N", " m"};
@@ -123,4 +123,4 @@ Report material_report(const std::vector<MaterialGround>& grounds, const std::st
   return report;
 }
 
-}  // namespace clatter::validation::inline reports
+}  // namespace clatter::validation

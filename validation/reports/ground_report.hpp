@@ -10,7 +10,7 @@
 #include "validation/scene/scene.hpp"
 #include "validation/shock/ground_fit.hpp"
 
-namespace clatter::validation::inline reports {
+namespace clatter::validation {
 
 /// A row for each ground.
 [[nodiscard]] std::vector<Column> ground_columns();
@@ -33,4 +33,4 @@ struct MaterialLoss {
 [[nodiscard]] Report material_report(const std::vector<MaterialGround>& grounds, const std::string& approximation,
                                      const std::string& source, const std::optional<MaterialLoss>& loss);
 
-}  // namespace clatter::validation::inline reports
+}  // namespace clatter::validation

@@ -11,7 +11,7 @@
 #include "validation/scene/body_properties.hpp"
 #include "validation/shock/damage_boundary.hpp"
 
-namespace clatter::validation::inline reports {
+namespace clatter::validation {
 namespace {
 
 constexpr const char* page_style =
@@ -121,4 +121,4 @@ std::optional<Picture> probe_history_picture(const ShockRun& run) {
   return picture;
 }
 
-}  // namespace clatter::validation::inline reports
+}  // namespace clatter::validation

@@ -10,7 +10,7 @@
 #include "validation/output/report.hpp"
 #include "validation/shock/shock_run.hpp"
 
-namespace clatter::validation::inline reports {
+namespace clatter::validation {
 
 struct HandoutPart {
   std::string title;
@@ -35,4 +35,4 @@ struct HandoutPart {
 /// of its own, from its touch-down on; none without a contact.
 [[nodiscard]] std::optional<Picture> probe_history_picture(const ShockRun& run);
 
-}  // namespace clatter::validation::inline reports
+}  // namespace clatter::validation

@@ -10,7 +10,7 @@
 #include "validation/output/number.hpp"
 #include "validation/output/version.hpp"
 
-namespace clatter::validation::inline reports {
+namespace clatter::validation {
 
 namespace {
 
@@ -487,4 +487,4 @@ std::vector<std::string> measured_words(const MeasuredRun& run) {
           run.file.file.description.source};
 }
 
-}  // namespace clatter::validation::inline reports
+}  // namespace clatter::validation

@@ -6,7 +6,7 @@
 #include "validation/measured/score.hpp"
 #include "validation/output/report.hpp"
 
-namespace clatter::validation::inline reports {
+namespace clatter::validation {
 
 /// What a command of `measured` works on.
 struct MeasuredRun {
@@ -31,4 +31,4 @@ struct MeasuredRun {
 /// Head of the picture's script.
 [[nodiscard]] std::vector<std::string> measured_words(const MeasuredRun& run);
 
-}  // namespace clatter::validation::inline reports
+}  // namespace clatter::validation

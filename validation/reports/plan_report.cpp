@@ -15,7 +15,7 @@
 #include "validation/scene/option_values.hpp"
 #include "validation/scene/scene_value.hpp"
 
-namespace clatter::validation::inline reports {
+namespace clatter::validation {
 namespace {
 
 std::string error_words(double error) { return std::isfinite(error) ? significant(error, 2) : "too large to tell"; }
@@ -307,4 +307,4 @@ Report plan_report(const Scene& scene, const Plan& plan) {
   return report;
 }
 
-}  // namespace clatter::validation::inline reports
+}  // namespace clatter::validation

@@ -12,7 +12,7 @@
 #include "validation/plan/plan.hpp"
 #include "validation/scene/argument.hpp"
 
-namespace clatter::validation::inline reports {
+namespace clatter::validation {
 
 [[nodiscard]] std::vector<Column> plan_columns();
 
@@ -34,4 +34,4 @@ struct PlanRequest {
 /// Why the plan does not give what was asked, one sentence; empty: it does.
 [[nodiscard]] std::string plan_shortfall(const Plan& plan);
 
-}  // namespace clatter::validation::inline reports
+}  // namespace clatter::validation

@@ -12,7 +12,7 @@
 #include "validation/output/estimated.hpp"
 #include "validation/output/number.hpp"
 
-namespace clatter::validation::inline reports {
+namespace clatter::validation {
 
 namespace {
 
@@ -311,4 +311,4 @@ Picture regimes_picture(const FoundRegimes& found) {
   return {.what = "How many impacts, and where that changes", .scene = {found.rod_words}, .panels = {panel}};
 }
 
-}  // namespace clatter::validation::inline reports
+}  // namespace clatter::validation

@@ -12,7 +12,7 @@
 #include "validation/scene/rod_parameters.hpp"
 #include "validation/scene/swept_range.hpp"
 
-namespace clatter::validation::inline reports {
+namespace clatter::validation {
 
 /// What is asked for.
 struct RegimesRequest {
@@ -51,4 +51,4 @@ struct FoundRegimes {
 /// those of the table.
 [[nodiscard]] Picture regimes_picture(const FoundRegimes& found);
 
-}  // namespace clatter::validation::inline reports
+}  // namespace clatter::validation

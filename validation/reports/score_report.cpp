@@ -15,7 +15,7 @@
 #include "validation/scene/option_values.hpp"
 #include "validation/scene/scene_value.hpp"
 
-namespace clatter::validation::inline reports {
+namespace clatter::validation {
 namespace {
 
 Value impact_value(const ImpactScore& one, int n) {
@@ -310,4 +310,4 @@ Report against_report(const Scene& scene, const Reference& reference, const std:
   return report;
 }
 
-}  // namespace clatter::validation::inline reports
+}  // namespace clatter::validation

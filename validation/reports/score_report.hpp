@@ -7,7 +7,7 @@
 #include "validation/output/report.hpp"
 #include "validation/scene/scene.hpp"
 
-namespace clatter::validation::inline reports {
+namespace clatter::validation {
 
 [[nodiscard]] std::vector<Column> score_columns();
 
@@ -30,4 +30,4 @@ struct Requirement {
 /// @throws BadInput
 [[nodiscard]] Requirement read_requirement(const std::string& name, const std::string& text);
 
-}  // namespace clatter::validation::inline reports
+}  // namespace clatter::validation

@@ -14,7 +14,7 @@
 #include "validation/scene/body_properties.hpp"
 #include "validation/scene/discrete_scene.hpp"
 
-namespace clatter::validation::inline reports {
+namespace clatter::validation {
 namespace {
 
 using analytic::ImpactRow;
@@ -350,4 +350,4 @@ Picture sequence_picture(const PreparedScene& prepared, const DiscreteRun& found
   return picture;
 }
 
-}  // namespace clatter::validation::inline reports
+}  // namespace clatter::validation

@@ -7,7 +7,7 @@
 #include "validation/record/time_window.hpp"
 #include "validation/scene/scene.hpp"
 
-namespace clatter::validation::inline reports {
+namespace clatter::validation {
 
 /// Heights over time, each flight in closed form, and the normal impulse of each impact at its time, as far as the
 /// window goes: in the plane the heights of both ends and the impulses at each, in space those of the centre of mass
@@ -15,4 +15,4 @@ namespace clatter::validation::inline reports {
 [[nodiscard]] Picture sequence_picture(const PreparedScene& prepared, const DiscreteRun& found,
                                        const TimeWindow& window);
 
-}  // namespace clatter::validation::inline reports
+}  // namespace clatter::validation

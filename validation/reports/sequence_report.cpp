@@ -20,7 +20,7 @@
 #include "validation/scene/scene_value.hpp"
 #include "validation/scene/shortfall.hpp"
 
-namespace clatter::validation::inline reports {
+namespace clatter::validation {
 namespace {
 
 namespace space = analytic::space;
@@ -473,4 +473,4 @@ void write_sequence(const PreparedScene& prepared, const DiscreteRun& found, con
              write);
 }
 
-}  // namespace clatter::validation::inline reports
+}  // namespace clatter::validation

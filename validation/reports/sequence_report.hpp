@@ -8,7 +8,7 @@
 #include "validation/output/report.hpp"
 #include "validation/plan/sequence_method.hpp"
 
-namespace clatter::validation::inline reports {
+namespace clatter::validation {
 
 /// Columns in the plane.
 /// @param friction, loses  which of them tables have
@@ -22,4 +22,4 @@ namespace clatter::validation::inline reports {
 void write_sequence(const PreparedScene& prepared, const DiscreteRun& found, const analytic::space::TiltEffort& tilts,
                     const TextStyle& style, const WriteText& write);
 
-}  // namespace clatter::validation::inline reports
+}  // namespace clatter::validation

@@ -8,7 +8,7 @@
 #include "validation/scene/body_properties.hpp"
 #include "validation/shock/uniform_history.hpp"
 
-namespace clatter::validation::inline reports {
+namespace clatter::validation {
 namespace {
 
 constexpr const char* axes[] = {"x", "y", "z"};
@@ -75,4 +75,4 @@ Grid shock_history_grid(const ShockRun& run, double rate) {
   return grid;
 }
 
-}  // namespace clatter::validation::inline reports
+}  // namespace clatter::validation

@@ -8,7 +8,7 @@
 
 #include "validation/output/number.hpp"
 
-namespace clatter::validation::inline reports {
+namespace clatter::validation {
 namespace {
 
 constexpr PulseShape shapes[] = {PulseShape::rectangle, PulseShape::half_sine};
@@ -189,4 +189,4 @@ std::optional<PicturePanel> boundary_panel(const ShockRun& run, const FragilePar
   return panel;
 }
 
-}  // namespace clatter::validation::inline reports
+}  // namespace clatter::validation

@@ -11,7 +11,7 @@
 #include "validation/shock/damage_boundary.hpp"
 #include "validation/shock/shock_run.hpp"
 
-namespace clatter::validation::inline reports {
+namespace clatter::validation {
 
 /// A row for each impact and probe of the continuous model.
 [[nodiscard]] std::vector<Column> pulse_columns();
@@ -24,4 +24,4 @@ namespace clatter::validation::inline reports {
 /// The damage boundary of a part, for both pulses, and where the blows lie; none without a blow.
 [[nodiscard]] std::optional<PicturePanel> boundary_panel(const ShockRun& run, const FragilePart& part);
 
-}  // namespace clatter::validation::inline reports
+}  // namespace clatter::validation

@@ -17,7 +17,7 @@
 #include "validation/scene/scene_value.hpp"
 #include "validation/scene/shortfall.hpp"
 
-namespace clatter::validation::inline reports {
+namespace clatter::validation {
 namespace {
 
 constexpr const char* axis_names[] = {"x", "y", "z"};
@@ -561,4 +561,4 @@ Picture shock_picture(const ShockRun& run, const ShockView& view) {
   return picture;
 }
 
-}  // namespace clatter::validation::inline reports
+}  // namespace clatter::validation

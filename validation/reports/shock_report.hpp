@@ -10,7 +10,7 @@
 #include "validation/shock/damage_boundary.hpp"
 #include "validation/shock/shock_run.hpp"
 
-namespace clatter::validation::inline reports {
+namespace clatter::validation {
 
 /// A row for each impact and probe.
 [[nodiscard]] std::vector<Column> shock_columns();
@@ -30,4 +30,4 @@ struct ShockView {
 /// The spectra of pseudo-velocity, a panel for each probe, and the damage boundary.
 [[nodiscard]] Picture shock_picture(const ShockRun& run, const ShockView& view);
 
-}  // namespace clatter::validation::inline reports
+}  // namespace clatter::validation

@@ -10,7 +10,7 @@
 #include "numeric/motion/free_flight.hpp"
 #include "validation/reports/swept_column.hpp"
 
-namespace clatter::validation::inline reports {
+namespace clatter::validation {
 namespace {
 
 using Style = FigureCurve::Style;
@@ -203,4 +203,4 @@ Picture sweep_picture(const Scene& scene, const std::vector<SweptRun>& runs) {
   return picture;
 }
 
-}  // namespace clatter::validation::inline reports
+}  // namespace clatter::validation

@@ -10,7 +10,7 @@
 #include "validation/record/time_window.hpp"
 #include "validation/reports/simulation_report.hpp"
 
-namespace clatter::validation::inline reports {
+namespace clatter::validation {
 
 /// Keeps of each sample from the first touch-down on what the picture shows: some 80 bytes.
 class PictureHistory : public numeric::HistoryRecorder {
@@ -43,4 +43,4 @@ class HistoryFan : public numeric::HistoryRecorder {
 /// What each impact of each value left, the first six: normal velocity, angular velocity, impulse, energy loss.
 [[nodiscard]] Picture sweep_picture(const Scene& scene, const std::vector<SweptRun>& runs);
 
-}  // namespace clatter::validation::inline reports
+}  // namespace clatter::validation

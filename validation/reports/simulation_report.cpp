@@ -16,7 +16,7 @@
 #include "validation/scene/scene_value.hpp"
 #include "validation/scene/shortfall.hpp"
 
-namespace clatter::validation::inline reports {
+namespace clatter::validation {
 namespace {
 
 using numeric::ImpactRecord;
@@ -288,4 +288,4 @@ Report sweep_report(const Scene& scene, const std::vector<SweptRun>& runs) {
   return report;
 }
 
-}  // namespace clatter::validation::inline reports
+}  // namespace clatter::validation

@@ -8,7 +8,7 @@
 #include "validation/plan/planned_run.hpp"
 #include "validation/scene/scene.hpp"
 
-namespace clatter::validation::inline reports {
+namespace clatter::validation {
 
 [[nodiscard]] std::vector<Column> simulation_columns();
 /// A row for each impact.
@@ -23,4 +23,4 @@ struct SweptRun {
 /// A row for each impact of each run, with the swept value in the first column; in tables the first impacts alone.
 [[nodiscard]] Report sweep_report(const Scene& scene, const std::vector<SweptRun>& runs);
 
-}  // namespace clatter::validation::inline reports
+}  // namespace clatter::validation

@@ -19,7 +19,7 @@
 #include "validation/record/names.hpp"
 #include "validation/scene/keys.hpp"
 
-namespace clatter::validation::inline reports {
+namespace clatter::validation {
 namespace {
 
 constexpr std::size_t most_curves = 8;
@@ -286,4 +286,4 @@ Picture sweep_rows_picture(const Report& report, const SweepRowsView& view) {
   return picture;
 }
 
-}  // namespace clatter::validation::inline reports
+}  // namespace clatter::validation

@@ -8,7 +8,7 @@
 #include "validation/figures/picture.hpp"
 #include "validation/output/report.hpp"
 
-namespace clatter::validation::inline reports {
+namespace clatter::validation {
 
 /// What a picture of a sweep shows.
 struct SweepRowsView {
@@ -25,4 +25,4 @@ struct SweepRowsView {
 /// @param report of the sweep, with its rows; those without a number are left out.
 [[nodiscard]] Picture sweep_rows_picture(const Report& report, const SweepRowsView& view);
 
-}  // namespace clatter::validation::inline reports
+}  // namespace clatter::validation

@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-namespace clatter::validation::inline reports {
+namespace clatter::validation {
 
 Column swept_column(const SceneSweep& sweep) {
   const bool over_angle = sweep.quantity == SceneSweep::Quantity::angle_deg;
@@ -26,4 +26,4 @@ void add_interruption(const SceneSweep& sweep, std::size_t done, Report& report)
   if (done < values) report.notes.push_back(fmt::format("interrupted: {} of {} values", done, values));
 }
 
-}  // namespace clatter::validation::inline reports
+}  // namespace clatter::validation

@@ -8,7 +8,7 @@
 #include "validation/output/report.hpp"
 #include "validation/scene/scene.hpp"
 
-namespace clatter::validation::inline reports {
+namespace clatter::validation {
 
 /// Column of the swept values, named like the quantity.
 [[nodiscard]] Column swept_column(const SceneSweep& sweep);
@@ -21,4 +21,4 @@ namespace clatter::validation::inline reports {
 /// Adds a note if fewer values than the sweep has are done.
 void add_interruption(const SceneSweep& sweep, std::size_t done, Report& report);
 
-}  // namespace clatter::validation::inline reports
+}  // namespace clatter::validation

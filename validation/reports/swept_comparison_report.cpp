@@ -11,7 +11,7 @@
 #include "validation/output/number.hpp"
 #include "validation/reports/swept_column.hpp"
 
-namespace clatter::validation::inline reports {
+namespace clatter::validation {
 namespace {
 
 /// How often first impacts are not compared (–), by reason.
@@ -112,4 +112,4 @@ Report swept_comparison_report(const Scene& scene, const std::vector<SweptCompar
   return report;
 }
 
-}  // namespace clatter::validation::inline reports
+}  // namespace clatter::validation

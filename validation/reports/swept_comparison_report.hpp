@@ -6,7 +6,7 @@
 
 #include "validation/reports/comparison_report.hpp"
 
-namespace clatter::validation::inline reports {
+namespace clatter::validation {
 
 /// The number of an impact that deviates most for its size: deviation over scale, its error and what was predicted of
 /// it; the number whose limit is farthest off for what it may be: distance over scale, and its error bar.
@@ -24,4 +24,4 @@ struct SweptComparison {
 /// A row for each value, impact and number; in tables the worst number of each impact.
 [[nodiscard]] Report swept_comparison_report(const Scene& scene, const std::vector<SweptComparison>& swept);
 
-}  // namespace clatter::validation::inline reports
+}  // namespace clatter::validation

@@ -12,7 +12,7 @@
 #include "analytic/space/tilted_outcomes.hpp"
 #include "validation/output/number.hpp"
 
-namespace clatter::validation::inline reports {
+namespace clatter::validation {
 namespace {
 
 namespace space = analytic::space;
@@ -166,4 +166,4 @@ std::optional<PicturePanel> tilt_panel(const space::Drop& drop, std::span<const 
   return std::nullopt;
 }
 
-}  // namespace clatter::validation::inline reports
+}  // namespace clatter::validation

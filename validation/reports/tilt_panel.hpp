@@ -8,7 +8,7 @@
 #include "analytic/space/impact_rows.hpp"
 #include "validation/figures/picture.hpp"
 
-namespace clatter::validation::inline reports {
+namespace clatter::validation {
 
 /// The ring of the first landing of several corners, or of a level rim, that tilts decide; nothing if there is none.
 /// Directions are those in which the tilted corners lie higher, counter-clockwise from x, the view from above.  The
@@ -17,4 +17,4 @@ namespace clatter::validation::inline reports {
 [[nodiscard]] std::optional<PicturePanel> tilt_panel(const analytic::space::Drop& drop,
                                                      std::span<const analytic::space::ImpactRow> rows);
 
-}  // namespace clatter::validation::inline reports
+}  // namespace clatter::validation

@@ -11,7 +11,7 @@
 #include "validation/scene/body_properties.hpp"
 #include "validation/scene/scene_value.hpp"
 
-namespace clatter::validation::inline reports {
+namespace clatter::validation {
 namespace {
 
 const char* const tradeoff_summary = "cost against true error";
@@ -144,4 +144,4 @@ Picture tradeoff_picture(const Scene& scene, const Tradeoff& tradeoff) {
       .what = "Cost against true error of models, methods and tolerances", .scene = scene.summary(), .panels = {panel}};
 }
 
-}  // namespace clatter::validation::inline reports
+}  // namespace clatter::validation

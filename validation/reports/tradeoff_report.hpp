@@ -6,7 +6,7 @@
 #include "validation/output/report.hpp"
 #include "validation/tradeoff/tradeoff.hpp"
 
-namespace clatter::validation::inline reports {
+namespace clatter::validation {
 
 [[nodiscard]] std::vector<Column> tradeoff_columns();
 /// A row for each point; in tables the front, which nothing beats in both cost and error.
@@ -14,4 +14,4 @@ namespace clatter::validation::inline reports {
 /// Error over cost, one curve for each model and method.
 [[nodiscard]] Picture tradeoff_picture(const Scene& scene, const Tradeoff& tradeoff);
 
-}  // namespace clatter::validation::inline reports
+}  // namespace clatter::validation

@@ -14,7 +14,7 @@
 #include "validation/output/version.hpp"
 #include "validation/scene/failure.hpp"
 
-namespace clatter::validation::inline reports {
+namespace clatter::validation {
 
 namespace {
 
@@ -263,4 +263,4 @@ std::string verify_page(const std::vector<CheckResult>& results, const std::stri
   return html + "</body></html>\n";
 }
 
-}  // namespace clatter::validation::inline reports
+}  // namespace clatter::validation

@@ -8,7 +8,7 @@
 #include "validation/output/report.hpp"
 #include "validation/verify/check.hpp"
 
-namespace clatter::validation::inline reports {
+namespace clatter::validation {
 
 /// Counts of a run.
 struct VerifySummary {
@@ -31,4 +31,4 @@ struct VerifySummary {
 [[nodiscard]] std::string verify_page(const std::vector<CheckResult>& results, const std::string& selection,
                                       CaseRuns& case_runs);
 
-}  // namespace clatter::validation::inline reports
+}  // namespace clatter::validation

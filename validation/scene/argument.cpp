@@ -5,7 +5,7 @@
 #include <map>
 #include <sstream>
 
-namespace clatter::validation::inline scene {
+namespace clatter::validation {
 
 std::vector<std::string> Argument::choices() const {
   std::vector<std::string> list;
@@ -30,4 +30,4 @@ void take(const Arguments& rows, const NamedTexts& given) {
   }
 }
 
-}  // namespace clatter::validation::inline scene
+}  // namespace clatter::validation

@@ -16,7 +16,7 @@
 #include "validation/scene/named_texts.hpp"
 #include "validation/scene/option_values.hpp"
 
-namespace clatter::validation::inline scene {
+namespace clatter::validation {
 
 struct Argument {
   /// Checks the text that was given under a name and puts its value where the row says.  @throws BadInput
@@ -91,4 +91,4 @@ template <class Value>
 /// @throws BadInput for a name that no row has, and as the rows
 void take(const Arguments& rows, const NamedTexts& given);
 
-}  // namespace clatter::validation::inline scene
+}  // namespace clatter::validation

@@ -18,7 +18,7 @@
 #include "validation/scene/hull.hpp"
 #include "validation/scene/keys.hpp"
 
-namespace clatter::validation::inline scene {
+namespace clatter::validation {
 namespace {
 
 using numeric::MassProperties;
@@ -286,4 +286,4 @@ std::string body_words(const Scene& scene, Model model) {
                      three(body.principal_inertia(), ", "));
 }
 
-}  // namespace clatter::validation::inline scene
+}  // namespace clatter::validation

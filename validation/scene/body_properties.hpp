@@ -12,7 +12,7 @@
 #include "validation/output/value.hpp"
 #include "validation/scene/scene.hpp"
 
-namespace clatter::validation::inline scene {
+namespace clatter::validation {
 
 /// The vector of a key's three components.
 [[nodiscard]] inline numeric::Vector3 vector_of(const std::vector<double>& v) { return {v[0], v[1], v[2]}; }
@@ -54,4 +54,4 @@ struct SolidBody {
 /// The same for a reader: "body: mass … kg, extents …".
 [[nodiscard]] std::string body_words(const Scene& scene, Model model);
 
-}  // namespace clatter::validation::inline scene
+}  // namespace clatter::validation

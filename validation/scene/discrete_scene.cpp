@@ -17,7 +17,7 @@
 #include "validation/scene/hull.hpp"
 #include "validation/scene/keys.hpp"
 
-namespace clatter::validation::inline scene {
+namespace clatter::validation {
 namespace {
 
 namespace space = analytic::space;
@@ -566,4 +566,4 @@ Run named_run(const Scene& scene, const numeric::Simulation& simulation) {
   return run;
 }
 
-}  // namespace clatter::validation::inline scene
+}  // namespace clatter::validation

@@ -18,7 +18,7 @@
 #include "validation/scene/body_properties.hpp"
 #include "validation/scene/scene.hpp"
 
-namespace clatter::validation::inline scene {
+namespace clatter::validation {
 
 /// What gave a number of the discrete model's law.
 enum class LawSource {
@@ -147,4 +147,4 @@ struct PreparedScene {
 /// The run of the continuous model, with the names of the corners that touch first.
 [[nodiscard]] Run named_run(const Scene& scene, const numeric::Simulation& simulation);
 
-}  // namespace clatter::validation::inline scene
+}  // namespace clatter::validation

@@ -12,7 +12,7 @@
 #include "analytic/space/gradient.hpp"
 #include "analytic/space/point_height.hpp"
 
-namespace clatter::validation::inline scene {
+namespace clatter::validation {
 namespace {
 
 namespace space = analytic::space;
@@ -122,4 +122,4 @@ double arm_of_turn(const DiscreteDrop& drop, std::size_t turn) {
   return std::visit([&](const auto& one) { return arm_of(one, turn); }, drop);
 }
 
-}  // namespace clatter::validation::inline scene
+}  // namespace clatter::validation

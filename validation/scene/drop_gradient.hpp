@@ -9,7 +9,7 @@
 #include "analytic/plane/gradient.hpp"
 #include "validation/scene/discrete_scene.hpp"
 
-namespace clatter::validation::inline scene {
+namespace clatter::validation {
 
 /// A number of an impact whose derivatives are told.
 struct GradientNumber {
@@ -53,4 +53,4 @@ struct DropGradient {
 /// How far a turn, by its index among the parameters, brings the point that touches down, the centre at rest [m/rad].
 [[nodiscard]] double arm_of_turn(const DiscreteDrop& drop, std::size_t turn);
 
-}  // namespace clatter::validation::inline scene
+}  // namespace clatter::validation

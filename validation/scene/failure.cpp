@@ -8,7 +8,7 @@
 #include "numeric/errors.hpp"
 #include "validation/output/bad_input.hpp"
 
-namespace clatter::validation::inline scene {
+namespace clatter::validation {
 
 Failure current_failure() {
   using enum FailureKind;
@@ -41,4 +41,4 @@ int exit_status(FailureKind kind) {
   return 70;
 }
 
-}  // namespace clatter::validation::inline scene
+}  // namespace clatter::validation

@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-namespace clatter::validation::inline scene {
+namespace clatter::validation {
 
 enum class FailureKind {
   bad_input,      ///< what was given cannot be used
@@ -46,4 +46,4 @@ template <class Compute>
 /// 2, 3, 4 or 70.
 [[nodiscard]] int exit_status(FailureKind kind);
 
-}  // namespace clatter::validation::inline scene
+}  // namespace clatter::validation

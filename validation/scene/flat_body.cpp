@@ -9,7 +9,7 @@
 #include "analytic/base/errors.hpp"
 #include "validation/output/number.hpp"
 
-namespace clatter::validation::inline scene {
+namespace clatter::validation {
 namespace {
 
 using analytic::near_flat::Footprint;
@@ -138,4 +138,4 @@ FlatBody flat_triangle(double restitution) {
           .restitution = restitution};
 }
 
-}  // namespace clatter::validation::inline scene
+}  // namespace clatter::validation

@@ -9,7 +9,7 @@
 #include "analytic/near_flat/two_contacts.hpp"
 #include "validation/scene/discrete_scene.hpp"
 
-namespace clatter::validation::inline scene {
+namespace clatter::validation {
 
 /// In the plane the contacts from left to right; in space the corners counter-clockwise as seen from above.
 using FlatContacts = std::variant<analytic::near_flat::TwoContacts, analytic::near_flat::Footprint>;
@@ -34,4 +34,4 @@ struct FlatBody {
 /// A thin uniform plate in the form of a triangle; all of them are one and the same close to flat.
 [[nodiscard]] FlatBody flat_triangle(double restitution);
 
-}  // namespace clatter::validation::inline scene
+}  // namespace clatter::validation

@@ -12,7 +12,7 @@
 #include <limits>
 #include <numeric>
 
-namespace clatter::validation::inline scene {
+namespace clatter::validation {
 namespace {
 
 using numeric::Vector3;
@@ -170,4 +170,4 @@ std::vector<Vector3> hull_corners(const std::vector<Vector3>& points, double siz
   return corners;
 }
 
-}  // namespace clatter::validation::inline scene
+}  // namespace clatter::validation

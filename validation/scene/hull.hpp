@@ -6,7 +6,7 @@
 
 #include "numeric/base/linear_algebra.hpp"
 
-namespace clatter::validation::inline scene {
+namespace clatter::validation {
 
 /// Whether a plane separates `point` from all of `points` by more than 1e-9 of the largest distance between them and
 /// it.  The answer true is certified by that plane; a point on the hull's surface lies within it.
@@ -18,4 +18,4 @@ namespace clatter::validation::inline scene {
 /// Cost: n log n, for bodies without faces of thousands of corners.
 [[nodiscard]] std::vector<numeric::Vector3> hull_corners(const std::vector<numeric::Vector3>& points, double size);
 
-}  // namespace clatter::validation::inline scene
+}  // namespace clatter::validation

@@ -8,7 +8,7 @@
 #include "validation/output/shell_word.hpp"
 #include "validation/scene/keys.hpp"
 
-namespace clatter::validation::inline scene {
+namespace clatter::validation {
 namespace {
 
 template <class... Cases>
@@ -258,4 +258,4 @@ void add_keys(const Scene& scene, Model model, Value& fields) {
   }
 }
 
-}  // namespace clatter::validation::inline scene
+}  // namespace clatter::validation

@@ -7,7 +7,7 @@
 
 #include "validation/scene/orientation.hpp"
 
-namespace clatter::validation::inline scene {
+namespace clatter::validation {
 namespace {
 
 constexpr auto viscoelastic = analytic::RestitutionLaw::viscoelastic;
@@ -366,4 +366,4 @@ const std::vector<Key>& all_keys() {
   return keys;
 }
 
-}  // namespace clatter::validation::inline scene
+}  // namespace clatter::validation

@@ -15,7 +15,7 @@
 #include "validation/scene/scene.hpp"
 #include "validation/scene/scene_values.hpp"
 
-namespace clatter::validation::inline scene {
+namespace clatter::validation {
 
 // The kinds of values: where one stands in a scene, and what is allowed.
 
@@ -136,4 +136,4 @@ void add_keys(const Scene& scene, Model model, Value& fields);
 [[nodiscard]] const std::vector<std::string>& method_names();
 [[nodiscard]] const std::vector<std::string>& sweep_names();
 
-}  // namespace clatter::validation::inline scene
+}  // namespace clatter::validation

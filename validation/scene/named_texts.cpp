@@ -3,7 +3,7 @@
 
 #include "validation/scene/keys.hpp"
 
-namespace clatter::validation::inline scene {
+namespace clatter::validation {
 namespace {
 
 /// Keys by the names of their arguments.
@@ -26,4 +26,4 @@ std::vector<SceneOverride> scene_overrides(const NamedTexts& given) {
   return overrides;
 }
 
-}  // namespace clatter::validation::inline scene
+}  // namespace clatter::validation

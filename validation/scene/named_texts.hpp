@@ -10,7 +10,7 @@
 #include "validation/scene/option_values.hpp"
 #include "validation/scene/scene.hpp"
 
-namespace clatter::validation::inline scene {
+namespace clatter::validation {
 
 using NamedTexts = std::map<std::string, std::string>;
 
@@ -28,4 +28,4 @@ template <class Value>
 /// errors, amplification and evaluation_limit.  @throws BadInput for an unknown name, with the nearest.
 [[nodiscard]] std::vector<SceneOverride> scene_overrides(const NamedTexts& given);
 
-}  // namespace clatter::validation::inline scene
+}  // namespace clatter::validation

@@ -8,7 +8,7 @@
 #include "validation/output/bad_input.hpp"
 #include "validation/output/number.hpp"
 
-namespace clatter::validation::inline scene {
+namespace clatter::validation {
 
 bool Range::holds(double value) const {
   return std::isfinite(value) && value >= low && value <= high && !(low_open && value == low);
@@ -45,4 +45,4 @@ std::size_t read_name_option(const std::string& option, const std::string& text,
                              nearest_name(text, names)));
 }
 
-}  // namespace clatter::validation::inline scene
+}  // namespace clatter::validation

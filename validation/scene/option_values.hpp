@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace clatter::validation::inline scene {
+namespace clatter::validation {
 
 /// What a number may be.
 struct Range {
@@ -31,4 +31,4 @@ inline constexpr Range not_negative_number{0, largest_number, false, "at least 0
 [[nodiscard]] std::size_t read_name_option(const std::string& option, const std::string& text,
                                            const std::vector<std::string>& names);
 
-}  // namespace clatter::validation::inline scene
+}  // namespace clatter::validation

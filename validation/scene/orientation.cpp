@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numeric>
 
-namespace clatter::validation::inline scene {
+namespace clatter::validation {
 namespace {
 
 using Signs = std::array<int, 3>;
@@ -68,4 +68,4 @@ bool is_attitude(std::span<const double> parameters) {
   return parameters.size() == 4 && std::fabs(std::sqrt(square) - 1) <= attitude_rounding;
 }
 
-}  // namespace clatter::validation::inline scene
+}  // namespace clatter::validation

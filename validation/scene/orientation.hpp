@@ -9,7 +9,7 @@
 
 #include "numeric/base/linear_algebra.hpp"
 
-namespace clatter::validation::inline scene {
+namespace clatter::validation {
 
 inline constexpr int orientation_count = 26;
 
@@ -28,4 +28,4 @@ inline constexpr int orientation_count = 26;
 /// Whether four numbers are Euler parameters as people type them: of length 1 to within 0.01.
 [[nodiscard]] bool is_attitude(std::span<const double> parameters);
 
-}  // namespace clatter::validation::inline scene
+}  // namespace clatter::validation

@@ -11,7 +11,7 @@
 #include "validation/output/number.hpp"
 #include "validation/scene/body_properties.hpp"
 
-namespace clatter::validation::inline scene {
+namespace clatter::validation {
 namespace {
 
 constexpr Range places{-1e100, 1e100, false, "from -1e100 to 1e100"};
@@ -92,4 +92,4 @@ Value probe_fields(const std::vector<Probe>& probes) {
   return list;
 }
 
-}  // namespace clatter::validation::inline scene
+}  // namespace clatter::validation

@@ -7,7 +7,7 @@
 
 #include "validation/scene/scene.hpp"
 
-namespace clatter::validation::inline scene {
+namespace clatter::validation {
 
 /// The table of which a file may have several, [[probe]]; their keys are "probe.0.name" and so on.
 inline constexpr const char* probe_table = "probe";
@@ -38,4 +38,4 @@ struct Probe {
 /// As the JSON echo has them.
 [[nodiscard]] Value probe_fields(const std::vector<Probe>& probes);
 
-}  // namespace clatter::validation::inline scene
+}  // namespace clatter::validation

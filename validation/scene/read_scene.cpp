@@ -21,7 +21,7 @@
 #include "validation/scene/scene.hpp"
 #include "validation/scene/scene_sweep.hpp"
 
-namespace clatter::validation::inline scene {
+namespace clatter::validation {
 namespace {
 
 void only_for(const SceneValues& values, const std::vector<std::string>& keys, const std::string& what) {
@@ -298,4 +298,4 @@ Scene case_scene(const std::string& name, const std::vector<SceneOverride>& over
   return read_values({case_path(name), case_text(name), scene_keys()}, overrides, Model::continuous);
 }
 
-}  // namespace clatter::validation::inline scene
+}  // namespace clatter::validation

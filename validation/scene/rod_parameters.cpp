@@ -6,7 +6,7 @@
 #include "validation/output/bad_input.hpp"
 #include "validation/output/number.hpp"
 
-namespace clatter::validation::inline scene {
+namespace clatter::validation {
 
 Arguments rod_arguments(RodRequest& r) {
   const char* const group = "Rod";
@@ -45,4 +45,4 @@ std::string rod_summary(const analytic::RodParameters& p) {
                      shortest(p.restitution), shortest(p.impulse_ratio));
 }
 
-}  // namespace clatter::validation::inline scene
+}  // namespace clatter::validation

@@ -9,7 +9,7 @@
 #include "validation/output/value.hpp"
 #include "validation/scene/argument.hpp"
 
-namespace clatter::validation::inline scene {
+namespace clatter::validation {
 
 struct RodRequest {
   std::optional<double> gravity_number;
@@ -25,4 +25,4 @@ struct RodRequest {
 /// "thin rod, G = …, e = …, μᵢ = …".
 [[nodiscard]] std::string rod_summary(const analytic::RodParameters& parameters);
 
-}  // namespace clatter::validation::inline scene
+}  // namespace clatter::validation

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "validation/scene/scene.hpp"
 
-namespace clatter::validation::inline scene {
+namespace clatter::validation {
 
 analytic::RestitutionLaw restitution_law(const Scene& scene) {
   if (scene.impact.law) return *scene.impact.law;
@@ -26,4 +26,4 @@ int Scene::most_impacts() const { return until_rest ? 100'000 : request.impacts;
 
 bool Scene::has_vectors() const { return !attitude.empty() || !velocity.empty() || !angular_velocity.empty(); }
 
-}  // namespace clatter::validation::inline scene
+}  // namespace clatter::validation

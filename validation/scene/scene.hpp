@@ -13,7 +13,7 @@
 #include "validation/output/value.hpp"
 #include "validation/scene/scene_values.hpp"
 
-namespace clatter::validation::inline scene {
+namespace clatter::validation {
 
 /// A flag as given, and the key of the scene file that it overrides.
 struct SceneOverride {
@@ -193,4 +193,4 @@ void require_level(const Scene& scene, const std::string& command);
 [[nodiscard]] const char* method_name(numeric::Method method);
 [[nodiscard]] const char* law_name(analytic::RestitutionLaw law);
 
-}  // namespace clatter::validation::inline scene
+}  // namespace clatter::validation

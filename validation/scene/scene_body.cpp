@@ -14,7 +14,7 @@
 #include "validation/scene/body_properties.hpp"
 #include "validation/scene/scene.hpp"
 
-namespace clatter::validation::inline scene {
+namespace clatter::validation {
 namespace {
 
 constexpr double degree = std::numbers::pi / 180;
@@ -113,4 +113,4 @@ double Scene::fallen_speed(double touch) const {
   return std::sqrt(2 * world.gravity * (*height - touch));
 }
 
-}  // namespace clatter::validation::inline scene
+}  // namespace clatter::validation

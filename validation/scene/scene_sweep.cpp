@@ -10,7 +10,7 @@
 #include "validation/output/number.hpp"
 #include "validation/scene/keys.hpp"
 
-namespace clatter::validation::inline scene {
+namespace clatter::validation {
 namespace {
 
 constexpr int most_values = 1'000'000;
@@ -102,4 +102,4 @@ void drop_sweep(SceneValues& values, const std::string& name) {
   for (const char* part : range_parts) values.drop("sweep." + name + part);
 }
 
-}  // namespace clatter::validation::inline scene
+}  // namespace clatter::validation

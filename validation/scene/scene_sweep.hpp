@@ -8,7 +8,7 @@
 #include "validation/scene/scene.hpp"
 #include "validation/scene/scene_values.hpp"
 
-namespace clatter::validation::inline scene {
+namespace clatter::validation {
 
 /// The sweep of a file, if it has one: under "sweep" a quantity's name with
 ///     [A, B, ...]                                    these values, in their order
@@ -21,4 +21,4 @@ namespace clatter::validation::inline scene {
 /// Leaves out all that the file says of the sweep of `name`.
 void drop_sweep(SceneValues& values, const std::string& name);
 
-}  // namespace clatter::validation::inline scene
+}  // namespace clatter::validation

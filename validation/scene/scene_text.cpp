@@ -8,7 +8,7 @@
 
 #include "validation/output/json.hpp"
 
-namespace clatter::validation::inline scene {
+namespace clatter::validation {
 namespace {
 
 /// What flags alone give a body of this shape.
@@ -51,4 +51,4 @@ std::string scene_text(const std::string& head, const std::vector<const Key*>& k
   return text;
 }
 
-}  // namespace clatter::validation::inline scene
+}  // namespace clatter::validation

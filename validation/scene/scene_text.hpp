@@ -8,7 +8,7 @@
 
 #include "validation/scene/keys.hpp"
 
-namespace clatter::validation::inline scene {
+namespace clatter::validation {
 
 /// Keys whose values flags alone would not give, in the order of the echo, but for files; those of the body, gravity
 /// and restitution in any case.
@@ -18,4 +18,4 @@ namespace clatter::validation::inline scene {
 [[nodiscard]] std::string scene_text(const std::string& head, const std::vector<const Key*>& keys,
                                      const std::function<std::string(const Key& key, const std::string& name)>& line);
 
-}  // namespace clatter::validation::inline scene
+}  // namespace clatter::validation

@@ -12,7 +12,7 @@
 #include "validation/scene/discrete_scene.hpp"
 #include "validation/scene/keys.hpp"
 
-namespace clatter::validation::inline scene {
+namespace clatter::validation {
 namespace {
 
 using numeric::FrictionLaw;
@@ -244,4 +244,4 @@ std::vector<std::string> scene_head(const Scene& scene, Model model, std::option
   return head;
 }
 
-}  // namespace clatter::validation::inline scene
+}  // namespace clatter::validation

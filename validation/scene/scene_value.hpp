@@ -9,7 +9,7 @@
 #include "validation/output/value.hpp"
 #include "validation/scene/scene.hpp"
 
-namespace clatter::validation::inline scene {
+namespace clatter::validation {
 
 /// All keys that the model has, defaults included, under the names of the file; for the discrete model, or with
 /// `approach`, also "discrete_law": the law that it takes and where each number came from (law_fields).
@@ -25,4 +25,4 @@ namespace clatter::validation::inline scene {
 [[nodiscard]] std::vector<std::string> scene_head(const Scene& scene, Model model = Model::continuous,
                                                   std::optional<double> approach = {}, const KeyNames& unsettled = {});
 
-}  // namespace clatter::validation::inline scene
+}  // namespace clatter::validation

@@ -17,7 +17,7 @@
 #include "validation/output/symbols.hpp"
 #include "validation/scene/option_values.hpp"
 
-namespace clatter::validation::inline scene {
+namespace clatter::validation {
 namespace {
 
 std::string position(const std::string& path, const toml::source_region& region) {
@@ -292,4 +292,4 @@ std::vector<double> SceneValues::numbers(const std::string& key, const std::vect
   return numbers;
 }
 
-}  // namespace clatter::validation::inline scene
+}  // namespace clatter::validation

@@ -10,7 +10,7 @@
 
 #include "validation/scene/option_values.hpp"
 
-namespace clatter::validation::inline scene {
+namespace clatter::validation {
 
 /// Keys are dotted: "drop.angle_deg", "body.mesh.sectors".  Each getter checks and says, in one line, where the value
 /// stands, what was given and what is allowed.
@@ -73,4 +73,4 @@ class SceneValues {
   std::map<std::string, Entry> entries_;
 };
 
-}  // namespace clatter::validation::inline scene
+}  // namespace clatter::validation

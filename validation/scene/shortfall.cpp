@@ -10,7 +10,7 @@
 #include "validation/output/bad_input.hpp"
 #include "validation/scene/failure.hpp"
 
-namespace clatter::validation::inline scene {
+namespace clatter::validation {
 
 std::string digits_shortfall(int asked, double achieved) {
   if (achieved <= std::pow(10.0, -asked)) return "";
@@ -41,4 +41,4 @@ int shortfall_status(const Run& run) {
   return exit_status(run.leaves_model ? FailureKind::outside_model : FailureKind::not_computed);
 }
 
-}  // namespace clatter::validation::inline scene
+}  // namespace clatter::validation

@@ -7,7 +7,7 @@
 #include "validation/record/run.hpp"
 #include "validation/scene/scene.hpp"
 
-namespace clatter::validation::inline scene {
+namespace clatter::validation {
 
 /// What a run of the discrete model falls short of: in one line why there are fewer impacts than asked for, where a
 /// number that could not be computed or a limit is the reason, or, with run.require_digits, that fewer digits are known
@@ -35,4 +35,4 @@ class Shortfalls {
 /// Exit status of a run of the discrete model that falls short: 4 where it leaves the model, else 3.
 [[nodiscard]] int shortfall_status(const Run& run);
 
-}  // namespace clatter::validation::inline scene
+}  // namespace clatter::validation

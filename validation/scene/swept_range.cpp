@@ -9,7 +9,7 @@
 #include "validation/output/bad_input.hpp"
 #include "validation/output/number.hpp"
 
-namespace clatter::validation::inline scene {
+namespace clatter::validation {
 
 double Sweep::value(long long i) const {
   if (i == count - 1 && step == 0) return to;
@@ -55,4 +55,4 @@ Sweep sweep_of(const RangeRequest& request, const SweepDefault& fallback, const 
   return sweep;
 }
 
-}  // namespace clatter::validation::inline scene
+}  // namespace clatter::validation

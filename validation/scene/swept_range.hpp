@@ -7,7 +7,7 @@
 
 #include "validation/scene/argument.hpp"
 
-namespace clatter::validation::inline scene {
+namespace clatter::validation {
 
 /// What is asked of a swept quantity.
 struct RangeRequest {
@@ -33,4 +33,4 @@ struct SweepDefault {
 /// @throws BadInput where an end lies outside `allowed`, or step and count are both given
 [[nodiscard]] Sweep sweep_of(const RangeRequest& request, const SweepDefault& fallback, const Range& allowed);
 
-}  // namespace clatter::validation::inline scene
+}  // namespace clatter::validation

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace clatter::validation::inline shock {
+namespace clatter::validation {
 namespace {
 
 constexpr std::size_t degree = sample_count - 1;
@@ -73,4 +73,4 @@ double ChebyshevPolynomial::tail() const {
   return std::fabs(coefficients_[degree - 1]) + std::fabs(coefficients_[degree]);
 }
 
-}  // namespace clatter::validation::inline shock
+}  // namespace clatter::validation

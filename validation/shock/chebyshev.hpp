@@ -7,7 +7,7 @@
 
 #include "numeric/drop/history_pieces.hpp"
 
-namespace clatter::validation::inline shock {
+namespace clatter::validation {
 
 inline constexpr std::size_t sample_count = numeric::piece_points;
 using Samples = std::array<double, sample_count>;
@@ -33,4 +33,4 @@ class ChebyshevPolynomial {
   Samples coefficients_{};
 };
 
-}  // namespace clatter::validation::inline shock
+}  // namespace clatter::validation

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace clatter::validation::inline shock {
+namespace clatter::validation {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -84,4 +84,4 @@ char covering_condition(double velocity, double acceleration) {
   return name;
 }
 
-}  // namespace clatter::validation::inline shock
+}  // namespace clatter::validation

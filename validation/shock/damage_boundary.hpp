@@ -4,7 +4,7 @@
 
 #include <array>
 
-namespace clatter::validation::inline shock {
+namespace clatter::validation {
 
 inline constexpr double standard_gravity = 9.80665;  ///< [m/s²], of "g" as a unit
 
@@ -57,4 +57,4 @@ struct ServiceCondition {
 /// The mildest one whose change of velocity and peak are both at least those of a blow; none: '-'.
 [[nodiscard]] char covering_condition(double velocity, double acceleration);
 
-}  // namespace clatter::validation::inline shock
+}  // namespace clatter::validation

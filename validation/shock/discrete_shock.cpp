@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-namespace clatter::validation::inline shock {
+namespace clatter::validation {
 namespace {
 
 namespace space = analytic::space;
@@ -125,4 +125,4 @@ std::vector<ShockRow> discrete_shock(const DiscreteDrop& drop, const DiscreteSeq
   return rows;
 }
 
-}  // namespace clatter::validation::inline shock
+}  // namespace clatter::validation

@@ -7,7 +7,7 @@
 #include "validation/plan/sequence_method.hpp"
 #include "validation/shock/shock_rows.hpp"
 
-namespace clatter::validation::inline shock {
+namespace clatter::validation {
 
 /// The changes of velocity, with errors from those of the impulse P and the attitude φ at each impact:
 ///     ΔV = ΔV_c + Δω × r,   |δΔV| <= |δP|/m + |r| |δΔω| + |Δω × r| |δφ|,
@@ -17,4 +17,4 @@ namespace clatter::validation::inline shock {
 [[nodiscard]] std::vector<ShockRow> discrete_shock(const DiscreteDrop& drop, const DiscreteSequence& sequence,
                                                    const std::vector<Vector3>& places);
 
-}  // namespace clatter::validation::inline shock
+}  // namespace clatter::validation

@@ -16,7 +16,7 @@
 #include "numeric/errors.hpp"
 #include "numeric/motion/free_flight.hpp"
 
-namespace clatter::validation::inline shock {
+namespace clatter::validation {
 namespace {
 
 constexpr double fine = 1e-13;                           ///< of the simulator's steps: numbers are good to about 1e-12
@@ -292,4 +292,4 @@ const std::vector<Floor>& floors() {
   return all;
 }
 
-}  // namespace clatter::validation::inline shock
+}  // namespace clatter::validation

@@ -9,7 +9,7 @@
 
 #include "numeric/simulate.hpp"
 
-namespace clatter::validation::inline shock {
+namespace clatter::validation {
 
 /// What can be measured of the first impact of a drop, and of the body at rest.
 enum class DropMeasure { restitution, contact_time, peak_force, indentation };
@@ -80,4 +80,4 @@ struct Floor {
 /// Those for which published numbers were found; of vinyl, rubber and foam there are none.
 [[nodiscard]] const std::vector<Floor>& floors();
 
-}  // namespace clatter::validation::inline shock
+}  // namespace clatter::validation

@@ -10,7 +10,7 @@
 #include <numbers>
 #include <stdexcept>
 
-namespace clatter::validation::inline shock {
+namespace clatter::validation {
 namespace {
 
 using Complex = std::complex<double>;
@@ -250,4 +250,4 @@ ResponseExtremes Oscillator::take_extremes() {
   return taken;
 }
 
-}  // namespace clatter::validation::inline shock
+}  // namespace clatter::validation

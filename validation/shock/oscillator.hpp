@@ -8,7 +8,7 @@
 
 #include "validation/shock/chebyshev.hpp"
 
-namespace clatter::validation::inline shock {
+namespace clatter::validation {
 
 /// The largest and the least value of a response that begins at 0.
 struct Extremes {
@@ -75,4 +75,4 @@ class Oscillator {
   ResponseExtremes extremes_;
 };
 
-}  // namespace clatter::validation::inline shock
+}  // namespace clatter::validation

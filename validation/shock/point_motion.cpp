@@ -3,7 +3,7 @@
 
 #include <cassert>
 
-namespace clatter::validation::inline shock {
+namespace clatter::validation {
 
 Vector3 specific_force(const numeric::PieceSample& at, const Vector3& r, double mass) {
   const Vector3& omega = at.state.angular_velocity;
@@ -21,4 +21,4 @@ void MotionRecorder::record_piece(const numeric::HistoryPiece& piece) {
   pieces_.back().piece.samples = {};
 }
 
-}  // namespace clatter::validation::inline shock
+}  // namespace clatter::validation

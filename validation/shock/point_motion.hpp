@@ -8,7 +8,7 @@
 #include "numeric/drop/history_pieces.hpp"
 #include "validation/shock/chebyshev.hpp"
 
-namespace clatter::validation::inline shock {
+namespace clatter::validation {
 
 using numeric::Vector3;
 
@@ -50,4 +50,4 @@ class MotionRecorder : public numeric::PieceRecorder {
   std::vector<MotionPiece> pieces_;
 };
 
-}  // namespace clatter::validation::inline shock
+}  // namespace clatter::validation

@@ -7,7 +7,7 @@
 #include <limits>
 #include <numbers>
 
-namespace clatter::validation::inline shock {
+namespace clatter::validation {
 namespace {
 
 constexpr double infinite_time = std::numeric_limits<double>::infinity();
@@ -124,4 +124,4 @@ std::vector<double> frequencies(double low, double high, int count) {
   return values;
 }
 
-}  // namespace clatter::validation::inline shock
+}  // namespace clatter::validation

@@ -10,7 +10,7 @@
 #include "validation/shock/point_motion.hpp"
 #include "validation/shock/shock_rows.hpp"
 
-namespace clatter::validation::inline shock {
+namespace clatter::validation {
 
 /// Specific force along an axis over a piece of the drop.
 struct BasePiece {
@@ -60,4 +60,4 @@ struct Envelope {
 /// From `low` to `high`, both included, at equal ratios.
 [[nodiscard]] std::vector<double> frequencies(double low, double high, int count);
 
-}  // namespace clatter::validation::inline shock
+}  // namespace clatter::validation

@@ -7,7 +7,7 @@
 #include <limits>
 #include <span>
 
-namespace clatter::validation::inline shock {
+namespace clatter::validation {
 namespace {
 
 constexpr double width_level = 0.1;  ///< of the peak, at which its width is measured
@@ -309,4 +309,4 @@ ContinuousShock continuous_shock(const Scene& scene, const numeric::Body& body, 
   return shock;
 }
 
-}  // namespace clatter::validation::inline shock
+}  // namespace clatter::validation

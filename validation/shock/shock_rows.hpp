@@ -10,7 +10,7 @@
 #include "validation/plan/planned_run.hpp"
 #include "validation/shock/point_motion.hpp"
 
-namespace clatter::validation::inline shock {
+namespace clatter::validation {
 
 /// The numbers of one impact at one point; the same struct holds their errors, not finite where not known.  The
 /// discrete model has the two changes alone, the rest is 0.
@@ -67,4 +67,4 @@ struct ContinuousShock {
                                                const std::vector<Vector3>& places, bool with_sensitivity,
                                                const numeric::Observer& observer = {});
 
-}  // namespace clatter::validation::inline shock
+}  // namespace clatter::validation

@@ -6,7 +6,7 @@
 
 #include "validation/scene/failure.hpp"
 
-namespace clatter::validation::inline shock {
+namespace clatter::validation {
 namespace {
 
 /// Of the probes, from the centre of mass of the body that a model drops [m].
@@ -219,4 +219,4 @@ ShockRun run_shock(const Scene& scene, const std::vector<Probe>& probes, const S
   return run;
 }
 
-}  // namespace clatter::validation::inline shock
+}  // namespace clatter::validation

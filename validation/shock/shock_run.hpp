@@ -11,7 +11,7 @@
 #include "validation/shock/discrete_shock.hpp"
 #include "validation/shock/response_spectrum.hpp"
 
-namespace clatter::validation::inline shock {
+namespace clatter::validation {
 
 /// What of a shock is asked for.
 struct ShockRequest {
@@ -63,4 +63,4 @@ struct ShockRun {
 [[nodiscard]] ShockRun run_shock(const Scene& scene, const std::vector<Probe>& probes, const ShockRequest& request,
                                  const numeric::Observer& observer = {});
 
-}  // namespace clatter::validation::inline shock
+}  // namespace clatter::validation

@@ -11,7 +11,7 @@
 
 #include "numeric/motion/free_flight.hpp"
 
-namespace clatter::validation::inline shock {
+namespace clatter::validation {
 namespace {
 
 constexpr double most_instants = 1e7;
@@ -176,4 +176,4 @@ std::vector<HistoryInstant> uniform_history(const ContinuousShock& shock, const 
   return history;
 }
 
-}  // namespace clatter::validation::inline shock
+}  // namespace clatter::validation

@@ -7,7 +7,7 @@
 #include "numeric/body.hpp"
 #include "validation/shock/shock_rows.hpp"
 
-namespace clatter::validation::inline shock {
+namespace clatter::validation {
 
 /// One instant.  World frame unless it says otherwise.
 struct HistoryInstant {
@@ -38,4 +38,4 @@ struct HistoryInstant {
                                                           const numeric::Ground& ground,
                                                           const std::vector<Vector3>& places, double rate);
 
-}  // namespace clatter::validation::inline shock
+}  // namespace clatter::validation

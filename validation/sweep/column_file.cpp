@@ -8,7 +8,7 @@
 
 #include "validation/output/bad_input.hpp"
 
-namespace clatter::validation::inline sweep {
+namespace clatter::validation {
 
 namespace {
 
@@ -42,4 +42,4 @@ std::unique_ptr<ColumnFile> open_hdf5(const std::string& path, const ColumnFileH
   return std::unique_ptr<ColumnFile>(open_in_module()(path, head));
 }
 
-}  // namespace clatter::validation::inline sweep
+}  // namespace clatter::validation

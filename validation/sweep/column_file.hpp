@@ -11,7 +11,7 @@
 #include "validation/output/cells.hpp"
 #include "validation/output/report.hpp"
 
-namespace clatter::validation::inline sweep {
+namespace clatter::validation {
 
 /// What a file of columns begins with.
 struct ColumnFileHead {
@@ -40,4 +40,4 @@ void require_hdf5();
 /// @throws BadInput where the program was built without HDF5, std::runtime_error if the file cannot be written
 [[nodiscard]] std::unique_ptr<ColumnFile> open_hdf5(const std::string& path, const ColumnFileHead& head);
 
-}  // namespace clatter::validation::inline sweep
+}  // namespace clatter::validation

@@ -3,7 +3,7 @@
 
 #include <Random123/philox.h>
 
-namespace clatter::validation::inline sweep {
+namespace clatter::validation {
 namespace {
 
 std::uint32_t high(std::uint64_t number) { return static_cast<std::uint32_t>(number >> 32); }
@@ -17,4 +17,4 @@ double uniform_at(std::uint64_t seed, std::uint64_t scene, std::uint32_t column,
   return static_cast<double>(bits) * 0x1p-53;
 }
 
-}  // namespace clatter::validation::inline sweep
+}  // namespace clatter::validation

@@ -12,7 +12,7 @@
 
 #include "validation/sweep/column_file.hpp"
 
-namespace clatter::validation::inline sweep {
+namespace clatter::validation {
 namespace {
 
 constexpr hsize_t chunk_rows = 65536;
@@ -158,7 +158,7 @@ class Hdf5File final : public ColumnFile {
 };
 
 }  // namespace
-}  // namespace clatter::validation::inline sweep
+}  // namespace clatter::validation
 
 extern "C" clatter::validation::ColumnFile* clatter_open_hdf5(const std::string& path,
                                                               const clatter::validation::ColumnFileHead& head) {

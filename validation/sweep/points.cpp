@@ -15,7 +15,7 @@
 #include "validation/sweep/counter_random.hpp"
 #include "validation/tables/numeric_table.hpp"
 
-namespace clatter::validation::inline sweep {
+namespace clatter::validation {
 namespace {
 
 constexpr double largest_whole = 0x1p53;
@@ -277,4 +277,4 @@ void SweepPoints::at(long long point, std::vector<double>& values) const {
   }
 }
 
-}  // namespace clatter::validation::inline sweep
+}  // namespace clatter::validation

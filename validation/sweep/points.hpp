@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace clatter::validation::inline sweep {
+namespace clatter::validation {
 
 /// Most scenes of a sweep.
 inline constexpr long long most_scenes = 1'000'000'000;
@@ -86,4 +86,4 @@ class SweepPoints {
   std::uint64_t seed_ = 0;
 };
 
-}  // namespace clatter::validation::inline sweep
+}  // namespace clatter::validation

@@ -8,7 +8,7 @@
 #include "validation/output/bad_input.hpp"
 #include "validation/sweep/sweep_run.hpp"
 
-namespace clatter::validation::inline sweep {
+namespace clatter::validation {
 
 void become_mpi_program(char** words) {
   char self[PATH_MAX];
@@ -29,4 +29,4 @@ Ranks::~Ranks() = default;
 void Ranks::hand_out(RangeQueue&, const MakeCompute&, const SweepHooks&) {}
 void Ranks::serve(const ComputeRange&) {}
 
-}  // namespace clatter::validation::inline sweep
+}  // namespace clatter::validation

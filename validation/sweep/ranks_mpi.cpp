@@ -14,7 +14,7 @@
 #include "validation/output/bad_input.hpp"
 #include "validation/sweep/sweep_run.hpp"
 
-namespace clatter::validation::inline sweep {
+namespace clatter::validation {
 namespace {
 
 /// To process 0: ready for a range; the rows of one; this process ends.  From it: a range, with no scenes the last one.
@@ -138,4 +138,4 @@ void Ranks::serve(const ComputeRange& compute) {
   }
 }
 
-}  // namespace clatter::validation::inline sweep
+}  // namespace clatter::validation

@@ -14,7 +14,7 @@
 #include "validation/record/totals.hpp"
 #include "validation/shock/damage_boundary.hpp"
 
-namespace clatter::validation::inline sweep {
+namespace clatter::validation {
 namespace {
 
 /// A sum over the impacts of a scene, which has a column for its error.
@@ -433,4 +433,4 @@ void ShortfallCount::add_row(std::string_view row) {
   count(row.substr(0, row.find(',')), rest.substr(0, rest.find(',')), reason);
 }
 
-}  // namespace clatter::validation::inline sweep
+}  // namespace clatter::validation

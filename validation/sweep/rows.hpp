@@ -14,7 +14,7 @@
 #include "validation/scene/shortfall.hpp"
 #include "validation/shock/shock_rows.hpp"
 
-namespace clatter::validation::inline sweep {
+namespace clatter::validation {
 
 enum class RowKind { scene, impact };
 
@@ -117,4 +117,4 @@ class ShortfallCount {
   std::string last_;  ///< index of the last of them
 };
 
-}  // namespace clatter::validation::inline sweep
+}  // namespace clatter::validation

@@ -13,7 +13,7 @@
 
 #include "validation/output/number.hpp"
 
-namespace clatter::validation::inline sweep {
+namespace clatter::validation {
 namespace {
 
 /// The sign, the exponent and the first twelve bits of the fraction, in the order of the numbers.
@@ -173,4 +173,4 @@ void Summary::add_texts(Report& report) const {
   }
 }
 
-}  // namespace clatter::validation::inline sweep
+}  // namespace clatter::validation

@@ -14,7 +14,7 @@
 #include "validation/sweep/points.hpp"
 #include "validation/sweep/rows.hpp"
 
-namespace clatter::validation::inline sweep {
+namespace clatter::validation {
 
 /// Counts numbers in bins of a relative width of 2⁻¹², each with the least and the largest of its numbers.
 class Histogram {
@@ -89,4 +89,4 @@ class Summary {
   std::vector<PackedCell> row_;
 };
 
-}  // namespace clatter::validation::inline sweep
+}  // namespace clatter::validation

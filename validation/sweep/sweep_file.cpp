@@ -18,7 +18,7 @@
 
 #include "validation/output/bad_input.hpp"
 
-namespace clatter::validation::inline sweep {
+namespace clatter::validation {
 namespace {
 
 constexpr std::size_t block_bytes = 1 << 20;
@@ -243,4 +243,4 @@ void SweepFile::fail(const std::string& file, const char* what) const {
 
 void SweepFile::refuse(const std::string& why) const { throw BadInput(fmt::format("--output {}: {}", path_, why)); }
 
-}  // namespace clatter::validation::inline sweep
+}  // namespace clatter::validation

@@ -11,7 +11,7 @@
 #include "validation/output/digest.hpp"
 #include "validation/output/sink.hpp"
 
-namespace clatter::validation::inline sweep {
+namespace clatter::validation {
 
 /// What the file of a sweep must be.
 struct SweepFileForm {
@@ -75,4 +75,4 @@ class SweepFile {
   std::chrono::steady_clock::time_point flushed_;
 };
 
-}  // namespace clatter::validation::inline sweep
+}  // namespace clatter::validation

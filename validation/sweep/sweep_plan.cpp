@@ -18,7 +18,7 @@
 #include "validation/scene/orientation.hpp"
 #include "validation/scene/scene_value.hpp"
 
-namespace clatter::validation::inline sweep {
+namespace clatter::validation {
 namespace {
 
 const char* const static_friction = "ground.static_friction";
@@ -495,4 +495,4 @@ Report SweepPlan::report() const {
   return report;
 }
 
-}  // namespace clatter::validation::inline sweep
+}  // namespace clatter::validation

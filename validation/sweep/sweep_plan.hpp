@@ -15,7 +15,7 @@
 #include "validation/sweep/points.hpp"
 #include "validation/sweep/rows.hpp"
 
-namespace clatter::validation::inline sweep {
+namespace clatter::validation {
 
 /// What was typed, empty where not given.
 struct SweepRequest {
@@ -63,4 +63,4 @@ struct SweepPlan {
 /// @throws BadInput with one line; both ends of every axis are checked like keys of the scene file.
 [[nodiscard]] SweepPlan read_sweep_plan(const SweepRequest& request);
 
-}  // namespace clatter::validation::inline sweep
+}  // namespace clatter::validation

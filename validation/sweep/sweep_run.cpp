@@ -13,7 +13,7 @@
 #include "validation/scene/shortfall.hpp"
 #include "validation/shock/discrete_shock.hpp"
 
-namespace clatter::validation::inline sweep {
+namespace clatter::validation {
 namespace {
 
 constexpr std::size_t most_waiting_bytes = 64 << 20;
@@ -260,4 +260,4 @@ long long range_size(const SweepPlan& plan) {
   return std::clamp(4096 / plan.scene.request.impacts, 1, 512);
 }
 
-}  // namespace clatter::validation::inline sweep
+}  // namespace clatter::validation

@@ -19,7 +19,7 @@
 #include "validation/scene/discrete_scene.hpp"
 #include "validation/sweep/sweep_plan.hpp"
 
-namespace clatter::validation::inline sweep {
+namespace clatter::validation {
 
 /// Scenes first, first + 1, …, first + count − 1.
 struct SceneRange {
@@ -209,4 +209,4 @@ class Ranks {
   std::vector<int> idle_;  ///< likewise: those of them that wait for a range, once for each
 };
 
-}  // namespace clatter::validation::inline sweep
+}  // namespace clatter::validation

@@ -5,7 +5,7 @@
 
 #include "validation/output/number.hpp"
 
-namespace clatter::validation::inline tables {
+namespace clatter::validation {
 
 namespace {
 
@@ -86,4 +86,4 @@ std::vector<Row> read_csv_rows(const std::string& text) {
   return rows;
 }
 
-}  // namespace clatter::validation::inline tables
+}  // namespace clatter::validation

@@ -8,7 +8,7 @@
 
 #include "validation/output/report.hpp"
 
-namespace clatter::validation::inline tables {
+namespace clatter::validation {
 
 /// Without blanks at either end.
 [[nodiscard]] std::string_view trimmed(std::string_view text);
@@ -46,4 +46,4 @@ class CsvLine {
 /// Rows that the program's own CSV holds, read back: numbers, truths and texts.
 [[nodiscard]] std::vector<Row> read_csv_rows(const std::string& text);
 
-}  // namespace clatter::validation::inline tables
+}  // namespace clatter::validation

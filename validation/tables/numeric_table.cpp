@@ -18,7 +18,7 @@
 #include "validation/output/sink.hpp"
 #include "validation/tables/csv_line.hpp"
 
-namespace clatter::validation::inline tables {
+namespace clatter::validation {
 namespace {
 
 constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
@@ -304,4 +304,4 @@ void NumericTable::refuse(std::size_t row, std::string_view column, const std::s
       fmt::format("{}:{}:{}: {} = {}: must be {}", path_, line(row), place, column, shown_field(field), allowed));
 }
 
-}  // namespace clatter::validation::inline tables
+}  // namespace clatter::validation

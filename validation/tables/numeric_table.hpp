@@ -19,7 +19,7 @@
 
 #include "validation/tables/csv_line.hpp"
 
-namespace clatter::validation::inline tables {
+namespace clatter::validation {
 
 /// Name that the reader knows → name in the file's header.
 using ColumnNames = std::map<std::string, std::string>;
@@ -107,4 +107,4 @@ class NumericTable {
   std::vector<Start> starts_;
 };
 
-}  // namespace clatter::validation::inline tables
+}  // namespace clatter::validation

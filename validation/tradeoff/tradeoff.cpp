@@ -11,7 +11,7 @@
 
 #include "numeric/errors.hpp"
 
-namespace clatter::validation::inline tradeoff {
+namespace clatter::validation {
 namespace {
 
 using numeric::Method;
@@ -173,4 +173,4 @@ double trade_tolerance(int index) { return std::max(std::pow(10.0, -1 - index), 
 
 Tradeoff measure_tradeoff(const Scene& scene, const TradeoffOptions& options) { return Bench(scene, options).run(); }
 
-}  // namespace clatter::validation::inline tradeoff
+}  // namespace clatter::validation

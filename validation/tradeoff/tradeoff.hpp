@@ -8,7 +8,7 @@
 
 #include "validation/plan/model_hierarchy.hpp"
 
-namespace clatter::validation::inline tradeoff {
+namespace clatter::validation {
 
 /// One model with one setting on the scene.
 struct TradePoint {
@@ -50,4 +50,4 @@ inline constexpr int tolerance_count = 13;
 /// @throws numeric::NumericalError if the scene has no impact with a reference that can be trusted.
 [[nodiscard]] Tradeoff measure_tradeoff(const Scene& scene, const TradeoffOptions& options);
 
-}  // namespace clatter::validation::inline tradeoff
+}  // namespace clatter::validation

@@ -13,7 +13,7 @@
 #include "validation/verify/check.hpp"
 #include "validation/verify/discrete_bars.hpp"
 
-namespace clatter::validation::inline verify {
+namespace clatter::validation {
 namespace {
 
 constexpr int family = 9;
@@ -110,4 +110,4 @@ Measured bars_of_the_discrete_model(CaseRuns& case_runs) {
 
 Measures bar_measures() { return {{"B1", bars_of_the_discrete_model}, {"B2", bars_of_the_simulator}}; }
 
-}  // namespace clatter::validation::inline verify
+}  // namespace clatter::validation

@@ -20,7 +20,7 @@
 #include "validation/output/number.hpp"
 #include "validation/scene/option_values.hpp"
 
-namespace clatter::validation::inline verify {
+namespace clatter::validation {
 namespace {
 
 constexpr double loosest = 5;  // times the error seen
@@ -193,4 +193,4 @@ std::vector<CheckResult> verify_checks(
   return results;
 }
 
-}  // namespace clatter::validation::inline verify
+}  // namespace clatter::validation

@@ -14,7 +14,7 @@
 #include "validation/compare/case_runs.hpp"
 #include "validation/output/number.hpp"
 
-namespace clatter::validation::inline verify {
+namespace clatter::validation {
 
 /// What a measurement says of a claim.
 enum class Answer {
@@ -125,4 +125,4 @@ struct CheckResult {
     const std::vector<const Check*>& checks, CaseRuns& case_runs,
     const std::function<bool(std::size_t, std::size_t, const std::string&)>& progress);
 
-}  // namespace clatter::validation::inline verify
+}  // namespace clatter::validation

@@ -9,7 +9,7 @@
 #include "validation/verify/check.hpp"
 #include "validation/verify/reference.hpp"
 
-namespace clatter::validation::inline verify {
+namespace clatter::validation {
 namespace {
 
 using analytic::ContactAngles;
@@ -360,4 +360,4 @@ Measures claim_measures() {
           {"C19", more_than_twice},    {"C20", damping_and_peaks}};
 }
 
-}  // namespace clatter::validation::inline verify
+}  // namespace clatter::validation

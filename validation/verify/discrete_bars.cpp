@@ -12,7 +12,7 @@
 #include "validation/oracles/digits.hpp"
 #include "validation/oracles/event_oracle.hpp"
 
-namespace clatter::validation::inline verify {
+namespace clatter::validation {
 namespace {
 
 using analytic::FrictionKind;
@@ -314,4 +314,4 @@ BarScene random_damped_bar_scene(unsigned family, int index) {
   return scene;
 }
 
-}  // namespace clatter::validation::inline verify
+}  // namespace clatter::validation

@@ -7,7 +7,7 @@
 
 #include "analytic/plane/sequence.hpp"
 
-namespace clatter::validation::inline verify {
+namespace clatter::validation {
 
 enum class BarShape { thin_rod, rod, box };
 
@@ -55,4 +55,4 @@ struct BarCoverage {
 /// the model says needs for being judged; adds what was found.
 void judge_bars(const BarScene& scene, int impacts, BarCoverage& coverage);
 
-}  // namespace clatter::validation::inline verify
+}  // namespace clatter::validation

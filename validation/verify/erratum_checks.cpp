@@ -16,7 +16,7 @@
 #include "validation/verify/check.hpp"
 #include "validation/verify/reference.hpp"
 
-namespace clatter::validation::inline verify {
+namespace clatter::validation {
 namespace {
 
 using analytic::Angle;
@@ -212,4 +212,4 @@ Measures erratum_measures() {
           {"E11", two_versions_of_figure_17}};
 }
 
-}  // namespace clatter::validation::inline verify
+}  // namespace clatter::validation

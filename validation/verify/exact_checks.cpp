@@ -18,7 +18,7 @@
 #include "validation/verify/check.hpp"
 #include "validation/verify/reference.hpp"
 
-namespace clatter::validation::inline verify {
+namespace clatter::validation {
 namespace {
 
 using analytic::Angle;
@@ -364,4 +364,4 @@ Measures exact_measures() {
           {"X17", endless_strikes}};
 }
 
-}  // namespace clatter::validation::inline verify
+}  // namespace clatter::validation

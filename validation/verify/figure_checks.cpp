@@ -8,7 +8,7 @@
 #include "validation/figures/figure.hpp"
 #include "validation/verify/check.hpp"
 
-namespace clatter::validation::inline verify {
+namespace clatter::validation {
 namespace {
 
 using numeric::HistorySample;
@@ -193,4 +193,4 @@ Measures figure_measures() {
           {"F23", figure_23},           {"F24", figure_24}};
 }
 
-}  // namespace clatter::validation::inline verify
+}  // namespace clatter::validation

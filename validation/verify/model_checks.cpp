@@ -11,7 +11,7 @@
 #include "validation/output/number.hpp"
 #include "validation/verify/check.hpp"
 
-namespace clatter::validation::inline verify {
+namespace clatter::validation {
 namespace {
 
 /// The farthest that a limit lies from the discrete value, over the size of the number at large.
@@ -128,4 +128,4 @@ Measures model_measures() {
       {"X20", velocities("square-drops")}, {"X21", velocities("cube-tosses")}, {"X22", clattering}};
 }
 
-}  // namespace clatter::validation::inline verify
+}  // namespace clatter::validation

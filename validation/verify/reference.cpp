@@ -7,7 +7,7 @@
 #include "validation/embedded/embedded.hpp"
 #include "validation/output/number.hpp"
 
-namespace clatter::validation::inline verify {
+namespace clatter::validation {
 namespace {
 
 std::vector<ReferenceRow> read(const std::string& name) {
@@ -59,4 +59,4 @@ double second_impact_fold() { return static_cast<double>(fold()); }
 
 double second_impact_fold_beta() { return static_cast<double>(std::acos(slope(fold()))); }
 
-}  // namespace clatter::validation::inline verify
+}  // namespace clatter::validation

@@ -11,7 +11,7 @@
 #include "analytic/plane/contact_angles.hpp"
 #include "validation/oracles/reference_table.hpp"
 
-namespace clatter::validation::inline verify {
+namespace clatter::validation {
 
 /// One row: column name → value rounded to double; columns with a gap are absent (this impact does not happen with a
 /// contact angle up to 90°).
@@ -39,4 +39,4 @@ enum class ReferenceTable { no_gravity, gravity };
 /// θ* at which the third impact ends [°], from an independent computation in 60 digits.
 inline constexpr double third_impact_fold_deg = 27.577809606636;
 
-}  // namespace clatter::validation::inline verify
+}  // namespace clatter::validation

@@ -13,7 +13,7 @@
 #include "validation/verify/check.hpp"
 #include "validation/verify/reference.hpp"
 
-namespace clatter::validation::inline verify {
+namespace clatter::validation {
 namespace {
 
 using namespace analytic::space;
@@ -275,4 +275,4 @@ Measures space_measures() {
           {"S4", symmetries},     {"S5", path_of_friction}, {"S6", planar_model}};
 }
 
-}  // namespace clatter::validation::inline verify
+}  // namespace clatter::validation
