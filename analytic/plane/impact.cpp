@@ -90,12 +90,12 @@ class FlatLanding {
                                                                       std::fmax(first.tangential, second.tangential)} {}
 
   [[nodiscard]] FlatPhase sliding(double ratio) const {
-    const double shift = whole_turn() * square_;
+    const double of_whole = whole_turn() * square_;
     for (const double end : ends_) {
       if (is_nearest(end, ratio)) return pushed_at(end, ratio);
     }
     return {.ratio = ratio,
-            .place = ratio * depth_ - shift,
+            .place = ratio * depth_ - of_whole,
             .rate = -1 / before_.normal,
             .slip_rate = ratio + depth_ * whole_turn()};
   }

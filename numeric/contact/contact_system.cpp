@@ -356,7 +356,7 @@ ContactSystem::Friction ContactSystem::at_centre(const Instant& at, const AlongG
 /// Friction's couple about the pressure centre of the patch that only turns, for μ = 1.
 double ContactSystem::turning_couple(const Instant& at) {
   const SlipField field{.kind = SlipField::Kind::turning, .digits = at.phase.digits, .centre = at.centre, .spin = 1};
-  const SlipLoad load = loader_.slip_load(at.view, field);
+  const SlipLoad load = loader_->slip_load(at.view, field);
   return -at.normal.dot(load.moment - at.centre.cross(along(at.view, {load.east, load.north})));
 }
 

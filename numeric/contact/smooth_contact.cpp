@@ -327,7 +327,7 @@ CapRule rule_of_variation(const PieceSlip& slip, double part) {
 bool find_resting_place(const PieceSlip& slip, Vector3& place) {
   const double height = slip.piece.height;
   if (slip.piece.is_mantle || !(height < 0.5)) return false;
-  const double most = std::min(3 * std::sqrt(height * (2 - height)), 0.6);
+  const double widest = std::min(3 * std::sqrt(height * (2 - height)), 0.6);
   place.setZero();
   for (int pass = 0; pass < 12; ++pass) {
     const SlipVector v = slip.at(place);
@@ -342,9 +342,9 @@ bool find_resting_place(const PieceSlip& slip, Vector3& place) {
     place.x() += dx;
     place.y() += dy;
     const double square = place.x() * place.x() + place.y() * place.y();
-    if (!(square < most * most)) return false;
+    if (!(square < widest * widest)) return false;
     place.z() = square / (1 + std::sqrt(1 - square));
-    if (std::hypot(dx, dy) <= 1e-15 * most) return true;
+    if (std::hypot(dx, dy) <= 1e-15 * widest) return true;
   }
   return false;
 }
