@@ -20,6 +20,28 @@ double weight_at(const Piece& piece, const Vector3& p, bool projected) {
   return piece.by_normal ? (piece.normal + piece.normal_change * p).norm() : piece.area;
 }
 
+constexpr double level_rounding = 1e-14;  ///< of a slope: what is no slope along the ground
+
+/// Whether half-spaces leave heights of a cap alone; narrows the zone to them.
+bool between_heights(const HalfSpaces& parts, Zone& zone) {
+  for (int i = 0; i < parts.count(); ++i) {
+    const Vector3& slope = parts[i].slope;
+    if (!(std::hypot(slope.x(), slope.y()) <= level_rounding * std::fabs(slope.z())) || slope.z() == 0) return false;
+    const double height = -parts[i].value / slope.z();
+    if (slope.z() < 0) zone.high = std::min(zone.high, height);
+    else zone.low = std::max(zone.low, height);
+  }
+  return true;
+}
+
+/// Whether a linear function changes its sign at one depth, within what is below the ground.
+bool is_by_depth(const SpaceLinear& f, const SpaceLinear& depth, double& at) {
+  if (!(f.slope.cross(depth.slope).norm() <= level_rounding * f.slope.norm() * depth.slope.norm())) return false;
+  const double slope = f.slope.dot(depth.slope) / depth.slope.squaredNorm();
+  at = slope != 0 ? depth.value - f.value / slope : 0;
+  return at > 0;
+}
+
 /// Integrals in the coordinates of a piece, weighted by the measure.
 struct LocalSums {
   double depth = 0, depth_squared = 0, depth_rate = 0, depth_rate_squared = 0, rate = 0, rate_squared = 0;
@@ -185,10 +207,11 @@ void SmoothContact::add_mantle(const std::array<double, 2>& depths, const Shared
 CapRule SmoothContact::rule_for(double height) const {
   CapRule rule;
   if (ground_.area == AreaMeasure::projected || shape_.is_ball()) return rule;
-  constexpr double digits = 15;
+  constexpr double digits = 14;
+  const double kappa = slimness_ / std::sqrt((1 - slimness_) * (1 + slimness_));
   const double rho = height < 1 ? std::sqrt(height * (2 - height)) : 1;
-  rule.around = 6 + 2 * static_cast<int>(std::ceil(digits * std::numbers::ln10 / (2 * std::asinh(slimness_ / rho))));
-  const double strip = std::asinh(slimness_), cosine = std::cosh(strip);
+  rule.around = 6 + 2 * static_cast<int>(std::ceil(digits * std::numbers::ln10 / (2 * std::asinh(kappa / rho))));
+  const double strip = std::asinh(kappa), cosine = std::cosh(strip);
   const double rim = 1 - std::min(height, 2.0);
   const std::complex<double> beyond(1 - rim * cosine, std::sqrt(std::max(1 - rim * rim, 0.0)) * std::sinh(strip));
   for (rule.parts = 1;; rule.parts *= 2) {
@@ -205,21 +228,34 @@ CapRule SmoothContact::rule_for(double height) const {
 
 template <class Visit>
 void SmoothContact::over(const Piece& piece, const HalfSpaces& parts, Visit&& visit) const {
-  if (piece.is_mantle) {
-    if (parts.count() == 0) {
-      constexpr double digits = 15;
-      const double strip = std::asinh(slimness_);
-      const bool round = ground_.area == AreaMeasure::projected || shape_.is_ball();
-      return over_mantle(piece.mantle, round ? 8 : 8 + static_cast<int>(digits * std::numbers::ln10 / strip), visit);
-    }
-    HalfSpaces all = parts;
-    all.add(piece.depth);
-    return MantleSlices(piece.mantle.length, all).visit(visit);
+  if (piece.is_mantle) return over_part_of_mantle(piece, parts, visit);
+  Zone zone{0, piece.height};
+  if (between_heights(parts, zone)) {
+    if (zone.high > zone.low) over_zone(zone, rule_for(piece.height), visit);
+    return;
   }
-  if (parts.count() == 0) return over_cap(piece.height, rule_for(piece.height), visit);
   HalfSpaces all = parts;
   if (piece.height < 2) all.add({piece.depth.value / -piece.depth.slope.z(), {0, 0, -1}});
   over_part(all, visit);
+}
+
+template <class Visit>
+void SmoothContact::over_part_of_mantle(const Piece& piece, const HalfSpaces& parts, Visit&& visit) const {
+  constexpr double digits = 15;
+  const bool round = ground_.area == AreaMeasure::projected || shape_.is_ball();
+  const int around = round ? 8 : 8 + static_cast<int>(digits * std::numbers::ln10 / std::asinh(slimness_));
+  double deeper = 0;
+  if (parts.count() == 0) return over_mantle(piece.mantle, around, 0, visit);
+  if (parts.count() == 1 && is_by_depth(parts[0], piece.depth, deeper)) {
+    Mantle below = piece.mantle;
+    below.depth -= deeper;
+    const bool is_deep = parts[0].slope.dot(piece.depth.slope) > 0;
+    if (!is_deep) over_mantle(piece.mantle, around, 0, visit);
+    return over_mantle(below, around, 0, [&](const Vector3& p, double area) { visit(p, is_deep ? area : -area); });
+  }
+  HalfSpaces all = parts;
+  all.add(piece.depth);
+  Slices(piece.mantle.length, all).visit(visit);
 }
 
 void SmoothContact::add_piece(Piece& piece, const Shared& shared, Sums& sums) {
@@ -276,7 +312,6 @@ void SmoothContact::add_piece(Piece& piece, const Shared& shared, Sums& sums) {
 
 namespace {
 
-constexpr int most_cells = 2000;         ///< into which a piece is halved
 constexpr double most_variation = 0.45;  ///< of the slip over a cell, from its middle, in parts of it
 constexpr int most_around = 256;
 
@@ -385,131 +420,68 @@ void along_ray(const PieceSlip& slip, const SphereRay& ray, double speed, Add&& 
   }
 }
 
-/// A rectangle of parameters, each from 0 to 1.
-struct Cell {
-  double s0, s1, t0, t1;
-  int level;
-};
+/// The direction in which the slip varies most over the piece; the slip's own where it does not vary.
+SlipVector steepest(const PieceSlip& slip) {
+  const Vector3 &e = slip.east.slope, &n = slip.north.slope;
+  const double angle = std::atan2(2 * e.dot(n), e.squaredNorm() - n.squaredNorm()) / 2;
+  return {std::cos(angle), std::sin(angle)};
+}
 
-/// Integrates over 0 <= s, t <= 1 by Gauss's rule on cells, which are halved until the slip varies little over each.
-/// `place(s, t)` gives a point, `visit(s, t, area of parameters)` adds there; `slip_at` is the velocity to judge by.
-template <class SlipAt, class Visit>
-void over_cells(const PieceSlip& slip, SlipAt&& slip_at, Visit&& visit) {
-  std::array<Cell, 128> stack;
-  int top = 0, cells = 0;
-  stack[static_cast<std::size_t>(top++)] = {0, 1, 0, 1, 0};
-  const int deepest = std::min(100, static_cast<int>(slip.digits / std::log10(2.0)) + 4);
+SpaceLinear component(const PieceSlip& slip, const SlipVector& way) {
+  return {way.east * slip.east.value + way.north * slip.north.value,
+          way.east * slip.east.slope + way.north * slip.north.slope};
+}
+
+/// Along a piece of a slice, by Gauss's rule on parts that are halved until the slip varies little over each.
+void along_slice(const PieceSlip& slip, const Slices& slices, const Slices::Slice& slice, double begin, double end,
+                 double weight, DirectionSums& sums) {
+  struct Part {
+    double from, to;
+    int level;
+  };
+  std::array<Part, 128> stack;
+  int top = 0;
+  stack[static_cast<std::size_t>(top++)] = {begin, end, 0};
+  const int deepest = std::min(60, static_cast<int>(slip.digits / std::log10(2.0)) + 2);
   while (top > 0) {
-    const Cell cell = stack[static_cast<std::size_t>(--top)];
-    const double s = (cell.s0 + cell.s1) / 2, t = (cell.t0 + cell.t1) / 2;
-    const SlipVector middle = slip_at(s, t);
-    const auto change = [&](double at_s, double at_t) {
-      const SlipVector v = slip_at(at_s, at_t);
-      return std::hypot(v.east - middle.east, v.north - middle.north);
+    const Part part = stack[static_cast<std::size_t>(--top)];
+    const double middle = (part.from + part.to) / 2, half = (part.to - part.from) / 2;
+    const SlipVector v = slip.at(slices.place(slice, middle));
+    const auto change = [&](double angle) {
+      const SlipVector other = slip.at(slices.place(slice, angle));
+      return std::hypot(other.east - v.east, other.north - v.north);
     };
-    const double by_s = std::max(change(cell.s0, t), change(cell.s1, t));
-    const double by_t = std::max(change(s, cell.t0), change(s, cell.t1));
-    const double part = (by_s + by_t) / std::sqrt(middle.square() + slip.rounding * slip.rounding);
-    const bool halve = !(part <= most_variation) && cell.level < deepest && cells < most_cells && top + 2 < 128;
-    if (halve) {
-      ++cells;
-      if (by_s >= by_t) {
-        stack[static_cast<std::size_t>(top++)] = {cell.s0, s, cell.t0, cell.t1, cell.level + 1};
-        stack[static_cast<std::size_t>(top++)] = {s, cell.s1, cell.t0, cell.t1, cell.level + 1};
-      } else {
-        stack[static_cast<std::size_t>(top++)] = {cell.s0, cell.s1, cell.t0, t, cell.level + 1};
-        stack[static_cast<std::size_t>(top++)] = {cell.s0, cell.s1, t, cell.t1, cell.level + 1};
-      }
+    const double size = std::sqrt(v.square() + slip.rounding * slip.rounding);
+    const double varies = std::max(change(part.from), change(part.to));
+    const bool is_smooth = varies <= most_variation * size;
+    if (!is_smooth && part.level < deepest) {
+      stack[static_cast<std::size_t>(top++)] = {part.from, middle, part.level + 1};
+      stack[static_cast<std::size_t>(top++)] = {middle, part.to, part.level + 1};
       continue;
     }
-    const double size = std::sqrt(middle.square() + slip.rounding * slip.rounding);
-    const auto rule = [&](double by) {
-      constexpr int least = 6;
-      if (!(part <= most_variation)) return gauss_rule(3);
-      const double inverse = size / std::max(by, 1e-6 * size);
-      return gauss_rule(std::max(gauss_order(inverse + std::sqrt(inverse * inverse - 1), slip.digits), least));
-    };
-    const std::span<const GaussNode> by_t_rule = rule(by_t);
-    for (const GaussNode& a : rule(by_s)) {
-      for (const GaussNode& b : by_t_rule) {
-        visit(s + (cell.s1 - cell.s0) / 2 * a.at, t + (cell.t1 - cell.t0) / 2 * b.at,
-              (cell.s1 - cell.s0) * (cell.t1 - cell.t0) / 4 * a.weight * b.weight);
-      }
+    const double inverse = size / std::max(varies, 1e-6 * size);
+    const int least = half < 0.3 ? 7 : 12;
+    const int order =
+        is_smooth ? std::max(gauss_order(inverse + std::sqrt(inverse * inverse - 1), slip.digits), least) : 2;
+    for (const GaussNode& node : gauss_rule(order)) {
+      add_at(slip, slices.place(slice, middle + half * node.at), weight * half * node.weight, sums);
     }
   }
 }
 
-/// The part of a ball in half-spaces, by fans from `centre`, at which nothing slips if `rests`.
-void over_fans(const PieceSlip& slip, const HalfSpaces& parts, const Vector3& centre, bool rests, DirectionSums& sums) {
-  constexpr double piece = std::numbers::pi / 2, least = 1e-3;
-  const SphereBoundary boundary(parts);
-  for (int i = 0; i < boundary.count; ++i) {
-    const SphereArc& arc = boundary.arcs[static_cast<std::size_t>(i)];
-    const int pieces = std::max(1, static_cast<int>(std::ceil((arc.to - arc.from) / piece)));
-    const double width = (arc.to - arc.from) / pieces;
-    for (int j = 0; j < pieces; ++j) {
-      const auto ray_at = [&](double s) {
-        const double angle = arc.from + width * (j + s);
-        return SphereRay(centre, arc.at(angle), arc.rate(angle));
-      };
-      const auto slip_at = [&](double s, double t) {
-        if (!rests) return slip.at(ray_at(s).at(t));
-        const double part = std::max(t, least);
-        const SlipVector v = slip.at(ray_at(s).at(part));
-        return slip.rounding > 0 ? v : SlipVector{v.east / part, v.north / part};
-      };
-      over_cells(slip, slip_at, [&](double s, double t, double area) {
-        const SphereRay ray = ray_at(s);
-        add_at(slip, ray.at(t), area * width * ray.area(t), sums);
-      });
-    }
-  }
-  if (boundary.has_top) {
-    over_cap(2, {.heights = 16, .around = 32}, [&](const Vector3& p, double area) { add_at(slip, p, area, sums); });
-  }
-}
-
-void over_strip(const PieceSlip& slip, DirectionSums& sums) {
-  const Mantle& mantle = slip.piece.mantle;
-  const Mantle::Strip strip = mantle.strip();
-  const double full = mantle.full_end();
-  if (full > 0) {
-    const auto place = [&](double s, double t) { return mantle_point(full * s, 2 * std::numbers::pi * t); };
-    over_cells(
-        slip, [&](double s, double t) { return slip.at(place(s, t)); },
-        [&](double s, double t, double area) { add_at(slip, place(s, t), area * full * 2 * std::numbers::pi, sums); });
-  }
-  if (strip.empty()) return;
-  const auto place = [&](double s, double t) { return mantle_point(strip.x(s), strip.half_width(s) * (2 * t - 1)); };
-  over_cells(
-      slip, [&](double s, double t) { return slip.at(place(s, t)); },
-      [&](double s, double t, double area) {
-        add_at(slip, place(s, t), area * strip.rate(s) * 2 * strip.half_width(s), sums);
-      });
-}
-
-/// The same of a strip that half-spaces cut.
-void over_cut_strip(const PieceSlip& slip, DirectionSums& sums) {
-  HalfSpaces parts = slip.piece.parts;
-  parts.add(slip.piece.depth);
-  const MantleSlices slices(slip.piece.mantle.length, parts);
-  for (int i = 0; i < slices.intervals(); ++i) {
-    for (int piece = 0; piece < slices.slice(i, 0.5).count; ++piece) {
-      const auto index = static_cast<std::size_t>(piece);
-      const auto angle = [&](const MantleSlices::Slice& at, double t) {
-        return at.from[index] + (at.to[index] - at.from[index]) * t;
-      };
-      const auto slip_at = [&](double s, double t) {
-        const MantleSlices::Slice at = slices.slice(i, std::clamp(s, 1e-9, 1 - 1e-9));
-        return slip.at(mantle_point(at.x, angle(at, t)));
-      };
-      over_cells(slip, slip_at, [&](double s, double t, double area) {
-        const MantleSlices::Slice at = slices.slice(i, s);
-        if (piece >= at.count) return;  // by rounding
-        add_at(slip, mantle_point(at.x, angle(at, t)), area * at.rate * (at.to[index] - at.from[index]), sums);
-      });
-    }
-  }
+/// Any part of a piece, by slices across which the slip varies most.
+void over_slices(const PieceSlip& slip, HalfSpaces parts, DirectionSums& sums) {
+  const Piece& piece = slip.piece;
+  const SlipVector way = steepest(slip);
+  const SpaceLinear along = component(slip, way), across = component(slip, {-way.north, way.east});
+  if (piece.is_mantle) parts.add(piece.depth);
+  else if (piece.height < 2) parts.add({piece.depth.value / -piece.depth.slope.z(), {0, 0, -1}});
+  const double axis = std::atan2(along.slope.x(), -along.slope.y());
+  Slices slices = piece.is_mantle ? Slices(piece.mantle.length, parts) : Slices(parts, axis);
+  slices.mind(along, across);
+  slices.each_piece([&](const Slices::Slice& slice, double from, double to, double weight) {
+    along_slice(slip, slices, slice, from, to, weight, sums);
+  });
 }
 
 /// The whole cap, where one rule serves; false: none does.
@@ -518,8 +490,8 @@ bool over_whole_cap(const PieceSlip& slip, DirectionSums& sums) {
   const double part =
       (change.along + change.up) / std::sqrt(slip.at(Vector3::Zero()).square() + slip.rounding * slip.rounding);
   if (part < 0.5) {
-    over_cap(slip.piece.height, rule_of_variation(slip, part),
-             [&](const Vector3& p, double area) { add_at(slip, p, area, sums); });
+    over_zone({0, slip.piece.height}, rule_of_variation(slip, part),
+              [&](const Vector3& p, double area) { add_at(slip, p, area, sums); });
     return true;
   }
   Vector3 centre;
@@ -535,6 +507,16 @@ bool over_whole_cap(const PieceSlip& slip, DirectionSums& sums) {
     along_ray(slip, ray, std::sqrt(slip.at(end).square()),
               [&](const Vector3& p, double area) { add_at(slip, p, area * step, sums); });
   }
+  return true;
+}
+
+/// The whole strip, if the slip varies by less than a third of its size.
+bool over_whole_strip(const PieceSlip& slip, double width, DirectionSums& sums) {
+  constexpr double most = 1.0 / 3;
+  const double part = 2 * width / std::sqrt(slip.at(Vector3::Zero()).square() + slip.rounding * slip.rounding);
+  if (!(part < most)) return false;
+  const int more = static_cast<int>(std::ceil(slip.digits / (2 * std::log10(2 / std::max(part, 1e-15)))));
+  over_mantle(slip.piece.mantle, 32, more, [&](const Vector3& p, double area) { add_at(slip, p, area, sums); });
   return true;
 }
 
@@ -561,18 +543,6 @@ Range range_over(const Piece& piece, const SpaceLinear& f) {
     if (size > 0 && 1 + side * f.slope.z() / size < piece.height) take(f.value + f.slope.z() + side * size);
   }
   return range;
-}
-
-/// The direction in which the slip varies most over the piece; the slip's own where it does not vary.
-SlipVector steepest(const PieceSlip& slip) {
-  const Vector3 &e = slip.east.slope, &n = slip.north.slope;
-  const double angle = std::atan2(2 * e.dot(n), e.squaredNorm() - n.squaredNorm()) / 2;
-  return {std::cos(angle), std::sin(angle)};
-}
-
-SpaceLinear component(const PieceSlip& slip, const SlipVector& way) {
-  return {way.east * slip.east.value + way.north * slip.north.value,
-          way.east * slip.east.slope + way.north * slip.north.slope};
 }
 
 /// Whether all slip is along one line, as in the plane, or as good as that where it changes its sign.
@@ -642,14 +612,8 @@ DirectionSums SmoothContact::directions(const Piece& piece, const GroundView& vi
   const bool is_whole = piece.parts.count() == 0;
   if (field.rough) {
     over(piece, piece.parts, [&](const Vector3& p, double area) { add_at(slip, p, area, sums); });
-  } else if (piece.is_mantle) {
-    is_whole ? over_strip(slip, sums) : over_cut_strip(slip, sums);
-  } else if (!is_whole || !over_whole_cap(slip, sums)) {
-    HalfSpaces parts = piece.parts;
-    if (piece.height < 2) parts.add({piece.depth.value / -piece.depth.slope.z(), {0, 0, -1}});
-    Vector3 centre;
-    const bool rests = find_resting_place(slip, centre);
-    over_fans(slip, parts, rests ? centre : Vector3(Vector3::Zero()), rests, sums);
+  } else if (!is_whole || !(piece.is_mantle ? over_whole_strip(slip, width, sums) : over_whole_cap(slip, sums))) {
+    over_slices(slip, piece.parts, sums);
   }
   return sums;
 }

@@ -26,7 +26,7 @@ struct DirectionSums {
 /// The load on a SmoothShape.  The affine map that makes its ends unit balls leaves heights linear: an end lies below
 /// the ground within a cap about its lowest point, the straight part within a strip of a unit cylinder, and depth, rate
 /// and the vertical component of the area are linear in the place on the ball.  So the integrals of the projected
-/// measure are exact by three heights and six places around (over_cap), e.g. of a ball of radius R
+/// measure are exact by three heights and six places around (over_zone), e.g. of a ball of radius R
 ///     F_n = π k_G d² (R − d/3)   (projected),      F_n = π k_G R d²   (surface);
 /// where the measure is that of an ellipsoid's surface the rule is as fine as its axes ask for.  Where the clamp, or
 /// the end of a half, cuts the cap, its parts are integrated over. Accuracy: 1e-13 of F_n; a strip that the clamp or a
@@ -42,7 +42,7 @@ class SmoothContact final : public ContactSurface {
   [[nodiscard]] SlipLoad slip_load(const GroundView& view, const SlipField& field) override;
   [[nodiscard]] SlipRange slip_range(const GroundView& view, const SlipField& field) const override;
 
-  /// A piece of the surface in coordinates of its own, u = origin + axes p: p of over_cap or of over_mantle.
+  /// A piece of the surface in coordinates of its own, u = origin + axes p: p of over_zone or of over_mantle.
   struct Piece {
     Vector3 origin;
     Matrix3 axes;
@@ -74,6 +74,8 @@ class SmoothContact final : public ContactSurface {
   [[nodiscard]] DirectionSums directions(const Piece& piece, const GroundView& view, const SlipField& field) const;
   template <class Visit>
   void over(const Piece& piece, const HalfSpaces& parts, Visit&& visit) const;
+  template <class Visit>
+  void over_part_of_mantle(const Piece& piece, const HalfSpaces& parts, Visit&& visit) const;
 
   const Body& body_;
   const Ground& ground_;

@@ -119,28 +119,68 @@ Mantle::Strip Mantle::strip() const {
   return {x1, x2, wide, narrow};
 }
 
-MantleSlices::MantleSlices(double length, const HalfSpaces& half_spaces) : length_(length), half_spaces_(half_spaces) {
-  breaks_[static_cast<std::size_t>(count_++)] = 0;
-  breaks_[static_cast<std::size_t>(count_++)] = length;
-  for (int i = 0; i < half_spaces.count(); ++i) {
-    const SpaceLinear& f = half_spaces[i];
-    const double size = std::hypot(f.slope.y(), f.slope.z());
-    if (f.slope.x() != 0) {
-      add_break(-(f.value + f.slope.z() + size) / f.slope.x());
-      add_break(-(f.value + f.slope.z() - size) / f.slope.x());
-    }
-    for (int j = 0; j < i; ++j) add_corners(f, half_spaces[j]);
+Slices::Slices(double length, const HalfSpaces& half_spaces)
+    : is_sphere_(false), along_(Vector3::UnitX()), across_(Vector3::UnitY()), half_spaces_(half_spaces) {
+  begin(0, length);
+}
+
+Slices::Slices(const HalfSpaces& half_spaces, double axis)
+    : is_sphere_(true), along_(std::cos(axis), std::sin(axis), 0), across_(-std::sin(axis), std::cos(axis), 0),
+      half_spaces_(half_spaces) {
+  begin(-1, 1);
+}
+
+void Slices::begin(double low, double high) {
+  low_ = low;
+  high_ = high;
+  breaks_[static_cast<std::size_t>(count_++)] = low;
+  breaks_[static_cast<std::size_t>(count_++)] = high;
+  for (int i = 0; i < half_spaces_.count(); ++i) {
+    add_touches(half_spaces_[i]);
+    for (int j = 0; j < i; ++j) add_corners(half_spaces_[i], half_spaces_[j]);
   }
   std::sort(breaks_.begin(), breaks_.begin() + count_);
 }
 
-void MantleSlices::add_break(double x) {
-  assert(count_ < static_cast<int>(breaks_.size()));
-  if (x > 0 && x < length_) breaks_[static_cast<std::size_t>(count_++)] = x;
+void Slices::mind(const SpaceLinear& one, const SpaceLinear& other) {
+  add_touches(one);
+  add_corners(one, other);
+  for (int i = 0; i < half_spaces_.count(); ++i) add_corners(one, half_spaces_[i]);
+  std::sort(breaks_.begin(), breaks_.begin() + count_);
 }
 
-/// Points of the line of two planes on y² + (ζ − 1)² = 1.
-void MantleSlices::add_corners(const SpaceLinear& one, const SpaceLinear& other) {
+void Slices::add_break(double x) {
+  assert(count_ < static_cast<int>(breaks_.size()));
+  if (x > low_ && x < high_) breaks_[static_cast<std::size_t>(count_++)] = x;
+}
+
+void Slices::add_touches(const SpaceLinear& plane) {
+  const double x = along(plane.slope), size = std::hypot(across_.dot(plane.slope), plane.slope.z());
+  if (!is_sphere_) {
+    if (x == 0) return;
+    add_break(-(plane.value + plane.slope.z() + size) / x);
+    add_break(-(plane.value + plane.slope.z() - size) / x);
+    return;
+  }
+  const double square = plane.slope.squaredNorm();
+  if (!(square > 0)) return;
+  // The ends of its circle along the axis.
+  const double centre = plane.value + plane.slope.z(), radius = 1 - centre * centre / square;
+  if (!(radius > 0)) return;
+  const double middle = -centre * x / square, half = std::sqrt(radius / square) * size;
+  add_break(middle - half);
+  add_break(middle + half);
+}
+
+/// Points of the line of two planes on the sphere or on y² + (ζ − 1)² = 1.
+void Slices::add_corners(const SpaceLinear& one, const SpaceLinear& other) {
+  if (is_sphere_) {
+    std::array<Vector3, 2> points;
+    if (!(one.slope.squaredNorm() > 0 && other.slope.squaredNorm() > 0)) return;
+    if (meet(unit_plane(one), unit_plane(other), points) == 0) return;
+    for (const Vector3& p : points) add_break(along(p));
+    return;
+  }
   const Vector3 line = one.slope.cross(other.slope);
   const double square = line.squaredNorm();
   if (!(square > 0)) return;
@@ -152,21 +192,31 @@ void MantleSlices::add_corners(const SpaceLinear& one, const SpaceLinear& other)
   for (const double sign : {1.0, -1.0}) add_break(foot.x() + (-b + sign * std::sqrt(discriminant)) / a * line.x());
 }
 
-MantleSlices::Slice MantleSlices::slice(int interval, double part) const {
+Vector3 Slices::place(const Slice& slice, double angle) const {
+  const double half = std::sin(angle / 2);
+  Vector3 p = slice.x * along_ + slice.radius * std::sin(angle) * across_;
+  p.z() = 2 * slice.radius * half * half;
+  if (is_sphere_) p.z() += slice.x * slice.x / (1 + slice.radius);
+  return p;
+}
+
+Slices::Slice Slices::slice(int interval, double part) const {
   const double begin = breaks_[static_cast<std::size_t>(interval)];
   const double width = breaks_[static_cast<std::size_t>(interval) + 1] - begin;
   const double sine = std::sin(std::numbers::pi / 2 * part);
-  const double x = begin + width * sine * sine;
-  std::array<double, most + 1> angles;
+  Slice slice{.x = begin + width * sine * sine, .from = {}, .to = {}};
+  slice.rate = std::numbers::pi / 2 * width * std::sin(std::numbers::pi * part);
+  if (is_sphere_) slice.radius = std::sqrt(std::max((1 - slice.x) * (1 + slice.x), 0.0));
+  const Vector3 bottom = place(slice, 0);
+  std::array<double, most + 2> angles;
   std::size_t found = 0;
   angles[found++] = -std::numbers::pi;
   angles[found++] = std::numbers::pi;
   for (int i = 0; i < half_spaces_.count(); ++i) {
     const SpaceLinear& f = half_spaces_[i];
-    const double y = f.slope.y(), z = f.slope.z(), size = std::hypot(y, z);
-    // f = here + y sin φ − z (cos φ − 1) = here + z + size cos(φ − peak); its part above −size, without cancellation.
-    const double here = f.value + f.slope.x() * x;
-    const double above = here + (z < 0 ? y * y / (size - z) : size + z);
+    const double y = slice.radius * across_.dot(f.slope), z = slice.radius * f.slope.z(), size = std::hypot(y, z);
+    // f = f(bottom) + y sin φ + z (1 − cos φ) = … + size cos(φ − peak); its part above −size, without cancellation.
+    const double above = f.at(bottom) + (z < 0 ? y * y / (size - z) : size + z);
     if (!(size > 0) || !(above > 0) || !(above < 2 * size)) continue;
     const double half = 2 * std::asin(std::sqrt(above / (2 * size))), peak = std::atan2(y, -z);
     for (const double angle : {peak - half, peak + half}) {
@@ -174,10 +224,9 @@ MantleSlices::Slice MantleSlices::slice(int interval, double part) const {
     }
   }
   std::sort(angles.begin(), angles.begin() + static_cast<std::ptrdiff_t>(found));
-  Slice slice{.x = x, .rate = std::numbers::pi / 2 * width * std::sin(std::numbers::pi * part), .from = {}, .to = {}};
-  for (std::size_t i = 0; i + 1 < found; ++i) {
+  for (std::size_t i = 0; i + 1 < found && slice.count < most; ++i) {
     if (!(angles[i + 1] > angles[i])) continue;
-    if (!half_spaces_.contain(mantle_point(x, (angles[i] + angles[i + 1]) / 2))) continue;
+    if (!half_spaces_.contain(place(slice, (angles[i] + angles[i + 1]) / 2))) continue;
     slice.from[static_cast<std::size_t>(slice.count)] = angles[i];
     slice.to[static_cast<std::size_t>(slice.count++)] = angles[i + 1];
   }

@@ -94,16 +94,21 @@ struct CapRule {
   int heights = 3, around = 6, parts = 1;
 };
 
-/// Calls visit(p, area) at the points of a rule over the cap ζ < `height`, 0 < height <= 2, of the unit sphere:
+/// Heights of a zone of the unit sphere, 0 <= low < high <= 2.
+struct Zone {
+  double low = 0, high = 0;
+};
+
+/// Calls visit(p, area) at the points of a rule over a zone; the cap ζ < h is {0, h}:
 ///     ∫f dA = ∫dζ ∫f dψ,   p = (ρ cos ψ, ρ sin ψ, ζ),   ρ² = ζ(2 − ζ).
 /// Exact where f is a polynomial in p of a degree below `around` and 2 × heights.
 template <class Visit>
-void over_cap(double height, const CapRule& rule, Visit&& visit) {
+void over_zone(const Zone& zone, const CapRule& rule, Visit&& visit) {
   const double step = 2 * std::numbers::pi / rule.around, cosine = std::cos(step), sine = std::sin(step);
-  const double half = height / (2 * rule.parts);
+  const double half = (zone.high - zone.low) / (2 * rule.parts);
   for (int part = 0; part < rule.parts; ++part) {
     for (const GaussNode& node : gauss_rule(rule.heights)) {
-      const double z = half * (2 * part + 1 + node.at), rho = std::sqrt(z * (2 - z));
+      const double z = zone.low + half * (2 * part + 1 + node.at), rho = std::sqrt(z * (2 - z));
       const double area = half * node.weight * step;
       double x = rho, y = 0;
       for (int i = 0; i < rule.around; ++i) {
@@ -119,7 +124,7 @@ void over_cap(double height, const CapRule& rule, Visit&& visit) {
 /// Gauss nodes that integrate products of some sines and cosines, whose arguments change by 2 × half_angle, to
 /// rounding.
 [[nodiscard]] inline int trigonometric_order(double half_angle) {
-  return half_angle < 0.2 ? 6 : half_angle < 0.6 ? 10 : half_angle < 1.2 ? 14 : 20;
+  return half_angle < 0.05 ? 5 : half_angle < 0.2 ? 7 : half_angle < 0.6 ? 10 : half_angle < 1.2 ? 14 : 20;
 }
 
 /// The same over the part of the sphere in half-spaces: the fans between its lowest point and the arcs of the boundary,
@@ -127,12 +132,12 @@ void over_cap(double height, const CapRule& rule, Visit&& visit) {
 /// degree.
 template <class Visit>
 void over_part(const HalfSpaces& half_spaces, Visit&& visit) {
-  constexpr double piece = std::numbers::pi / 4;
-  constexpr int around = 10;
+  constexpr double piece = std::numbers::pi, small_piece = 1;
   const SphereBoundary boundary(half_spaces);
   for (int i = 0; i < boundary.count; ++i) {
     const SphereArc& arc = boundary.arcs[static_cast<std::size_t>(i)];
     const int pieces = std::max(1, static_cast<int>(std::ceil((arc.to - arc.from) / piece)));
+    const int around = arc.to - arc.from < small_piece ? 10 : 16;
     const double half = (arc.to - arc.from) / (2 * pieces);
     for (int j = 0; j < pieces; ++j) {
       for (const GaussNode& node : gauss_rule(around)) {
@@ -145,7 +150,7 @@ void over_part(const HalfSpaces& half_spaces, Visit&& visit) {
       }
     }
   }
-  if (boundary.has_top) over_cap(2, {.heights = 8, .around = 12}, visit);
+  if (boundary.has_top) over_zone({0, 2}, {.heights = 8, .around = 12}, visit);
 }
 
 /// The part of a unit cylinder, (y, 1 − ζ) = (sin φ, cos φ) from its lowest line, 0 <= x <= length, where a depth d₀ +
@@ -179,10 +184,11 @@ struct Mantle {
   return {x, std::sin(angle), 2 * half * half};
 }
 
-/// Calls visit(p, area) over the part of a mantle below the ground.  `around`: points where it lies below all around.
+/// Calls visit(p, area) over the part of a mantle below the ground.  `around`: points where it lies below all around;
+/// `more`: nodes beside those that sines and cosines need.
 template <class Visit>
-void over_mantle(const Mantle& mantle, int around, Visit&& visit) {
-  constexpr int along = 8;
+void over_mantle(const Mantle& mantle, int around, int more, Visit&& visit) {
+  const int along = 8 + more;
   if (const double end = mantle.full_end(); end > 0) {
     for (const GaussNode& node : gauss_rule(along)) {
       for (int i = 0; i < around; ++i) {
@@ -193,56 +199,76 @@ void over_mantle(const Mantle& mantle, int around, Visit&& visit) {
   }
   const Mantle::Strip strip = mantle.strip();
   if (strip.empty()) return;
-  for (const GaussNode& node : gauss_rule(trigonometric_order(strip.wide / 2) + 2)) {
+  for (const GaussNode& node : gauss_rule(std::min(trigonometric_order(strip.wide / 2) + 2 + more, most_gauss_nodes))) {
     const double t = (1 + node.at) / 2, x = strip.x(t), half = strip.half_width(t);
-    for (const GaussNode& across : gauss_rule(trigonometric_order(half))) {
+    for (const GaussNode& across : gauss_rule(std::min(trigonometric_order(half) + more, most_gauss_nodes))) {
       visit(mantle_point(x, half * across.at), node.weight / 2 * strip.rate(t) * half * across.weight);
     }
   }
 }
 
-/// The same over the part of a unit cylinder, 0 <= x <= length, in half-spaces: by slices across it, between the places
-/// where their pieces begin, end or change their sides.  Right to some 1e-10.
-class MantleSlices {
+/// The part of a unit cylinder (as Mantle's) or sphere in half-spaces, by slices across an axis: circles, of which it
+/// has pieces.  On sphere and cylinder dA = dx dφ, x along the axis and φ the angle on the circle from its lowest
+/// point.
+class Slices {
  public:
-  MantleSlices(double length, const HalfSpaces& half_spaces);
-
-  static constexpr std::size_t most = 2 * HalfSpaces::most + 1;
-  /// A slice, and the length of the cylinder that it stands for, per parameter.
+  static constexpr int most = 2 * HalfSpaces::most;
   struct Slice {
-    double x = 0, rate = 0;
-    std::array<double, most> from, to;  ///< angles of its pieces
+    double x = 0, rate = 0;             ///< dx over that of the parameter
+    double radius = 1;                  ///< of the circle
+    std::array<double, most> from, to;  ///< angles of the pieces
     int count = 0;
   };
-  [[nodiscard]] int intervals() const { return count_ - 1; }
-  /// Within an interval, by a parameter from 0 to 1 in which roots at both of its ends become smooth.  All slices of an
-  /// interval have as many pieces.
-  [[nodiscard]] Slice slice(int interval, double part) const;
 
+  /// Of a cylinder of this length.
+  Slices(double length, const HalfSpaces& half_spaces);
+  /// Of the sphere, the axis along the ground at this angle from x.
+  Slices(const HalfSpaces& half_spaces, double axis);
+
+  /// Makes intervals end where these planes meet one another and where they touch a circle.
+  void mind(const SpaceLinear& one, const SpaceLinear& other);
+  [[nodiscard]] int intervals() const { return count_ - 1; }
+  /// Within an interval, by a parameter from 0 to 1 in which roots at both of its ends become smooth.
+  [[nodiscard]] Slice slice(int interval, double part) const;
+  [[nodiscard]] Vector3 place(const Slice& slice, double angle) const;
+
+  /// Calls visit(slice, from, to, weight): ∫f dA = Σ weight ∫f dφ.
   template <class Visit>
-  void visit(Visit&& visit) const {
-    constexpr int along = 20, across = 14;
+  void each_piece(Visit&& visit) const {
+    constexpr int along = 20;
     for (int i = 0; i < intervals(); ++i) {
       for (const GaussNode& node : gauss_rule(along)) {
         const Slice slice = this->slice(i, (1 + node.at) / 2);
         for (int s = 0; s < slice.count; ++s) {
-          const double from = slice.from[static_cast<std::size_t>(s)], to = slice.to[static_cast<std::size_t>(s)];
-          for (const GaussNode& place : gauss_rule(across)) {
-            visit(mantle_point(slice.x, (from + to) / 2 + (to - from) / 2 * place.at),
-                  node.weight / 2 * slice.rate * (to - from) / 2 * place.weight);
-          }
+          const auto piece = static_cast<std::size_t>(s);
+          visit(slice, slice.from[piece], slice.to[piece], node.weight / 2 * slice.rate);
         }
       }
     }
   }
+  /// Calls visit(p, area).  Right to some 1e-10.
+  template <class Visit>
+  void visit(Visit&& visit) const {
+    constexpr int across = 14;
+    each_piece([&](const Slice& slice, double from, double to, double weight) {
+      for (const GaussNode& node : gauss_rule(across)) {
+        visit(place(slice, (from + to) / 2 + (to - from) / 2 * node.at), weight * (to - from) / 2 * node.weight);
+      }
+    });
+  }
 
  private:
+  void begin(double low, double high);
   void add_break(double x);
+  void add_touches(const SpaceLinear& plane);
   void add_corners(const SpaceLinear& one, const SpaceLinear& other);
+  [[nodiscard]] double along(const Vector3& v) const { return along_.dot(v); }
 
-  double length_;
+  bool is_sphere_;
+  Vector3 along_, across_;
+  double low_ = 0, high_ = 0;
   HalfSpaces half_spaces_;
-  std::array<double, 64> breaks_;
+  std::array<double, 96> breaks_;
   int count_ = 0;
 };
 
