@@ -45,8 +45,8 @@ Body any_round(const SmoothShape& shape, double mass) {
   return round(shape, mass, mass / 5 * moments.asDiagonal());
 }
 
-/// A ball that comes down at `speed` on springs over the projected area: with E(δ) = π k δ³ (R/3 − δ/12) the depth d where
-/// E(d) = m v²/2 and the time 2 ∫dδ/√(v² − 2E/m).
+/// A ball that comes down at `speed` on springs over the projected area: with E(δ) = π k δ³ (R/3 − δ/12) the depth d
+/// where E(d) = m v²/2 and the time 2 ∫dδ/√(v² − 2E/m).
 struct BallImpact {
   double depth, force, time;
 };
@@ -76,9 +76,9 @@ BOOST_AUTO_TEST_CASE(a_ball_s_impact_is_that_of_its_caps) {
     const BallImpact expected = ball_impact(radius, mass, speed, stiffness);
     if (expected.depth > 0.5 * radius) continue;
     const Body body = ball(radius, mass);
-    const Simulation run = simulate(
-        body, weightless({.stiffness = stiffness, .area = AreaMeasure::projected}),
-        touching_state(body, {.inclination = random(-1, 1), .velocity = {0, 0, -speed}}), plain_impacts(1), {.digits = 9});
+    const Simulation run = simulate(body, weightless({.stiffness = stiffness, .area = AreaMeasure::projected}),
+                                    touching_state(body, {.inclination = random(-1, 1), .velocity = {0, 0, -speed}}),
+                                    plain_impacts(1), {.digits = 9});
     BOOST_REQUIRE(run.impacts.size() == 1U);
     const ImpactNumbers& n = run.impacts[0].value;
     BOOST_TEST(std::fabs(n.peak_force / expected.force - 1) <= 1e-9);
@@ -125,10 +125,12 @@ BOOST_AUTO_TEST_CASE(a_rolling_ball_hops_on_rolling) {
 BOOST_AUTO_TEST_CASE(the_ledger_of_energy_closes_and_error_bars_hold_for_round_bodies) {
   Uniform random(3);
   int numbers = 0, held = 0;
-  for (int i = 0; i < 12; ++i) {
+  for (int i = 0; i < 6; ++i) {
     const bool is_capsule = i % 3 == 0, has_friction = i % 2 == 0;
-    SmoothShape shape{is_capsule ? Vector3(Vector3::Constant(0.02)) : 0.01 * Vector3(random(2, 5), random(2, 5), random(2, 5)),
-                      is_capsule ? 0.06 : 0, {}};
+    SmoothShape shape{
+        is_capsule ? Vector3(Vector3::Constant(0.02)) : 0.01 * Vector3(random(2, 5), random(2, 5), random(2, 5)),
+        is_capsule ? 0.06 : 0,
+        {}};
     shape.centre = i % 5 == 0 ? random.vector(0.004) : Vector3::Zero();
     const Body body = any_round(shape, 0.2);
     MotionState start;
