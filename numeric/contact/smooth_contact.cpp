@@ -512,9 +512,9 @@ bool over_whole_cap(const PieceSlip& slip, DirectionSums& sums) {
 
 /// The whole strip, if the slip varies by less than a third of its size.
 bool over_whole_strip(const PieceSlip& slip, double width, DirectionSums& sums) {
-  constexpr double most = 1.0 / 3;
+  constexpr double largest_part = 1.0 / 3;
   const double part = 2 * width / std::sqrt(slip.at(Vector3::Zero()).square() + slip.rounding * slip.rounding);
-  if (!(part < most)) return false;
+  if (!(part < largest_part)) return false;
   const int more = static_cast<int>(std::ceil(slip.digits / (2 * std::log10(2 / std::max(part, 1e-15)))));
   over_mantle(slip.piece.mantle, 32, more, [&](const Vector3& p, double area) { add_at(slip, p, area, sums); });
   return true;
