@@ -25,7 +25,7 @@ using analytic::RodParameters;
 const char* const regimes_summary = "how many impacts, and where that changes";
 
 /// A quantity to vary.
-struct Quantity {
+struct VariedQuantity {
   const char* name;
   const char* heading;
   const char* words;  ///< for an axis of a picture
@@ -34,29 +34,29 @@ struct Quantity {
   Range range;
 };
 
-const std::vector<Quantity>& all_quantities() {
-  static const std::vector<Quantity> all{{"gravity-number",
-                                          "G",
-                                          "gravity number G = g L/vₙ²",
-                                          &RodParameters::gravity_number,
-                                          {0, 0.001, 0.01, 0.1, 1, 10},
-                                          {0, 1e300, false, "from 0 to 1e300"}},
-                                         {"restitution",
-                                          "e",
-                                          "coefficient of restitution e",
-                                          &RodParameters::restitution,
-                                          {0.25, 0.5, 0.75, 0.9, 1},
-                                          {0, 1, false, "from 0 to 1"}},
-                                         {"impulse-ratio",
-                                          "μᵢ",
-                                          "impulse ratio μᵢ",
-                                          &RodParameters::impulse_ratio,
-                                          {-0.2, -0.1, 0, 0.1, 0.2, 0.3},
-                                          {-1e300, 1e300, false, "from -1e300 to 1e300"}}};
+const std::vector<VariedQuantity>& all_quantities() {
+  static const std::vector<VariedQuantity> all{{"gravity-number",
+                                                "G",
+                                                "gravity number G = g L/vₙ²",
+                                                &RodParameters::gravity_number,
+                                                {0, 0.001, 0.01, 0.1, 1, 10},
+                                                {0, 1e300, false, "from 0 to 1e300"}},
+                                               {"restitution",
+                                                "e",
+                                                "coefficient of restitution e",
+                                                &RodParameters::restitution,
+                                                {0.25, 0.5, 0.75, 0.9, 1},
+                                                {0, 1, false, "from 0 to 1"}},
+                                               {"impulse-ratio",
+                                                "μᵢ",
+                                                "impulse ratio μᵢ",
+                                                &RodParameters::impulse_ratio,
+                                                {-0.2, -0.1, 0, 0.1, 0.2, 0.3},
+                                                {-1e300, 1e300, false, "from -1e300 to 1e300"}}};
   return all;
 }
 
-std::vector<double> values_of(const RegimesRequest& input, const Quantity& quantity) {
+std::vector<double> values_of(const RegimesRequest& input, const VariedQuantity& quantity) {
   const RangeRequest& range = input.range;
   if (!range.from && !range.to && !range.step && !range.count) return quantity.values;
   if (!range.from || !range.to || (!range.step && !range.count)) {
@@ -102,7 +102,7 @@ void add_boundary_columns(const std::string& number, const std::string& object, 
         "uncertainty_deg"}});
 }
 
-std::vector<Column> columns_of(const Quantity& quantity) {
+std::vector<Column> columns_of(const VariedQuantity& quantity) {
   std::vector<Column> columns{{quantity.name, quantity.heading, "", quantity.words}};
   add_boundary_columns("2", "second", columns);
   add_boundary_columns("3", "third", columns);
@@ -117,7 +117,8 @@ void add_boundary(const RegimeBoundary& b, int digits, Row& row) {
               angle_cell(b.gamma, digits), Cell(exists ? error_or_nothing(angle) : Value())});
 }
 
-Report report_of(const std::vector<Regimes>& all, const Quantity& quantity, const RodParameters& rod, int digits) {
+Report report_of(const std::vector<Regimes>& all, const VariedQuantity& quantity, const RodParameters& rod,
+                 int digits) {
   Report report = begun_report("regimes", regimes_summary);
   report.grid.columns = columns_of(quantity);
   report.notes = {
@@ -162,9 +163,9 @@ std::vector<double> between(std::vector<double> values, bool logarithmic) {
 }
 
 /// The parameters that all rows share.
-std::string rod_words(const RodParameters& rod, const Quantity& quantity) {
+std::string rod_words(const RodParameters& rod, const VariedQuantity& quantity) {
   std::string words = "thin rod, m = L = |vₙ| = 1";
-  for (const Quantity& other : all_quantities()) {
+  for (const VariedQuantity& other : all_quantities()) {
     if (&other != &quantity) words += fmt::format(", {} = {}", other.heading, shortest(rod.*other.member));
   }
   return words;
@@ -174,7 +175,7 @@ std::string rod_words(const RodParameters& rod, const Quantity& quantity) {
 
 Arguments regimes_arguments(RegimesRequest& request) {
   std::vector<std::string> names;
-  for (const Quantity& quantity : all_quantities()) names.emplace_back(quantity.name);
+  for (const VariedQuantity& quantity : all_quantities()) names.emplace_back(quantity.name);
   Arguments rows{choice_argument("--over", request.over, names, "what to vary (gravity-number)", "Range")};
   for (Argument& row : range_arguments(request.range, "value")) rows.push_back(std::move(row));
   rows.push_back({.name = "--log",
@@ -188,7 +189,7 @@ Arguments regimes_arguments(RegimesRequest& request) {
 }
 
 FoundRegimes find_regimes(const RegimesRequest& input) {
-  const Quantity& quantity = all_quantities()[input.over];
+  const VariedQuantity& quantity = all_quantities()[input.over];
   const RodParameters rod = rod_parameters(input.rod);
   FoundRegimes found;
   found.name = quantity.name;
@@ -221,7 +222,7 @@ FoundRegimes find_regimes(const RegimesRequest& input) {
 
 std::vector<Column> regimes_columns() {
   std::vector<Column> columns;
-  for (const Quantity& quantity : all_quantities()) columns.push_back(columns_of(quantity).front());
+  for (const VariedQuantity& quantity : all_quantities()) columns.push_back(columns_of(quantity).front());
   const std::vector<Column> rest = columns_of(all_quantities().front());
   columns.insert(columns.end(), rest.begin() + 1, rest.end());
   return columns;

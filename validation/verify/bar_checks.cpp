@@ -108,6 +108,6 @@ Measured bars_of_the_discrete_model(CaseRuns& case_runs) {
 
 }  // namespace
 
-Measures bar_measures() { return {{"B1", bars_of_the_discrete_model}, {"B2", bars_of_the_simulator}}; }
+CheckMeasures bar_measures() { return {{"B1", bars_of_the_discrete_model}, {"B2", bars_of_the_simulator}}; }
 
 }  // namespace clatter::validation

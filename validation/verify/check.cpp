@@ -29,8 +29,8 @@ constexpr double loosest = 5;  // times the error seen
   throw std::runtime_error(fmt::format("validation/verify/checks.toml: {}: {}", id, why));
 }
 
-Answer answer_of(const std::string& id, const std::string& name) {
-  for (const Answer answer : {Answer::holds, Answer::refuted, Answer::ambiguous}) {
+Finding answer_of(const std::string& id, const std::string& name) {
+  for (const Finding answer : {Finding::holds, Finding::refuted, Finding::ambiguous}) {
     if (name == answer_name(answer)) return answer;
   }
   unsound(id, "answer must be holds, refuted or ambiguous");
@@ -48,7 +48,7 @@ Check check_of(const toml::table& row) {
               .seen = row["seen"].value_or(0.0),
               .tolerance = row["tolerance"].value_or(0.0),
               .reason = text("reason"),
-              .answer = Answer::holds,
+              .answer = Finding::holds,
               .quick = row["quick"].value_or(true),
               .figure = row["figure"].value<int>(),
               .command = text("command")};
@@ -63,9 +63,9 @@ Check check_of(const toml::table& row) {
   return check;
 }
 
-const Measures& all_measures() {
-  static const Measures measures = [] {
-    Measures all;
+const CheckMeasures& all_measures() {
+  static const CheckMeasures measures = [] {
+    CheckMeasures all;
     for (const auto& group : {claim_measures, erratum_measures, exact_measures, figure_measures, model_measures,
                               bar_measures, space_measures}) {
       all.merge(group());
@@ -136,11 +136,11 @@ std::vector<std::string> ids_in(const std::vector<std::string>& words) {
 
 }  // namespace
 
-const char* answer_name(Answer answer) {
+const char* answer_name(Finding answer) {
   switch (answer) {
-    case Answer::holds: return "holds";
-    case Answer::refuted: return "refuted";
-    case Answer::ambiguous: return "ambiguous";
+    case Finding::holds: return "holds";
+    case Finding::refuted: return "refuted";
+    case Finding::ambiguous: return "ambiguous";
   }
   return "";
 }

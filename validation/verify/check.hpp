@@ -17,16 +17,16 @@
 namespace clatter::validation {
 
 /// What a measurement says of a claim.
-enum class Answer {
+enum class Finding {
   holds,
   refuted,    ///< the number is another one
   ambiguous,  ///< the text leaves open what it means; the number says what each reading gives
 };
-[[nodiscard]] const char* answer_name(Answer answer);
+[[nodiscard]] const char* answer_name(Finding answer);
 /// The answer to a claim in words, given whether the inequality that it states holds.
-[[nodiscard]] inline Answer holds_if(bool claim) { return claim ? Answer::holds : Answer::refuted; }
+[[nodiscard]] inline Finding holds_if(bool claim) { return claim ? Finding::holds : Finding::refuted; }
 /// The answer to a claim that prints a number: `value` must round to `printed`, whose last digit counts `unit`.
-[[nodiscard]] inline Answer rounds_to(double value, double printed, double unit) {
+[[nodiscard]] inline Finding rounds_to(double value, double printed, double unit) {
   return holds_if(std::fabs(value - printed) <= unit / 2);
 }
 /// A number as the words on a finding show it, to `digits` significant digits.
@@ -40,13 +40,13 @@ struct Check {
   std::string claim;   ///< in full
   std::string number;  ///< which number is measured
   std::string unit;
-  std::string oracle;             ///< closed form, 30-digit table, conservation law, other model, convergence
-  std::string error;              ///< how the error is formed
-  double seen = 0;                ///< error when the tolerance was set; at least one unit in the last place
-  double tolerance = 0;           ///< the error may be this; at most 5 × seen
-  std::string reason;             ///< of the tolerance
-  Answer answer = Answer::holds;  ///< expected
-  bool quick = true;              ///< belongs to --quick
+  std::string oracle;               ///< closed form, 30-digit table, conservation law, other model, convergence
+  std::string error;                ///< how the error is formed
+  double seen = 0;                  ///< error when the tolerance was set; at least one unit in the last place
+  double tolerance = 0;             ///< the error may be this; at most 5 × seen
+  std::string reason;               ///< of the tolerance
+  Finding answer = Finding::holds;  ///< expected
+  bool quick = true;                ///< belongs to --quick
   std::optional<int> figure;
   std::string command;  ///< that shows the number
 };
@@ -58,7 +58,7 @@ struct Check {
 struct Measured {
   double number = 0;
   double error = 0;  ///< against the oracle
-  Answer answer = Answer::holds;
+  Finding answer = Finding::holds;
   std::string found;  ///< in words, with further numbers
 };
 
@@ -86,17 +86,17 @@ class WorstError {
 
 using Measure = std::function<Measured(CaseRuns&)>;
 /// The measurement of each check, by its id.
-using Measures = std::map<std::string, Measure>;
+using CheckMeasures = std::map<std::string, Measure>;
 
 /// The measures of a group: claims C, errata E, exact results and tracked drops X, figures F, scenes M and R, error
 /// bars B, the discrete model in space S.
-[[nodiscard]] Measures claim_measures();
-[[nodiscard]] Measures erratum_measures();
-[[nodiscard]] Measures exact_measures();
-[[nodiscard]] Measures figure_measures();
-[[nodiscard]] Measures model_measures();
-[[nodiscard]] Measures bar_measures();
-[[nodiscard]] Measures space_measures();
+[[nodiscard]] CheckMeasures claim_measures();
+[[nodiscard]] CheckMeasures erratum_measures();
+[[nodiscard]] CheckMeasures exact_measures();
+[[nodiscard]] CheckMeasures figure_measures();
+[[nodiscard]] CheckMeasures model_measures();
+[[nodiscard]] CheckMeasures bar_measures();
+[[nodiscard]] CheckMeasures space_measures();
 
 /// Checks that were chosen.
 struct CheckSelection {

@@ -85,7 +85,7 @@ Measured gravity_changes_little(CaseRuns&) {
     error.take(std::fabs(beta / row.at("beta_deg") - 1));
     if (row.at("G") == 0.1) tenth = beta;
   }
-  return {text / free, error.value(), Answer::ambiguous,
+  return {text / free, error.value(), Finding::ambiguous,
           fmt::format("β at 20°: {}° without gravity; {}° for G = 0.1 (a phone from 1 m has 0.05), {}° for the text's "
                       "G = 9.81: little or most of it, the paper does not say which G",
                       number(free * degrees_per_radian), number(tenth), number(text * degrees_per_radian))};
@@ -167,7 +167,7 @@ Measured friction_plateau(CaseRuns& case_runs) {
                           .energy_loss;
   return {ratio_at_seven, spread.value(),
           holds_if(below.value() < 0.05 && spread.value() < 1e-6 && loss < 0 &&
-                   rounds_to(ratio_at_seven, 0.6, 0.1) == Answer::holds),
+                   rounds_to(ratio_at_seven, 0.6, 0.1) == Finding::holds),
           fmt::format("plateau of Pₜ/Pₙ; below it within {} of Eq. 9, above it constant; Eq. 9 at μ = 0.8 loses {} J",
                       number(below.value(), 2), number(loss, 4))};
 }
@@ -237,8 +237,8 @@ Measured several_impacts(CaseRuns& case_runs) {
   return {
       caption.peaks, in_flight.value(),
       caption.as_described == text.as_described ? holds_if(text.as_described)
-      : caption.as_described                    ? Answer::holds
-                                                : Answer::refuted,
+      : caption.as_described                    ? Finding::holds
+                                                : Finding::refuted,
       fmt::format("second peak over the first for the caption's drop from 2 m, third after {} times the interval; the "
                   "text's 1 m/s gives {} and {}: there the third is not apart",
                   number(caption.gaps, 3), number(text.peaks, 3), number(text.gaps, 2))};
@@ -342,7 +342,7 @@ Measured damping_and_peaks(CaseRuns& case_runs) {
   const Converged damped = converged(case_runs, "phone-damped", first, two_impacts);
   const double one = damped.value / peak(free, 0);
   const double two = peak(case_runs.run("phone-damped", two_impacts), 1) / peak(free, 1);
-  return {one, damped.error / damped.value, one < 1 && two < 1 ? Answer::ambiguous : Answer::refuted,
+  return {one, damped.error / damped.value, one < 1 && two < 1 ? Finding::ambiguous : Finding::refuted,
           fmt::format(
               "damped over elastic, first peak; second {}: smaller, by a tenth, which \"slightly\" may or may not mean",
               number(two, 3))};
@@ -350,7 +350,7 @@ Measured damping_and_peaks(CaseRuns& case_runs) {
 
 }  // namespace
 
-Measures claim_measures() {
+CheckMeasures claim_measures() {
   return {{"C1", second_is_twice},     {"C2", equal_impulses},         {"C3", second_angle},
           {"C4", last_second_impact},  {"C5", last_third_impact},      {"C6", two_one_two},
           {"C7", sum_of_three},        {"C8", gravity_changes_little}, {"C9", jump_at_zero},

@@ -37,7 +37,7 @@ Measured sign_of_omega(CaseRuns&) {
   const auto residual = [&](double omega) { return after.normal - omega * (-c / 2) + v; };
   const double error = worst_of({std::fabs(residual(after.angular)), std::fabs(after.angular + printed)});
   return {
-      residual(printed), error, Answer::holds,
+      residual(printed), error, Finding::holds,
       fmt::format("residual of Eq. 8 with Ω as printed; with the model's {}", significant(residual(after.angular), 1))};
 }
 
@@ -56,7 +56,7 @@ Measured gravity_term(CaseRuns&) {
   const auto printed = [&](double signed_g) {
     return contact_angle_as_printed(theta, signed_g).angle * degrees_per_radian;
   };
-  return {beta, std::fabs(beta - simulated) / simulated, Answer::holds,
+  return {beta, std::fabs(beta - simulated) / simulated, Finding::holds,
           fmt::format("β at 20°, v_n = −1, g = 9.81; printed {}° (g > 0) or {}° (g < 0)", significant(printed(g), 4),
                       significant(printed(-g), 3))};
 }
@@ -69,7 +69,7 @@ Measured factor_v(CaseRuns&) {
   const double came = speed * (at.velocity[0] - at.angular[0] * c / 2);
   const double right = speed * at.velocity[1] - speed * at.angular[1] * c / 2;
   const double printed = speed * at.velocity[1] + speed * at.angular[1] * c * v / 2;
-  return {printed / -came, std::fabs(right / -came - 1), Answer::holds,
+  return {printed / -came, std::fabs(right / -came - 1), Finding::holds,
           "speed of end b after impact 2 over that before, as printed for v_n = −2; right 1"};
 }
 
@@ -80,7 +80,7 @@ Measured relative_velocity(CaseRuns&) {
   const double printed = (1 - 3 * c * c) / d * v - std::cos(at.beta.angle) * 6 * c / d * v;
   const double actual = at.velocity[0] - at.angular[0] * std::cos(at.beta.angle) / 2;
   const ContactAngles heavy = elastic_angles(20, 1);
-  return {printed / actual, std::fabs(printed / actual + 1), Answer::holds,
+  return {printed / actual, std::fabs(printed / actual + 1), Finding::holds,
           fmt::format("v_rn over the normal velocity of the contact point; with G = 1 also − gT = {}",
                       significant(-heavy.beta.time, 3))};
 }
@@ -88,7 +88,7 @@ Measured relative_velocity(CaseRuns&) {
 Measured second_fold(CaseRuns&) {
   const analytic::RegimeBoundary fold = regime_boundary(analytic::ImpactNumber::second, {});
   const double exact = second_impact_fold_beta();
-  return {fold.beta * degrees_per_radian, std::fabs(fold.beta - exact) / exact, Answer::holds,
+  return {fold.beta * degrees_per_radian, std::fabs(fold.beta - exact) / exact, Finding::holds,
           fmt::format("β at the end of the second impact, θ = {}°; printed 90° at 58°",
                       significant(fold.theta * degrees_per_radian, 14))};
 }
@@ -96,14 +96,14 @@ Measured second_fold(CaseRuns&) {
 Measured third_fold(CaseRuns&) {
   const analytic::RegimeBoundary fold = regime_boundary(analytic::ImpactNumber::third, {});
   return {fold.theta * degrees_per_radian, std::fabs(fold.theta * degrees_per_radian / third_impact_fold_deg - 1),
-          Answer::holds,
+          Finding::holds,
           fmt::format("θ at the end of the third impact, β = {}°, γ = {}°; printed around 27°",
                       significant(fold.beta * degrees_per_radian, 9), significant(fold.gamma * degrees_per_radian, 9))};
 }
 
 Measured centre_after_first(CaseRuns&) {
   const double at_45 = elastic_angles(45).velocity[0];
-  return {at_45, std::fabs(at_45 + 0.2), Answer::holds,
+  return {at_45, std::fabs(at_45 + 0.2), Finding::holds,
           fmt::format("V₁ at 45°, downward; {} at 54.7356°, {} at 58°",
                       significant(elastic_angles(std::acos(1 / std::sqrt(3.0)) * degrees_per_radian).velocity[0], 1),
                       significant(elastic_angles(58).velocity[0], 3))};
@@ -141,7 +141,7 @@ Measured singular_mass_matrix(CaseRuns&) {
   const Vector3& omega = general.state.angular_velocity;
   const Vector3 moment = general.state.attitude.conjugate() * general.wrench.moment;
   const Vector3 exact = general.body.inertia.inverse() * (moment - omega.cross(general.body.inertia * omega));
-  return {values[0] / values[6], (solved.angular - exact).norm() / exact.norm(), Answer::holds,
+  return {values[0] / values[6], (solved.angular - exact).norm() / exact.norm(), Finding::holds,
           fmt::format("smallest over largest eigenvalue of M; the next is {}", significant(values[1] / values[6], 2))};
 }
 
@@ -156,7 +156,7 @@ Measured block_column(CaseRuns&) {
       (general.body.mass * general.state.velocity.squaredNorm() + omega.dot(general.body.inertia * omega)) / 2;
   const double full = rate.dot(system.mass_matrix * rate) / 2;
   const double printed = rate.tail<4>().dot(system.mass_matrix.bottomRows<4>() * rate) / 2;
-  return {printed / exact, std::fabs(full / exact - 1), Answer::holds,
+  return {printed / exact, std::fabs(full / exact - 1), Finding::holds,
           "share of the kinetic energy that the printed block gives; it has 4 rows for 7 unknowns"};
 }
 
@@ -174,7 +174,7 @@ Measured centripetal_term(CaseRuns&) {
   numeric::Matrix3 cross;
   cross << 0, -omega.z(), omega.y(), omega.z(), 0, -omega.x(), -omega.y(), omega.x(), 0;
   const Vector3 right = cross * cross * u, printed = cross * cross.transpose() * u;
-  return {printed.dot(exact) / exact.squaredNorm(), (right - exact).norm() / exact.norm(), Answer::holds,
+  return {printed.dot(exact) / exact.squaredNorm(), (right - exact).norm() / exact.norm(), Finding::holds,
           "ω̃ω̃ᵀu over the acceleration in free flight; ω̃ω̃u gives 1"};
 }
 
@@ -189,7 +189,7 @@ Measured two_versions_of_figure_17(CaseRuns& case_runs) {
            (impacts.at(1).value.start - impacts.at(0).value.start);
   };
   return {
-      came, std::fabs(came / speed - 1), Answer::holds,
+      came, std::fabs(came / speed - 1), Finding::holds,
       fmt::format(
           "m/s at the first touch from 2 m, text 1; the third impact is apart, as described, only in the caption's: "
           "its interval is {} times the first (text: {})",
@@ -198,7 +198,7 @@ Measured two_versions_of_figure_17(CaseRuns& case_runs) {
 
 }  // namespace
 
-Measures erratum_measures() {
+CheckMeasures erratum_measures() {
   return {{"E1", sign_of_omega},
           {"E2", gravity_term},
           {"E3", factor_v},

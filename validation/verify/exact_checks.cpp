@@ -55,7 +55,7 @@ Measured against_table(ReferenceTable table) {
       }
     }
   }
-  return {static_cast<double>(count), worst.value(), Answer::holds, "worst: " + where};
+  return {static_cast<double>(count), worst.value(), Finding::holds, "worst: " + where};
 }
 
 Measure table(ReferenceTable of) {
@@ -66,7 +66,7 @@ Measured small_angle_coefficient(CaseRuns&) {
   const double theta = 1e-3;
   const double beta = contact_angles(Angle::from_radians(theta), {}).beta.angle;
   const double coefficient = (beta / theta - 0.5) / (theta * theta);
-  return {coefficient, std::fabs(coefficient - 17.0 / 64), Answer::holds, "17/64 = 0.265625, at θ = 1e-3"};
+  return {coefficient, std::fabs(coefficient - 17.0 / 64), Finding::holds, "17/64 = 0.265625, at θ = 1e-3"};
 }
 
 Measured largest_second_impulse(CaseRuns&) {
@@ -79,7 +79,7 @@ Measured largest_second_impulse(CaseRuns&) {
     else high = right;
   }
   const double largest = impulse(low);
-  return {largest, std::fabs(largest - 1.04540), Answer::holds, fmt::format("at θ = {}°", significant(low, 5))};
+  return {largest, std::fabs(largest - 1.04540), Finding::holds, fmt::format("at θ = {}°", significant(low, 5))};
 }
 
 Measured bouncing_end(CaseRuns&) {
@@ -91,14 +91,14 @@ Measured bouncing_end(CaseRuns&) {
                                                                  .law = {.restitution = e}},
                                                                 {.impacts = 3});
   const double end = sequence.tail.value().end_time;
-  return {end, relative(end, 2 * e * v / (g * (1 - e))), Answer::holds, "flat box, e = 0.5, 2 m/s"};
+  return {end, relative(end, 2 * e * v / (g * (1 - e))), Finding::holds, "flat box, e = 0.5, 2 m/s"};
 }
 
 Measured restitution_map(CaseRuns&) {
   const double at_tenth = analytic::restitution_of_damping(0.1), at_one = analytic::restitution_of_damping(1);
   const auto residual = [](double s, double e) { return std::fabs(std::log1p(s) - std::log1p(-s * e) - s * (1 + e)); };
   return {at_tenth, worst_of({relative(at_tenth, 0.937475579949905), residual(0.1, at_tenth), residual(1, at_one)}),
-          Answer::holds, fmt::format("e(1) = {}", significant(at_one, 12))};
+          Finding::holds, fmt::format("e(1) = {}", significant(at_one, 12))};
 }
 
 struct FlatLanding {
@@ -124,7 +124,7 @@ Measured half_sine(CaseRuns&) {
   const double force = landing.speed * std::sqrt(landing.stiffness * landing.area * landing.mass);
   const double error = worst_of(
       {relative(landing.numbers.duration, analytic::pi / frequency), relative(landing.numbers.peak_force, force)});
-  return {landing.numbers.peak_force, error, Answer::holds,
+  return {landing.numbers.peak_force, error, Finding::holds,
           fmt::format("contact time {} s", significant(landing.numbers.duration, 9))};
 }
 
@@ -139,7 +139,7 @@ Measured damped_landing(CaseRuns&) {
     worst.take(std::fabs(residual / slope));
     if (s == 1) at_one = e;
   }
-  return {at_one, worst.value(), Answer::holds, "worst of s = 0.01, 0.1, 1, 5"};
+  return {at_one, worst.value(), Finding::holds, "worst of s = 0.01, 0.1, 1, 5"};
 }
 
 Measured elastic_energy(CaseRuns& case_runs) {
@@ -150,7 +150,7 @@ Measured elastic_energy(CaseRuns& case_runs) {
       worst.take(std::fabs(impact.value.energy_loss) / run.energy_start);
     }
   }
-  return {worst.value(), worst.value(), Answer::holds, "largest loss of one impact over the energy; digits 6"};
+  return {worst.value(), worst.value(), Finding::holds, "largest loss of one impact over the energy; digits 6"};
 }
 
 Measured energy_ledger(CaseRuns& case_runs) {
@@ -158,7 +158,7 @@ Measured energy_ledger(CaseRuns& case_runs) {
   for (const char* name : {"phone-damped", "rod-at-1ms", "rod-from-2m", "rod-friction-03"}) {
     for (const auto& impact : case_runs.run(name).impacts) worst.take(std::fabs(impact.ledger_gap));
   }
-  return {worst.value(), worst.value(), Answer::holds, "loss − dampers − friction − released, over the energy"};
+  return {worst.value(), worst.value(), Finding::holds, "loss − dampers − friction − released, over the energy"};
 }
 
 /// Change of the end state from step to step of the paper's method.
@@ -176,7 +176,7 @@ Measured runge_kutta_order(CaseRuns&) {
   const double h = 2e-5;
   const double a = velocity(h), b = velocity(h / 2), c = velocity(h / 4);
   const double order = std::log2(std::fabs((a - b) / (b - c)));
-  return {order, std::fabs(order - 3), Answer::holds, "damped phone, V_n after impact 1, steps of 20, 10 and 5 µs"};
+  return {order, std::fabs(order - 3), Finding::holds, "damped phone, V_n after impact 1, steps of 20, 10 and 5 µs"};
 }
 
 Measured free_rotation(CaseRuns&) {
@@ -191,7 +191,7 @@ Measured free_rotation(CaseRuns&) {
     const numeric::Rotation at = rotation.at(12.6 * i);
     worst.take((momentum(at) - momentum(start)).norm() / momentum(start).norm());
   }
-  return {momentum(start).norm(), worst.value(), Answer::holds, "body about its intermediate axis, 1000 turns"};
+  return {momentum(start).norm(), worst.value(), Finding::holds, "body about its intermediate axis, 1000 turns"};
 }
 
 /// A box standing on its edge, sunk by d: the submerged wedge has the volume W d²/(2 sin θ cos θ).
@@ -206,7 +206,7 @@ Measured hydrostatic_force(CaseRuns&) {
   view.sink = -depth;
   const double force = numeric::ContactLoader(body, ground).load(view, {}).force;
   const double volume = width * depth * depth / (2 * std::sin(theta) * std::cos(theta));
-  return {force, relative(force, k * volume), Answer::holds, "wedge 1 mm deep at 0.5 rad"};
+  return {force, relative(force, k * volume), Finding::holds, "wedge 1 mm deep at 0.5 rad"};
 }
 
 Measured contact_time_powers(CaseRuns&) {
@@ -223,7 +223,7 @@ Measured contact_time_powers(CaseRuns&) {
   power(flat, 1.0 / 2, "face");
   power(scene_of_case("phone-elastic", {.impacts = 1}), 1.0 / 3, "edge");
   const double corner = power(scene_of_case("rod-45", {.impacts = 1}), 1.0 / 4, "corner");
-  return {corner, worst.value(), Answer::holds, found};
+  return {corner, worst.value(), Finding::holds, found};
 }
 
 // Close to flat: the billiard in a wedge or cone against the full model at a small tilt.
@@ -241,7 +241,7 @@ Measured impulses_close_to_flat(CaseRuns&) {
   for (std::size_t i = 0; i < std::min(limit.size(), full.rows.size()); ++i) {
     worst.take(std::fabs(full.rows[i].impact.normal_impulse - limit[i].impulse));
   }
-  return {limit[1].impulse, worst.value(), Answer::holds,
+  return {limit[1].impulse, worst.value(), Finding::holds,
           fmt::format("{} impacts, arms 0.3 and 0.7, κ = 0.2", limit.size())};
 }
 
@@ -265,7 +265,7 @@ Measured hardest_blow_of_the_phone(CaseRuns&) {
   drop.velocity = {0, 0, -1};
   const auto full = impact_sequence(drop, {.impacts = static_cast<int>(at) + 1, .amplification = false});
   const double speed = full.rows.size() > at ? full.rows[at].approach_speed : NAN;
-  return {speed, std::fabs(speed - hardest->strikes[at].approach), Answer::holds,
+  return {speed, std::fabs(speed - hardest->strikes[at].approach), Finding::holds,
           fmt::format("impact {} of an elastic phone tilted by {} rad", at + 1, tilt)};
 }
 
@@ -281,7 +281,7 @@ Measured endless_strikes(CaseRuns&) {
   }
   const auto found = analytic::near_flat::critical_restitution(face);
   const double e = found ? found->restitution : NAN;
-  return {e, std::fabs(e - low), Answer::holds, "four corners in turn"};
+  return {e, std::fabs(e - low), Finding::holds, "four corners in turn"};
 }
 
 /// The ends of a bar that lands level, without rebound and friction, under gravity.  With q = L²/(4k²) > 1 an impulse P
@@ -307,7 +307,7 @@ Measured plastic_level_landing(CaseRuns&) {
     sum = sequence.total_normal_impulse;
     worst.take(sequence.outcome == analytic::Outcome::at_rest ? relative(sum, speed) : INFINITY);
   }
-  return {sum, worst.value(), Answer::holds, "four bars of 1 kg and 0.2 m, five impacts of each and their sum"};
+  return {sum, worst.value(), Finding::holds, "four bars of 1 kg and 0.2 m, five impacts of each and their sum"};
 }
 
 /// What is left of 10 rad/s of a plate that lands level: −μ P_n c̄ of I, c̄ = r/3 + p²/(6 q) asinh(q/p) + q²/(6 p)
@@ -336,13 +336,13 @@ Measured spinning_face(CaseRuns&) {
       worst.take(relative(found, exact));
     }
   }
-  return {found, worst.value(), Answer::holds,
+  return {found, worst.value(), Finding::holds,
           "each place's own slip, and the patch as a whole; with 1 nm/s of slip and without"};
 }
 
 }  // namespace
 
-Measures exact_measures() {
+CheckMeasures exact_measures() {
   return {{"X1", table(ReferenceTable::no_gravity)},
           {"X2", table(ReferenceTable::gravity)},
           {"X3", small_angle_coefficient},

@@ -30,7 +30,7 @@ Measured distance_of_points(const Figure& figure) {
       ++points;
     }
   }
-  return {static_cast<double>(points), worst.value(), Answer::holds,
+  return {static_cast<double>(points), worst.value(), Finding::holds,
           fmt::format("points on lines; worst {} of the range off", number(worst.value(), 2))};
 }
 
@@ -55,7 +55,7 @@ Measured figure_8(CaseRuns& case_runs) {
     if (value(row, "panel") == 1) least = std::min(least, velocity);
     if (value(row, "panel") == 2 && value(row, "impacts") == 1) most = velocity;
   }
-  return {most, worst.value(), Answer::holds,
+  return {most, worst.value(), Finding::holds,
           fmt::format("the centre moves up after impact 1 at 56.5°, with {} |vₙ| down at 45°", number(-least, 4))};
 }
 
@@ -77,7 +77,7 @@ Measured figure_14(CaseRuns& case_runs) {
     worst.take(std::fabs(kinetic_energy_after(body, n) / before - 1));
     least = std::min(least, n.velocity_after.z());
   }
-  return {least, worst.value(), Answer::holds, "least Vₙ over the angle; 91 angles"};
+  return {least, worst.value(), Finding::holds, "least Vₙ over the angle; 91 angles"};
 }
 
 /// What friction dissipates is what the velocities lack.
@@ -92,7 +92,7 @@ Measured figure_15(CaseRuns& case_runs) {
     worst.take(std::fabs(lost - n.work_friction) / before);
     most = std::max(most, lost);
   }
-  return {most, worst.value(), Answer::holds, "largest loss over friction; friction's own work accounts for it"};
+  return {most, worst.value(), Finding::holds, "largest loss over friction; friction's own work accounts for it"};
 }
 
 /// |F_t| = μ F_n while the point slides: μ = 0.1, 0.3, 0.5.
@@ -107,7 +107,7 @@ Measured figure_16(CaseRuns& case_runs) {
       peak = std::max(peak, s.force.z());
     }
   }
-  return {peak, worst.value(), Answer::holds, "largest normal force for μ up to 0.5"};
+  return {peak, worst.value(), Finding::holds, "largest normal force for μ up to 0.5"};
 }
 
 /// Energy of the history at its ends against the works booked in between.
@@ -117,7 +117,7 @@ Measured energy_over_history(const RecordedRun& recorded) {
     booked += impact.value.work_damping + impact.value.work_friction + impact.value.work_released;
   }
   const double begin = recorded.samples.front().energy_total(), end = recorded.samples.back().energy_total();
-  return {(begin - end) / begin, std::fabs(begin - end - booked) / begin, Answer::holds,
+  return {(begin - end) / begin, std::fabs(begin - end - booked) / begin, Finding::holds,
           fmt::format("of the energy lost by the end of impact {}; dampers, friction and release account for it",
                       recorded.run.impacts.size())};
 }
@@ -134,7 +134,7 @@ Measured figure_19(CaseRuns& case_runs) {
   for (const HistorySample& s : samples) {
     worst.take(std::fabs(s.energy_total() / samples.front().energy_total() - 1));
   }
-  return {static_cast<double>(samples.size()), worst.value(), Answer::holds,
+  return {static_cast<double>(samples.size()), worst.value(), Finding::holds,
           "instants, with the energy of the ground's springs"};
 }
 
@@ -144,7 +144,7 @@ double force_distance(const Simulation& run, double force_impulse) {
 }
 
 Measured force_balance(const RecordedRun& recorded) {
-  return {recorded.run.total_normal_impulse(), force_distance(recorded.run, recorded.force_impulse()), Answer::holds,
+  return {recorded.run.total_normal_impulse(), force_distance(recorded.run, recorded.force_impulse()), Finding::holds,
           fmt::format("sum of the normal impulses of {} impacts", recorded.run.impacts.size())};
 }
 
@@ -166,7 +166,7 @@ Measured figure_22(CaseRuns& case_runs) {
   for (std::size_t i = 0; i < std::min<std::size_t>(3, fine.impacts.size()); ++i) {
     worst.take(std::fabs(run.impacts.at(i).value.peak_force / fine.impacts[i].value.peak_force - 1));
   }
-  return {run.impacts.at(1).value.peak_force, worst.value(), Answer::holds,
+  return {run.impacts.at(1).value.peak_force, worst.value(), Finding::holds,
           "largest force of all; peaks of the first three impacts"};
 }
 
@@ -177,12 +177,12 @@ Measured figure_24(CaseRuns& case_runs) {
     worst.take(force_distance(swept.run, swept.force_impulse));
     most = std::max(most, swept.run.impacts.at(0).value.energy_loss);
   }
-  return {most, worst.value(), Answer::holds, "largest loss over the angle; force over time of 84 drops"};
+  return {most, worst.value(), Finding::holds, "largest loss over the angle; force over time of 84 drops"};
 }
 
 }  // namespace
 
-Measures figure_measures() {
+CheckMeasures figure_measures() {
   return {{"F7", points_on_lines(7)},   {"F8", figure_8},
           {"F9", points_on_lines(9)},   {"F10", points_on_lines(10)},
           {"F11", points_on_lines(11)}, {"F12", points_on_lines(12)},

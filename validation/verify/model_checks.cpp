@@ -98,7 +98,7 @@ Measure velocities(const char* name) {
   return [=](CaseRuns&) -> Measured {
     const Scores scores = kept_scores(name);
     const double error = scores.middle_of("as fitted");
-    return {100 * error, error, Answer::holds,
+    return {100 * error, error, Finding::holds,
             fmt::format("{} point impacts; no change {} %, the best impulse there {} %", scores.rows[0].errors.size(),
                         significant(100 * scores.middle_of("no change"), 3),
                         significant(100 * scores.middle_of("floor: any impulse there"), 2))};
@@ -116,7 +116,7 @@ Measured clattering(CaseRuns&) {
 
 }  // namespace
 
-Measures model_measures() {
+CheckMeasures model_measures() {
   return {
       {"M1", of_case("rod-45")},           {"M2", of_sweep("rod-sweep")},      {"M3", of_sweep("rod-friction-sweep")},
       {"M4", of_case("rod-friction-01")},  {"M5", of_case("rod-friction-03")}, {"M6", of_case("rod-friction-05")},

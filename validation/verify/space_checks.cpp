@@ -60,7 +60,7 @@ Measured against_scenes(CaseRuns&) {
     impacts += scene.impacts.size();
     if (worst.take(scene_error(scene) / scene.tolerance)) where = scene.name;
   }
-  return {static_cast<double>(impacts), worst.value(), Answer::holds,
+  return {static_cast<double>(impacts), worst.value(), Finding::holds,
           fmt::format("of {} scenes, each corner right; worst: {}", scenes.size(), where)};
 }
 
@@ -81,7 +81,7 @@ Measured rocking_block(CaseRuns&) {
     part = strike_together(block, before, foot, rough).angular_velocity_after.y() / before.angular_velocity.y();
     worst.take(std::fabs(part - (1 - 1.5 * sine * sine)));
   }
-  return {part, worst.value(), Answer::holds, "tan α = 0.05, 0.2, 0.4, 0.6; the number is that of 0.6"};
+  return {part, worst.value(), Finding::holds, "tan α = 0.05, 0.2, 0.4, 0.6; the number is that of 0.6"};
 }
 
 Vector3 random_vector(Uniform& random, double size) {
@@ -136,7 +136,7 @@ Measured kept_by_an_impact(CaseRuns&) {
       worst.take(std::fabs(loss - row.impact.energy_loss) / row.energy_before);
     }
   }
-  return {static_cast<double>(impacts), worst.value(), Answer::holds,
+  return {static_cast<double>(impacts), worst.value(), Finding::holds,
           "angular momentum about the corner; work and energy"};
 }
 
@@ -186,7 +186,7 @@ Measured symmetries(CaseRuns&) {
     take_asymmetry(worst, drop, turn);
     take_asymmetry(worst, drop, mirror);
   }
-  return {2 * drops, worst.value(), Answer::holds,
+  return {2 * drops, worst.value(), Finding::holds,
           "turned by 2.1 rad about the vertical, and mirrored; 3 impacts each"};
 }
 
@@ -212,7 +212,7 @@ Measured path_of_friction(CaseRuns&) {
     worst.take(worst_of({(impact.contact_after - exact.velocity().cast<double>()).norm() / velocity.value.norm(),
                          (impact.impulse - exact.impulse().cast<double>()).head<2>().norm() / impact.impulse.norm()}));
   }
-  return {static_cast<double>(paths), worst.value(), Answer::holds,
+  return {static_cast<double>(paths), worst.value(), Finding::holds,
           "paths along which slip turns and stays above a tenth"};
 }
 
@@ -253,7 +253,7 @@ Measured planar_model(CaseRuns&) {
     const auto planar = impact_sequence(pair.planar, {.impacts = impacts_of_drop});
     const Sequence flown = impact_sequence(pair.in_space, {.impacts = impacts_of_drop});
     for (std::size_t i = 0; i < flown.rows.size() && flown.rows[i].error.predictable; ++i) {
-      if (i >= planar.rows.size()) return {static_cast<double>(impacts), INFINITY, Answer::refuted, "an impact more"};
+      if (i >= planar.rows.size()) return {static_cast<double>(impacts), INFINITY, Finding::refuted, "an impact more"};
       ++impacts;
       const analytic::Impact& a = planar.rows[i].impact;
       const analytic::space::Impact& b = flown.rows[i].impact;
@@ -264,13 +264,13 @@ Measured planar_model(CaseRuns&) {
       worst.take(apart / std::max(1.0, flown.rows[i].amplification));
     }
   }
-  return {static_cast<double>(impacts), worst.value(), Answer::holds,
+  return {static_cast<double>(impacts), worst.value(), Finding::holds,
           "boxes of 1 kg and 1 m that fall with about 1 m/s"};
 }
 
 }  // namespace
 
-Measures space_measures() {
+CheckMeasures space_measures() {
   return {{"S1", against_scenes}, {"S2", rocking_block},    {"S3", kept_by_an_impact},
           {"S4", symmetries},     {"S5", path_of_friction}, {"S6", planar_model}};
 }

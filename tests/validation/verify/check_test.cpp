@@ -64,7 +64,7 @@ BOOST_AUTO_TEST_CASE(the_worst_of_no_errors_or_of_one_that_is_no_number_is_no_nu
 BOOST_AUTO_TEST_CASE(an_answer_that_is_not_the_expected_one_fails) {
   Check one = check("C5");
   BOOST_TEST(judged(one).passed());
-  one.answer = Answer::holds;
+  one.answer = Finding::holds;
   BOOST_TEST(judged(one).failure.find("refuted") != std::string::npos);
 }
 
