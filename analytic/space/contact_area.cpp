@@ -14,13 +14,13 @@ namespace {
 
 /// A pole nearer than this, in units of the area, gives closed forms; its cube is what they cancel.
 constexpr double near_pole = 3;
-/// Beyond this, rules of six and four points do what ten and eight do nearer.
+/// Beyond this, rules of six points do what ten and eight do nearer.
 constexpr double distant_pole = 16;
 /// Sixteen points give a piece of an arc to rounding if its pole, at an angle that is complex for one off the circle,
 /// is so far from its ends together, in lengths of the piece; their error falls with the 32nd power of this and more.
 constexpr double ends_away = 1.8;
 constexpr double longest_piece = std::numbers::pi / 2, shortest_piece = 1e-15;
-/// Four points do on a side shorter than this, seen from a pole that is not near.
+/// Four points do on a side shorter than this, in units of what is pushed, seen from a pole that is not near.
 constexpr double short_side = 0.1;
 
 Vector2 quarter_turn(const Vector2& a) { return {-a.y(), a.x()}; }
@@ -154,10 +154,11 @@ void ArcIntegrals::give(PoleIntegrals& about) const {
 template <unsigned outward, unsigned along>
 class FarIntegrals {
  public:
-  FarIntegrals(const Vector2& slip, double spin) : slip_(slip), spin_(spin) {}
+  FarIntegrals(const Vector2& slip, double spin, double extent)
+      : slip_(slip), spin_(spin), short_(short_side * extent) {}
 
   void add_side(const Vector2& from, const Vector2& to) {
-    if ((to - from).squaredNorm() < short_side * short_side) add_side_by<4>(from, to);
+    if ((to - from).squaredNorm() < short_ * short_) add_side_by<4>(from, to);
     else add_side_by<along>(from, to);
   }
   void add_arc(double from, double to) {
@@ -199,7 +200,7 @@ class FarIntegrals {
   }
 
   Vector2 slip_;
-  double spin_;
+  double spin_, short_;
 };
 
 }  // namespace
@@ -339,8 +340,8 @@ Matrix3 PressedArea::slip_moments_within(const Vector2& slip, double spin) const
       return Matrix3(result + far.sum);
     };
     if (spin == 0) return result;
-    return speed > distant_pole * extent_ * std::fabs(spin) ? add(FarIntegrals<4, 6>(u, spin / speed))
-                                                            : add(FarIntegrals<8, 10>(u, spin / speed));
+    return speed > distant_pole * extent_ * std::fabs(spin) ? add(FarIntegrals<6, 6>(u, spin / speed, extent_))
+                                                            : add(FarIntegrals<8, 10>(u, spin / speed, extent_));
   }
   const Vector2 pole = quarter_turn(slip / spin);
   PoleIntegrals about;

@@ -121,9 +121,10 @@ SlipMotion::End SlipMotion::slide(bool from_rest) {
     const double taken = std::fmin(length, left);
     Values next = y_, error = y_;
     gsl_odeiv2_step_apply(step_.get(), 0, taken, next.data(), error.data(), now.data(), nullptr, &system_);
-    if (!next.allFinite()) return End::no_pressure;
     const double wrong = (error.head<3>().norm() / scale + error_along(next, error)) / step_error_;
-    if (wrong <= 1 || std::fabs(taken) * now.head<3>().norm() <= shortest_step * size) {
+    const bool is_shortest = std::fabs(taken) * now.head<3>().norm() <= shortest_step * size;
+    if (is_shortest && !next.allFinite()) return End::no_pressure;
+    if (wrong <= 1 || is_shortest) {
       y_ = next;
       spent_ += taken;
     }
