@@ -26,8 +26,6 @@ constexpr double near_side = 1.0 / 300;
 constexpr double least_part = 1e-4;
 /// Of C: a corner rubs as a disc of this size.
 constexpr double corner_size = 0.01;
-/// Slip below this part of what it was has stopped if it cannot be followed further.
-constexpr double lost = 1e-5;
 constexpr double level_rounding = 16 * detail::epsilon;
 
 double at(const Vector3& linear, const Vector2& x) { return linear[0] + linear.tail<2>().dot(x); }
@@ -420,9 +418,7 @@ std::optional<Push> PushSearch::find_sliding(const Response& response, const Vec
 /// of the place where the ground pushes without friction, and its inverse inertia.
 class LevelPath final : SlipMotion {
  public:
-  /// @param tilts  a face that is known to: its normal work bounds what the ground gives back
-  LevelPath(const LevelContact& contact, const Law& law, bool tilts);
-  [[nodiscard]] bool has_tilted() const { return has_tilted_; }
+  LevelPath(const LevelContact& contact, const Law& law);
   LevelImpulse follow();
 
  private:
@@ -442,7 +438,7 @@ class LevelPath final : SlipMotion {
 
   const ImpactLaw& law_;
   Vector2 ratio_direction_, below_;
-  bool is_edge_, is_bounded_, has_tilted_ = false;
+  bool is_edge_;
   PushSearch search_;
   LevelContact::Matrix g_;
   double speed_ = 1, unit_ = 1;
@@ -454,11 +450,10 @@ class LevelPath final : SlipMotion {
 
 Vector3 profile_of(const LevelContact& contact) { return -contact.velocity.tail<3>(); }
 
-LevelPath::LevelPath(const LevelContact& contact, const Law& law, bool tilts)
+LevelPath::LevelPath(const LevelContact& contact, const Law& law)
     : SlipMotion(size, 1e-13), law_(law.law), ratio_direction_(law.ratio_direction), below_(contact.below),
-      is_edge_(contact.area.corners.size() == 2), is_bounded_(tilts),
-      search_(contact.area, profile_of(contact), law.law.friction_value), g_(contact.inverse_inertia),
-      progress_({}, 0, 1) {
+      is_edge_(contact.area.corners.size() == 2), search_(contact.area, profile_of(contact), law.law.friction_value),
+      g_(contact.inverse_inertia), progress_({}, 0, 1) {
   const auto free = search_.find(response(), Vector3::Zero());
   if (!free) fail();
   speed_ = search_.profile(free->place);
@@ -469,7 +464,7 @@ LevelPath::LevelPath(const LevelContact& contact, const Law& law, bool tilts)
   slow_ = level_rounding * contact.velocity_scale / speed_;
   search_ = PushSearch(contact.area, -begin_.tail<3>(), law_.friction_value);
   progress_ =
-      PathProgress<>({.law = law_.law == RestitutionLaw::poisson && is_bounded_ ? RestitutionLaw::stronge : law_.law,
+      PathProgress<>({.law = law_.law == RestitutionLaw::poisson && !is_edge_ ? RestitutionLaw::stronge : law_.law,
                       .restitution = law_.restitution,
                       .damping = law_.damping_per_stiffness * speed_},
                      0, 1);
@@ -492,7 +487,6 @@ LevelPath::Values LevelPath::rate(const Values& y) {
   const auto push = search_.find_sliding(response(), y.head<3>());
   if (!push) return Values::Constant(size, std::numeric_limits<double>::quiet_NaN());
   push_ = *push;
-  has_tilted_ = has_tilted_ || push_.kind != Push::At::inside;
   return change(push_, y);
 }
 
@@ -510,9 +504,7 @@ double LevelPath::length_of_stage(double rate, const Vector2& place) const {
   };
   const double weight = search_.profile(place);
   const double by_work = length(at(y_.segment<3>(normal), place) / weight, y_[work] / weight);
-  if (is_edge_) return by_work;
-  const double by_progress = length(y_[progress], y_[store]);
-  return is_bounded_ ? std::fmin(by_work, by_progress) : by_progress;
+  return is_edge_ ? by_work : std::fmin(by_work, length(y_[progress], y_[store]));
 }
 
 double LevelPath::impulse_left(const Values& rate) {
@@ -534,7 +526,6 @@ bool LevelPath::end_stage() {
 /// To the end of the law with pushes that stay where they are.
 void LevelPath::go_straight(const Push& push) {
   push_ = push;
-  has_tilted_ = has_tilted_ || push.kind != Push::At::inside;
   const Values rates = change(push, y_);
   while (!progress_.is_done()) {
     const double length = impulse_left(rates);
@@ -590,7 +581,6 @@ LevelImpulse LevelPath::follow() {
     const bool slips = y_.head<3>().norm() > slow_;
     result.path = PathKind::turning_slip;
     End end = slips ? slide() : End::stopped;
-    if (end == End::no_pressure && y_.head<3>().norm() <= lost * begin_.head<3>().norm()) end = End::stopped;
     if (end == End::stopped) end = go_on_from_rest(result.path, slips);
     if (end == End::no_pressure) fail();
   }
@@ -603,12 +593,6 @@ LevelImpulse LevelPath::follow() {
 
 }  // namespace
 
-LevelImpulse level_impulse(const LevelContact& contact, const Law& law) {
-  LevelPath path(contact, law, false);
-  const LevelImpulse struck = path.follow();
-  const bool by_work = law.law.law == RestitutionLaw::stronge || law.law.law == RestitutionLaw::poisson;
-  if (!by_work || !path.has_tilted() || contact.area.corners.size() == 2) return struck;
-  return LevelPath(contact, law, true).follow();
-}
+LevelImpulse level_impulse(const LevelContact& contact, const Law& law) { return LevelPath(contact, law).follow(); }
 
 }  // namespace clatter::analytic::space

@@ -10,9 +10,9 @@
 // Where some pressure makes all of C rise in step with φ, that is the rebound as a whole.  Elsewhere the ground pushes
 // at the side or corner of C that is nearest in the metric of the kinetic energy, the other points rise faster, and
 // they keep what they have gained.  Since then n(x) >= λ φ(x), no point of C approaches after the impact.  λ goes from
-// −1 to its end by the restitution law, as the normal velocity of a corner does: to e by Newton's; of a face that is
-// tilted Poisson's law, whose impulse could create energy, ends as Stronge's.  Without friction this is the least
-// change of velocity, in the metric of the kinetic energy, with n(x) >= e φ(x).
+// −1 to its end by the restitution law, as the normal velocity of a corner does: to e by Newton's; of a face that is tilted Poisson's law, whose impulse could
+// create energy, ends as Stronge's.  Without friction
+// this is the least change of velocity, in the metric of the kinetic energy, with n(x) >= e φ(x).
 //
 // Pressure inside a face is linear without tension (face_friction.hpp).  As x̂ comes to a side, that becomes pressure
 // (a + b s)² along the side, and at a corner pressure there alone.  So x̂, and what the ground does, change continuously
@@ -43,8 +43,7 @@ struct LevelImpulse {
 };
 
 /// The impulse of a level contact by (2).
-/// Accuracy: 1e-12 of the impulse, 1e-5 of the slip where that spirals to its end between two places; where x̂ comes
-/// nearer to a side than 1/300 of C, friction is that of the side.
+/// Accuracy: 1e-12 of the impulse; where x̂ comes nearer to a side than 1/300 of C, friction is that of the side.
 /// @throws NumericalError if slip cannot be followed to its end, std::domain_error for an impulse ratio on an edge,
 ///         OutsideModelError for one that jams
 [[nodiscard]] LevelImpulse level_impulse(const LevelContact& contact, const Law& law);
