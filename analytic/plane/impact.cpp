@@ -3,7 +3,6 @@
 
 #include <array>
 #include <cmath>
-#include <limits>
 
 #include "analytic/base/errors.hpp"
 #include "analytic/law/coulomb_path.hpp"
@@ -117,10 +116,6 @@ class FlatLanding {
     const FlatPhase held = sticking();
     return std::fabs(held.ratio) <= friction ? held : sliding(std::copysign(friction, held.ratio));
   }
-  /// dn/dP at d_t.
-  [[nodiscard]] double rise(const FlatPhase& phase, double place) const {
-    return 1 - place * turn(phase.place, phase.ratio);
-  }
   /// φ at d_t.
   [[nodiscard]] double approach(double place) const { return before_.angular * place - before_.normal; }
 
@@ -173,34 +168,6 @@ bool tilts(const PlanarBody& body, const PlanarVelocity& before, const ContactPo
   return !begin.whole || (stops && !rest.whole);
 }
 
-/// Normal impulse, per unit mass, after which the ground has given back e² of the normal work of compression.
-double impulse_by_work(const FlatLanding& landing, const FlatPhase& first, double until, const FlatPhase& second,
-                       double restitution) {
-  constexpr double endless = std::numeric_limits<double>::infinity();
-  const double in_first = first.rate * until, to_zero = first.rate > 0 ? 1 / first.rate : endless;
-  const double compression = to_zero <= until ? to_zero : until + (1 - in_first) / second.rate;
-  double from = -landing.approach(first.place), slope = landing.rise(first, first.place), work = 0, spent = 0;
-  const auto go = [&](double length) {
-    work -= length * (from + length * slope / 2);
-    from += length * slope;
-    spent += length;
-  };
-  const auto enter_second = [&] {
-    from = until * landing.rise(first, second.place) - landing.approach(second.place);
-    slope = landing.rise(second, second.place);
-  };
-  if (compression <= until) go(compression);
-  else go(until), enter_second(), go(compression - until);
-  work *= restitution * restitution;
-  if (!(work > 0)) return compression;
-  const auto left = [&] { return 2 * work / (from + std::sqrt(std::fmax(from * from + 2 * slope * work, 0))); };
-  if (compression < until) {
-    if (const double length = left(); spent + length <= until) return spent + length;
-    go(until - spent), enter_second();
-  }
-  return work > 0 && from + slope > 0 ? spent + left() : spent;
-}
-
 /// Phases of one ratio are straight: Routh's path with the coefficients that they have.
 Impact strike_tilting(const PlanarBody& body, const PlanarVelocity& before, const ContactPoint& first,
                       const ContactPoint& second, const ImpactLaw& law) {
@@ -217,19 +184,8 @@ Impact strike_tilting(const PlanarBody& body, const PlanarVelocity& before, cons
   const PathStart<> start{.approach_speed = speed, .slip = slip, .restitution = restitution_at(law, speed)};
   ImpactLaw ending = law;  // Poisson's impulse could create energy here
   if (law.law == RestitutionLaw::poisson) ending.law = RestitutionLaw::stronge;
-  PathEnd<> path = point_impulse(coefficients_of(begin, slows ? &rest : nullptr, speed), start, ending);
-  const double stop = slows ? -slip / begin.slip_rate : std::numeric_limits<double>::infinity();
-  if (ending.law == RestitutionLaw::stronge) {
-    const double most = impulse_by_work(landing, begin, stop, rest, law.restitution);
-    if (most < path.normal_impulse) {
-      const double first_part = std::fmin(most, stop), second_part = most - first_part;
-      path.normal_impulse = most;
-      path.tangential_impulse = begin.ratio * first_part + rest.ratio * second_part;
-      path.separation_speed = speed * (begin.rate * first_part + rest.rate * second_part - 1);
-      if (most <= stop && slows) path.mode = ImpactMode::slip;
-    }
-  }
-  const double until = std::fmin(stop, path.normal_impulse);
+  const PathEnd<> path = point_impulse(coefficients_of(begin, slows ? &rest : nullptr, speed), start, ending);
+  const double until = slows ? std::fmin(-slip / begin.slip_rate, path.normal_impulse) : path.normal_impulse;
   const double centre = begin.place * until + rest.place * (path.normal_impulse - until);
   Impact impact{
       .normal_impulse = body.mass * path.normal_impulse,

@@ -490,8 +490,7 @@ LevelPath::Values LevelPath::rate(const Values& y) {
   return change(push_, y);
 }
 
-/// An edge goes by the work of the normal motion where it is pushed, a face by that of its progress, and no further
-/// than the former allows.
+/// An edge goes by the work of the normal motion where it is pushed, a face by that of its progress.
 double LevelPath::length_of_stage(double rate, const Vector2& place) const {
   if (progress_.is_at_limit_speed()) return 0;
   if (progress_.stage() != Stage::restitution || !progress_.is_energetic()) return progress_.length_of_stage(rate);
@@ -504,7 +503,7 @@ double LevelPath::length_of_stage(double rate, const Vector2& place) const {
   };
   const double weight = search_.profile(place);
   const double by_work = length(at(y_.segment<3>(normal), place) / weight, y_[work] / weight);
-  return is_edge_ ? by_work : std::fmin(by_work, length(y_[progress], y_[store]));
+  return is_edge_ ? by_work : length(y_[progress], y_[store]);
 }
 
 double LevelPath::impulse_left(const Values& rate) {
