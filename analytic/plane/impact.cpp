@@ -182,9 +182,7 @@ Impact strike_tilting(const PlanarBody& body, const PlanarVelocity& before, cons
   const FlatPhase rest = rubs ? landing.from_rest(law.friction_value) : begin;
   const bool slows = stops && begin.slip_rate * slip < 0;
   const PathStart<> start{.approach_speed = speed, .slip = slip, .restitution = restitution_at(law, speed)};
-  ImpactLaw ending = law;  // Poisson's impulse could create energy here
-  if (law.law == RestitutionLaw::poisson) ending.law = RestitutionLaw::stronge;
-  const PathEnd<> path = point_impulse(coefficients_of(begin, slows ? &rest : nullptr, speed), start, ending);
+  const PathEnd<> path = point_impulse(coefficients_of(begin, slows ? &rest : nullptr, speed), start, law);
   const double until = slows ? std::fmin(-slip / begin.slip_rate, path.normal_impulse) : path.normal_impulse;
   const double centre = begin.place * until + rest.place * (path.normal_impulse - until);
   Impact impact{

@@ -463,11 +463,8 @@ LevelPath::LevelPath(const LevelContact& contact, const Law& law)
   begin_ = contact.velocity / speed_;
   slow_ = level_rounding * contact.velocity_scale / speed_;
   search_ = PushSearch(contact.area, -begin_.tail<3>(), law_.friction_value);
-  progress_ =
-      PathProgress<>({.law = law_.law == RestitutionLaw::poisson && !is_edge_ ? RestitutionLaw::stronge : law_.law,
-                      .restitution = law_.restitution,
-                      .damping = law_.damping_per_stiffness * speed_},
-                     0, 1);
+  progress_ = PathProgress<>(
+      {.law = law_.law, .restitution = law_.restitution, .damping = law_.damping_per_stiffness * speed_}, 0, 1);
   y_.head<6>() = begin_;
   y_[progress] = -1;
 }
@@ -490,7 +487,8 @@ LevelPath::Values LevelPath::rate(const Values& y) {
   return change(push_, y);
 }
 
-/// An edge goes by the work of the normal motion where it is pushed, a face by that of its progress.
+/// Of a law of work that by the normal motion at the place ends the stage, too: an edge goes by that alone, and a face
+/// gets no more than that.
 double LevelPath::length_of_stage(double rate, const Vector2& place) const {
   if (progress_.is_at_limit_speed()) return 0;
   if (progress_.stage() != Stage::restitution || !progress_.is_energetic()) return progress_.length_of_stage(rate);
@@ -503,7 +501,7 @@ double LevelPath::length_of_stage(double rate, const Vector2& place) const {
   };
   const double weight = search_.profile(place);
   const double by_work = length(at(y_.segment<3>(normal), place) / weight, y_[work] / weight);
-  return is_edge_ ? by_work : length(y_[progress], y_[store]);
+  return is_edge_ ? by_work : std::fmin(by_work, length(y_[progress], y_[store]));
 }
 
 double LevelPath::impulse_left(const Values& rate) {

@@ -10,8 +10,7 @@
 // Where some pressure makes all of C rise in step with φ, that is the rebound as a whole.  Elsewhere the ground pushes
 // at the side or corner of C that is nearest in the metric of the kinetic energy, the other points rise faster, and
 // they keep what they have gained.  Since then n(x) >= λ φ(x), no point of C approaches after the impact.  λ goes from
-// −1 to its end by the restitution law, as the normal velocity of a corner does: to e by Newton's; of a face that is tilted Poisson's law, whose impulse could
-// create energy, ends as Stronge's.  Without friction
+// −1 to its end by the restitution law, as the normal velocity of a corner does: to e by Newton's.  Without friction
 // this is the least change of velocity, in the metric of the kinetic energy, with n(x) >= e φ(x).
 //
 // Pressure inside a face is linear without tension (face_friction.hpp).  As x̂ comes to a side, that becomes pressure
