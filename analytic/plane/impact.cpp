@@ -85,8 +85,8 @@ struct FlatPhase {
 class FlatLanding {
  public:
   FlatLanding(double square, const PlanarVelocity& before, const ContactPoint& first, const ContactPoint& second)
-      : square_(square), depth_(first.normal), before_(before), ends_{std::fmin(first.tangential, second.tangential),
-                                                                      std::fmax(first.tangential, second.tangential)} {}
+      : square_(square), depth_(first.normal), before_(before),
+        ends_{std::fmin(first.tangential, second.tangential), std::fmax(first.tangential, second.tangential)} {}
 
   [[nodiscard]] FlatPhase sliding(double ratio) const {
     const double of_whole = whole_turn() * square_;
@@ -185,17 +185,17 @@ Impact strike_tilting(const PlanarBody& body, const PlanarVelocity& before, cons
   const PathEnd<> path = point_impulse(coefficients_of(begin, slows ? &rest : nullptr, speed), start, law);
   const double until = slows ? std::fmin(-slip / begin.slip_rate, path.normal_impulse) : path.normal_impulse;
   const double centre = begin.place * until + rest.place * (path.normal_impulse - until);
-  Impact impact{
-      .normal_impulse = body.mass * path.normal_impulse,
-      .tangential_impulse = body.mass * path.tangential_impulse,
-      .approach_speed = speed,
-      .separation_speed = path.separation_speed,
-      .slip_before = slip,
-      .mode = path.mode,
-      .after = {.normal = before.normal + path.normal_impulse,
-                .tangential = before.tangential + path.tangential_impulse,
-                .angular = before.angular + (path.tangential_impulse * depth - centre) / body.gyration_square},
-      .tilts = true};
+  Impact impact{.normal_impulse = body.mass * path.normal_impulse,
+                .tangential_impulse = body.mass * path.tangential_impulse,
+                .approach_speed = speed,
+                .separation_speed = path.separation_speed,
+                .slip_before = slip,
+                .mode = path.mode,
+                .after = {.normal = before.normal + path.normal_impulse,
+                          .tangential = before.tangential + path.tangential_impulse,
+                          .angular = before.angular +
+                                     (path.tangential_impulse * depth - centre) / body.gyration_square},
+                .tilts = true};
   const bool sticks = path.mode == ImpactMode::stick || path.mode == ImpactMode::slip_stick;
   impact.slip_after = sticks ? 0 : slip_velocity(impact.after, first);
   const PlanarVelocity sum{.normal = before.normal + impact.after.normal,

@@ -78,8 +78,9 @@ struct TiltingLanding {
 
   TiltingLanding(const StruckState& struck, const ContactVelocity& contact, double turn, const ImpactLaw& law) {
     const ContactPoint& d = struck.place;
-    const PlanarVelocity before{
-        .normal = contact.normal + turn * d.tangential, .tangential = contact.slip - turn * d.normal, .angular = turn};
+    const PlanarVelocity before{.normal = contact.normal + turn * d.tangential,
+                                .tangential = contact.slip - turn * d.normal,
+                                .angular = turn};
     impact = strike_flat(struck.body, before, d, struck.second, law).value_or(Impact{});
     separation = normal_velocity(impact.after, d);
   }
@@ -158,7 +159,7 @@ LawDerivatives tilting_law_derivatives(const StruckState& struck) {
   const auto column = [&](double ImpactLaw::*number) {
     const double lowest = std::fmax(struck.law.*number - relative_step, 0);
     const double highest = number == &ImpactLaw::restitution ? std::fmin(struck.law.*number + relative_step, 1)
-                                                             : struck.law.*number + relative_step;
+                                                              : struck.law.*number + relative_step;
     const auto landed = [&](double value) {
       ImpactLaw law = struck.law;
       law.*number = value;

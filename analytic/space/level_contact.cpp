@@ -35,12 +35,12 @@ Vector3 with_one(const Vector2& x) { return {1, x.x(), x.y()}; }
 struct Push {
   enum class At { inside, side, corner, rim };
   At kind = At::inside;
-  std::size_t index = 0;                ///< of the corner, or of that with which the side begins
-  double along = 0;                     ///< of the side, −1 to 1; angle on the rim [rad]
-  Vector3 pressure = Vector3::UnitX();  ///< inside
-  Vector2 place = Vector2::Zero();      ///< x̂
-  Vector3 friction = Vector3::Zero();   ///< (F, K)
-  double rate = 0;                      ///< κ
+  std::size_t index = 0;               ///< of the corner, or of that with which the side begins
+  double along = 0;                    ///< of the side, −1 to 1; angle on the rim [rad]
+  Vector3 pressure = Vector3::UnitX(); ///< inside
+  Vector2 place = Vector2::Zero();     ///< x̂
+  Vector3 friction = Vector3::Zero();  ///< (F, K)
+  double rate = 0;                     ///< κ
 };
 
 /// Finds where the ground pushes, (2).
@@ -145,8 +145,10 @@ Vector3 PushSearch::friction_at(const Push& push) {
     case Push::At::inside:
       pushed_.press(push.pressure);
       return -friction_ * (pushed_.slip_moments(slip_.head<2>(), slip_[2]) * push.pressure);
-    case Push::At::side: return friction_along(push.index, push.along);
-    default: return friction_of_point(push.place);
+    case Push::At::side:
+      return friction_along(push.index, push.along);
+    default:
+      return friction_of_point(push.place);
   }
 }
 
@@ -451,9 +453,9 @@ class LevelPath final : SlipMotion {
 Vector3 profile_of(const LevelContact& contact) { return -contact.velocity.tail<3>(); }
 
 LevelPath::LevelPath(const LevelContact& contact, const Law& law)
-    : SlipMotion(size, 1e-13), law_(law.law), ratio_direction_(law.ratio_direction), below_(contact.below),
-      is_edge_(contact.area.corners.size() == 2), search_(contact.area, profile_of(contact), law.law.friction_value),
-      g_(contact.inverse_inertia), progress_({}, 0, 1) {
+    : SlipMotion(size, 1e-13), law_(law.law), ratio_direction_(law.ratio_direction), below_(contact.below), is_edge_(contact.area.corners.size() == 2),
+      search_(contact.area, profile_of(contact), law.law.friction_value), g_(contact.inverse_inertia),
+      progress_({}, 0, 1) {
   const auto free = search_.find(response(), Vector3::Zero());
   if (!free) fail();
   speed_ = search_.profile(free->place);
@@ -495,8 +497,7 @@ double LevelPath::length_of_stage(double rate, const Vector2& place) const {
   const auto length = [&](double speed, double left) {
     if (left < 0) return speed > 0 ? left / speed : 0;
     if (!(rate > 0)) return std::numeric_limits<double>::infinity();
-    const double end =
-        separation_speed(progress_.damping(), Unloading<double>{.from = speed, .slope = rate, .work = left});
+    const double end = separation_speed(progress_.damping(), Unloading<double>{.from = speed, .slope = rate, .work = left});
     return std::fmax(end - speed, 0) / rate;
   };
   const double weight = search_.profile(place);
@@ -548,8 +549,9 @@ LevelPath::End LevelPath::go_on_from_rest(PathKind& kind, bool slipped) {
                            Vector3::Zero());
   if (!hold) fail();
   const Vector3 pushes = with_one(hold->place), load = g_.topRightCorner<3, 3>() * pushes;
-  SlipLetGo slip(load,
-                 [&](const Vector3& s) -> Vector3 { return g_.topLeftCorner<3, 3>() * search_.friction_of(*hold, s); });
+  SlipLetGo slip(load, [&](const Vector3& s) -> Vector3 {
+    return g_.topLeftCorner<3, 3>() * search_.friction_of(*hold, s);
+  });
   if (search_.find_pressure(*hold) && slip.is_held()) {
     kind = slipped ? PathKind::slip_stick : PathKind::stick;
     y_.head<3>().setZero();

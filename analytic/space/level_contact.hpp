@@ -3,10 +3,10 @@
 // (face_friction.hpp, edge_friction.hpp) is the case in which the pressure stays inside.
 //
 // With lengths in units ℓ from the middle c of the region C, x = (ξ, η) in C, the motion is
-//     v = (U_x, U_y, ℓω_z, n₀, n_ξ, n_η):   slip U + ℓω_z ẑ × x, normal velocity n(x) = n₀ + n_ξ ξ + n_η η, (1)
+//     v = (U_x, U_y, ℓω_z, n₀, n_ξ, n_η):   slip U + ℓω_z ẑ × x, normal velocity n(x) = n₀ + n_ξ ξ + n_η η,          (1)
 // which impulses f = (F_x, F_y, K/ℓ, P, X/ℓ) change by G f.  Before the impact n(x) = −φ(x), φ > 0 on C.  In each dP
 // the ground pushes at a mean place x̂ of C, by which friction is given; x̂ and the rate κ of progress λ are those with
-//     dn/dP (x) >= κ φ(x) on C,   equal where the ground pushes, at x̂ and around it;   dλ/dP = κ. (2)
+//     dn/dP (x) >= κ φ(x) on C,   equal where the ground pushes, at x̂ and around it;   dλ/dP = κ.                    (2)
 // Where some pressure makes all of C rise in step with φ, that is the rebound as a whole.  Elsewhere the ground pushes
 // at the side or corner of C that is nearest in the metric of the kinetic energy, the other points rise faster, and
 // they keep what they have gained.  Since then n(x) >= λ φ(x), no point of C approaches after the impact.  λ goes from
@@ -32,7 +32,7 @@ struct LevelContact {
   /// C in units ℓ from c: a polygon counter-clockwise, two ends of an edge, or a disc of radius 1.
   ContactArea area;
   Vector2 below = Vector2::Zero();  ///< the centre of mass: there an impulse ratio acts on a face, units ℓ from c
-  double velocity_scale = 0;        ///< rounding errors of v are below 4ε × this [m/s]
+  double velocity_scale = 0;  ///< rounding errors of v are below 4ε × this [m/s]
 };
 
 struct LevelImpulse {

@@ -105,7 +105,8 @@ bool StrikingGroup::strike(const Points& group) {
   for (const Point& p : group) depth -= p.arm.z() / static_cast<double>(group.size());
   ContactArea area;
   for (const int i : hull) area.corners.emplace_back(group[static_cast<std::size_t>(i)].arm.head<2>());
-  const bool whole = hull.size() == 2 ? strike_edge(corner(0), corner(1), group) : strike_face(depth, area, group);
+  const bool whole =
+      hull.size() == 2 ? strike_edge(corner(0), corner(1), group) : strike_face(depth, area, group);
   if (!whole) struck_.strike_level(depth, area, indices_of(group));
   return whole;
 }

@@ -28,8 +28,8 @@ struct GroupImpact {
 
 /// The impulse of a face that rebounds as a whole, and where its pushes act.
 struct FaceRebound {
-  Vector3 impulse = Vector3::Zero();  ///< P, world frame [N·s]
-  Vector3 moment = Vector3::Zero();   ///< about the centre of mass [N·m·s]
+  Vector3 impulse = Vector3::Zero();         ///< P, world frame [N·s]
+  Vector3 moment = Vector3::Zero();          ///< about the centre of mass [N·m·s]
   /// Of (2) in simultaneous.hpp at the beginning and at the end, from the centre of mass [m].
   Vector2 first_point = Vector2::Zero(), last_point = Vector2::Zero();
   PathKind path = PathKind::frictionless;

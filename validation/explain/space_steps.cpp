@@ -423,8 +423,8 @@ class SpatialImpact {
   [[nodiscard]] std::string rebound_words(const space::GroupImpact& group, bool is_rim) const {
     if (!group.is_whole) {
       return fmt::format(
-          "Pushes alone cannot make the body rebound as a whole: the ground pushes at the place of the corners that is "
-          "nearest, and what is driven down thereafter strikes, too: {}.",
+          "Pushes alone cannot make the body rebound as a whole; they strike one after the other, the fastest first: "
+          "{}.",
           order_words(group));
     }
     const bool is_face = is_rim || group.order.front().size() > 2;

@@ -146,7 +146,7 @@ std::string near_miss_words(int digits, const Run& run) {
 }
 
 const char* convention_words(const space::GroupImpact& group) {
-  return group.is_whole ? "the body rebounds as a whole" : "the ground pushes at the nearest place of the corners";
+  return group.is_whole ? "the body rebounds as a whole" : "they strike one after the other, the fastest first";
 }
 
 using OutcomeSets = std::map<std::size_t, space::OutcomeSet>;

@@ -87,7 +87,8 @@ BOOST_AUTO_TEST_CASE(a_tower_that_slips_a_little_is_tilted_until_slip_stops_and_
   const FlatBox tower(2 * half, 2 * half, 2 * h, 1);
   const double turning = (mu * h - half) / tower.body.inertia(1, 1), stop = slip / (mu + h * turning);
   for (const double sense : {1.0, -1.0}) {
-    const GroupImpact struck = landing_of(tower, coulomb(e, mu), {sense * slip, 0, -1}, Vector3::Zero()).impact();
+    const GroupImpact struck =
+        landing_of(tower, coulomb(e, mu), {sense * slip, 0, -1}, Vector3::Zero()).impact();
     BOOST_TEST(std::fabs(struck.angular_velocity_after.y() - sense * turning * stop) <= 10 * tolerance);
     BOOST_TEST(std::fabs(struck.velocity_after.x() - sense * (slip - mu * stop)) <= tolerance);
     BOOST_TEST(std::fabs(struck.velocity_after.z() - half * turning * stop - e) <= tolerance);  // of the front edge
@@ -106,11 +107,12 @@ BOOST_AUTO_TEST_CASE(a_flat_landing_in_the_plane_of_a_box_is_that_of_the_planar_
     const PlanarVelocity v{-1, i % 7 == 0 ? 0 : random.uniform(-1, 1), random.uniform(-1, 1)};
     Law law = coulomb(random.uniform(0, 1), i % 5 == 0 ? 0 : random.uniform(0, 1.5));
     if (i % 5 == 0) law.law.friction = FrictionKind::none;
-    const auto planar =
-        strike_flat(body, v, {-box.length / 2, -box.height / 2}, {box.length / 2, -box.height / 2}, law.law);
+    const auto planar = strike_flat(body, v, {-box.length / 2, -box.height / 2}, {box.length / 2, -box.height / 2},
+                                    law.law);
     if (!planar) continue;
     tilting += planar->tilts;
-    const GroupImpact struck = landing_of(box, law, {v.tangential, 0, v.normal}, {0, v.angular, 0}).impact();
+    const GroupImpact struck =
+        landing_of(box, law, {v.tangential, 0, v.normal}, {0, v.angular, 0}).impact();
     BOOST_TEST_CONTEXT(i) {
       BOOST_TEST(std::fabs(struck.velocity_after.x() - planar->after.tangential) <= tolerance);
       BOOST_TEST(std::fabs(struck.velocity_after.z() - planar->after.normal) <= tolerance);
@@ -235,8 +237,8 @@ BOOST_AUTO_TEST_CASE(tall_faces_on_which_slip_spirals_or_holds_against_much_fric
   BOOST_TEST(spun.is_whole);
   BOOST_TEST((spun.velocity_after - Vector3(0.02655, 0.21052, 0.30752)).norm() <= tolerance * 2);
   BOOST_TEST(std::fabs(spun.angular_velocity_after.z() + 20.969) <= 1e-3);
-  Landing held = landing_of(FlatBox(0.545944, 0.455393, 0.424524, 19.3784), coulomb(0.523, 1.38), {0.7704, 0, -1.011},
-                            {0, 0, 0.1893});
+  Landing held = landing_of(FlatBox(0.545944, 0.455393, 0.424524, 19.3784), coulomb(0.523, 1.38),
+                            {0.7704, 0, -1.011}, {0, 0, 0.1893});
   held.before.attitude = Quaternion(0.1566730109646018, 0, 0, 0.9876505291019115).normalized();
   const GroupImpact stopped = held.impact();
   BOOST_TEST((stopped.velocity_after - Vector3(0, 0, 0.528753)).norm() <= 1e-12);
