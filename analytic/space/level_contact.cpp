@@ -81,7 +81,6 @@ class PushSearch {
   void aim();
   bool settle(const Target& target, const Vector2& slack, double share);
   [[nodiscard]] std::optional<Push> inside();
-  [[nodiscard]] std::optional<Push> from_boundary();
   [[nodiscard]] std::optional<Push> homotopy();
   [[nodiscard]] Push of_whole(const Vector3& friction) const;
   [[nodiscard]] std::optional<Push> at_boundary();
@@ -112,8 +111,6 @@ class PushSearch {
   Target target_{};
   bool is_constant_ = false;
   Vector3 constant_ = Vector3::Zero(), slip_ = Vector3::Zero();
-  std::optional<Push> inner_;  ///< where the friction of a place of the boundary would have the ground push inside
-  double inner_away_ = 0;
   std::optional<Push> best_;
   double best_deviation_ = 0;
   bool was_inside_ = true;
@@ -245,14 +242,6 @@ std::optional<Push> PushSearch::inside() {
   return push;
 }
 
-/// A pressure inside from that of the place to which the boundary's friction points.
-std::optional<Push> PushSearch::from_boundary() {
-  if (!inner_) return {};
-  Push push{.place = inner_->place};
-  if (!find_pressure(push)) return {};
-  return inside();
-}
-
 bool PushSearch::find_pressure(Push& push) {
   if (push.kind != Push::At::inside) return true;
   pressure_ << 1 / whole_moments_(0, 0), 0, 0;
@@ -290,16 +279,9 @@ double PushSearch::turning_on_rim(const Push& push) const {
 /// there are several, or a push beside the boundary if its friction brings the pressure point of the whole there.
 void PushSearch::consider(Push push, bool others_rise) {
   const Push whole = of_whole(push.friction);
-  if (!others_rise) {
-    if (is_edge() || !area_->contains(whole.place)) return;
-    const double away = (whole.place - push.place).norm();
+  if (!is_edge() && !others_rise) {
+    if (!((whole.place - push.place).norm() <= near_side && area_->contains(whole.place))) return;
     push.place = whole.place;
-    if (!inner_ || away < inner_away_) {
-      inner_ = push;
-      inner_->rate = whole.rate;
-      inner_away_ = away;
-    }
-    if (!(away <= near_side)) return;
   }
   const Vector3 n = rise(push);
   push.rate = at(n, push.place) / profile(push.place);
@@ -384,7 +366,6 @@ void PushSearch::search_rim() {
 
 std::optional<Push> PushSearch::at_boundary() {
   best_.reset();
-  inner_.reset();
   if (is_disc()) search_rim();
   else search_sides();
   return best_;
@@ -407,11 +388,8 @@ std::optional<Push> PushSearch::find_sliding(const Response& response, const Vec
   is_constant_ = false;
   slip_ = slip / slip.lpNorm<Eigen::Infinity>();
   std::optional<Push> push = was_inside_ ? inside() : at_boundary();
-  if (!push && was_inside_) push = at_boundary();
-  if (!push && !is_edge()) push = from_boundary();
-  if (!push && !is_edge()) push = inside();
+  if (!push) push = was_inside_ ? at_boundary() : inside();
   if (!push && !is_edge()) push = homotopy();
-  if (!push) push = inner_;  // with the friction of that place
   if (push) was_inside_ = push->kind == Push::At::inside, last_ = *push;
   return push;
 }
