@@ -140,11 +140,6 @@ BodyMotion::Strike BodyMotion::strike(VertexSet vertices, const ImpactLaw& law) 
       const double e = law.law == RestitutionLaw::viscoelastic ? impact->restitution() : law.restitution;
       const double of_first = -normal_velocity(before, contact_point(first)),
                    of_second = -normal_velocity(before, contact_point(second));
-      if (impact->tilts) {
-        reference_ = first;
-        rebound_speed_ = std::fmax(normal_velocity(impact->after, contact_point(first)), 0.0);
-        return {*impact, vertices};
-      }
       const bool pivots = gravity_ > 0 && std::fmin(of_first, of_second) <= pivot_part * std::fmax(of_first, of_second);
       reference_ = pivots && of_second < of_first ? second : first;
       rebound_speed_ = pivots ? 0 : e * of_first;

@@ -36,8 +36,6 @@ struct Impact {
   ImpactMode mode = ImpactMode::frictionless;
   PlanarVelocity after;    ///< of the centre of mass
   double energy_loss = 0;  ///< [J]; negative: the impulse ratio as given creates energy
-  /// A flat landing that does not rebound as a whole: the ground has pushed at one end at times.
-  bool tilts = false;
 
   /// P_t/P_n, 0 without an impulse.
   [[nodiscard]] double impulse_ratio() const;
@@ -79,11 +77,8 @@ struct ContactVelocity {
 /// of the friction law acting at the ground, stopped where slip stops.  For ω = 0 this is Eq. 10 as
 /// printed.  The restitution laws agree here, since slip does not couple to the normal motion; the viscoelastic
 /// law takes e at the approach speed of the pressure centre, −v_n − k² ω²/v_n (coulomb_path.hpp).
-/// While one of the two impulses that (2) needs would have to pull, because friction or a thin end shifts the pressure
-/// point beyond it, the ground pushes at the other end alone; the normal velocity of that goes on in step with (2),
-///     u = −λ u_before,   λ from −1 to its end by the restitution law,                               (3)
-/// the end that pulls rises faster, and keeps what it has gained.  Slip that stops lets (2) go on.
-/// Returns nothing if one of the two does not approach.
+/// Returns nothing if one of the two impulses that (2) needs would have to pull: then the vertices
+/// strike one after the other, the faster approach first.
 [[nodiscard]] std::optional<Impact> strike_flat(const PlanarBody& body, const PlanarVelocity& before,
                                                 const ContactPoint& first, const ContactPoint& second,
                                                 const ImpactLaw& law);

@@ -63,12 +63,11 @@ LevelRim::Motion LevelRim::motion() const {
 bool LevelRim::whole() {
   const Motion before = motion();
   if (!(slowest_rise(before) < -rounding_)) return false;
-  const auto face = struck_.face_rebound(-arm_.z(), area());
+  const auto face = struck_.face_rebound(-arm_.z(), {.corners = {arm_.head<2>()}, .radius = radius_});
   if (!face) return false;
-  for (const Vector2& point : {face->first_point, face->last_point}) {
-    const Vector2 x = point - arm_.head<2>();
-    if (!(x.norm() <= radius_) || !(all_approach(before) || before.at(x) <= 0)) return false;
-  }
+  const Vector2 x = face->pressure_point - arm_.head<2>();
+  const bool all_approach = before.rise + radius_ * before.slope.norm() <= rounding_;
+  if (!(x.norm() <= radius_) || !(all_approach || before.at(x) <= 0)) return false;
   StrikingBody struck = struck_;
   struck.push(*face, {index_});
   struck_.take(struck);
@@ -84,8 +83,15 @@ void LevelRim::one_after_the_other() {
   for (Motion m = motion(); slowest_rise(m) < -rounding_; m = motion()) {
     check_number_of_strikes(struck_.strikes());
     if (series.converges(struck_)) continue;
-    if (!all_approach(m)) strike_at(-radius_ / m.slope.norm() * m.slope, struck_.law());
-    else if (!whole()) struck_.strike_level(-arm_.z(), area(), {index_});
+    const double steepness = m.slope.norm();
+    if (radius_ * steepness > 1e-12 * std::fabs(m.rise)) {
+      strike_at(-radius_ / steepness * m.slope, struck_.law());
+      continue;
+    }
+    LevelRim level = *this;
+    if (level.whole()) return struck_.take(level.struck_);
+    const Vector2 x = struck_.face_rebound(-arm_.z())->pressure_point - arm_.head<2>();
+    strike_at(radius_ / x.norm() * x, struck_.law());
   }
 }
 

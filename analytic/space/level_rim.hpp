@@ -6,9 +6,9 @@
 // c from the centre of mass to the rim's centre.  The rules of simultaneous.hpp, in closed form for a circle:
 //   as a whole   V_z, ω_x, ω_y → −e times themselves if the pressure point lies in the disc |x| <= ρ, and, should only
 //                an arc approach (e = 0), on that arc's side of its chord, v(x) <= 0;
-//   otherwise    if all of the rim approaches, the ground pushes where the pressure point would have to lie outside at
-//                the nearest point of the rim (level_contact.hpp); if an arc does, its point that approaches fastest,
-//                x = −ρ a/|a|, strikes as a corner, then the one that is fastest thereafter, until none approaches.
+//   otherwise    the point of the rim that approaches fastest, x = −ρ a/|a|, strikes as a corner, then the one that is
+//                fastest thereafter, until none approaches.  Where all are equally fast to rounding and pushes alone
+//                cannot turn them back, the one nearest to the pressure point strikes.
 //
 // A small tilt raises x by H + g·x.  The lowest point, x = −ρ g/|g|, strikes; in the time t scaled with the tilt the
 // rim touches again where
@@ -51,8 +51,6 @@ class LevelRim {
   };
   [[nodiscard]] Motion motion() const;
   [[nodiscard]] double slowest_rise(const Motion& m) const { return m.rise - radius_ * m.slope.norm(); }
-  [[nodiscard]] bool all_approach(const Motion& m) const { return m.rise + radius_ * m.slope.norm() <= -rounding_; }
-  [[nodiscard]] ContactArea area() const { return {.corners = {arm_.head<2>()}, .radius = radius_}; }
   [[nodiscard]] bool whole();
   void one_after_the_other();
   void strike_at(const Vector2& x, const Law& law);

@@ -72,16 +72,19 @@ class StrikingGroup {
     std::ranges::copy_if(points_, std::back_inserter(some), [&](const Point& p) { return approaches(p); });
     return some;
   }
+  /// Those that approach as fast as the fastest, to rounding.
+  [[nodiscard]] Points fastest() const;
 
-  /// Strikes with these points, all of which approach; whether they rebound as a whole.
+  /// Strikes with these points as a whole; false, and nothing done, if pushes alone cannot do it.
   bool strike(const Points& group);
+  void strike_corner(const Point& p) { struck_.strike_at(p.place, {p.index}); }
   [[nodiscard]] bool converges(StrikeSeries& series) { return series.converges(struck_); }
   [[nodiscard]] GroupImpact result() const { return struck_.result(); }
   [[nodiscard]] std::size_t strikes() const { return struck_.strikes(); }
 
  private:
   bool strike_edge(const Point& first, const Point& second, const Points& group);
-  bool strike_face(double depth, const ContactArea& area, const Points& group);
+  bool strike_face(const Points& group, const std::vector<int>& hull);
 
   StrikingBody struck_;
   Points points_;
@@ -93,26 +96,29 @@ std::vector<int> indices_of(const StrikingGroup::Points& group) {
   return indices;
 }
 
+StrikingGroup::Points StrikingGroup::fastest() const {
+  double most = 0;
+  for (const Point& p : points_) most = std::fmax(most, approaches(p) ? -velocity(p).z() : 0);
+  Points some;
+  for (const Point& p : points_) {
+    if (approaches(p) && -velocity(p).z() >= most * (1 - 1e-12)) some.push_back(p);
+  }
+  return some;
+}
+
 bool StrikingGroup::strike(const Points& group) {
+  if (group.empty()) return false;
   std::vector<Vector2> feet;
   for (const Point& p : group) feet.push_back(p.arm.head<2>());
   const std::vector<int> hull = convex_hull(feet);
   const auto corner = [&](int i) -> const Point& {
     return group[static_cast<std::size_t>(hull[static_cast<std::size_t>(i)])];
   };
-  if (hull.size() == 1) return struck_.strike_at(corner(0).place, {corner(0).index}), true;
-  double depth = 0;
-  for (const Point& p : group) depth -= p.arm.z() / static_cast<double>(group.size());
-  ContactArea area;
-  for (const int i : hull) area.corners.emplace_back(group[static_cast<std::size_t>(i)].arm.head<2>());
-  const bool whole =
-      hull.size() == 2 ? strike_edge(corner(0), corner(1), group) : strike_face(depth, area, group);
-  if (!whole) struck_.strike_level(depth, area, indices_of(group));
-  return whole;
+  if (hull.size() == 1) return strike_corner(corner(0)), true;
+  return hull.size() == 2 ? strike_edge(corner(0), corner(1), group) : strike_face(group, hull);
 }
 
-/// The edge strikes with its pressure point as a corner, or with friction all along it; false, and nothing done, if
-/// that is not inside.
+/// The edge strikes with its pressure point as a corner, or with friction all along it.
 bool StrikingGroup::strike_edge(const Point& first, const Point& second, const Points& group) {
   const EdgeContact edge = struck_.edge_contact(first.place, second.place);
   if (struck_.law().law.rubs() && !edge.strikes_as_corner()) {
@@ -127,10 +133,13 @@ bool StrikingGroup::strike_edge(const Point& first, const Point& second, const P
   return true;
 }
 
-/// The same for a face.
-bool StrikingGroup::strike_face(double depth, const ContactArea& area, const Points& group) {
+bool StrikingGroup::strike_face(const Points& group, const std::vector<int>& hull) {
+  double depth = 0;
+  for (const Point& p : group) depth -= p.arm.z() / static_cast<double>(group.size());
+  ContactArea area;
+  for (const int i : hull) area.corners.emplace_back(group[static_cast<std::size_t>(i)].arm.head<2>());
   const auto face = struck_.face_rebound(depth, area);
-  if (!face || !area.contains(face->first_point) || !area.contains(face->last_point)) return false;
+  if (!face || !area.contains(face->pressure_point)) return false;
   struck_.push(*face, indices_of(group));
   return true;
 }
@@ -140,33 +149,24 @@ bool StrikingGroup::strike_face(double depth, const ContactArea& area, const Poi
 std::optional<GroupImpact> rebound_as_a_whole(const Body& body, const State& before, std::span<const Corner> touching,
                                               const Law& law) {
   if (const Corner* rim = level_rim(touching)) return LevelRim(body, before, *rim, law).rebound_as_a_whole();
-  GroupImpact result = strike_once(body, before, touching, law);
-  if (!result.is_whole) return {};
-  return result;
-}
-
-GroupImpact strike_once(const Body& body, const State& before, std::span<const Corner> touching, const Law& law) {
   StrikingGroup group(body, before, touching, law);
-  const auto approaching = group.approaching();
-  const bool whole = !approaching.empty() && group.strike(approaching);
+  if (!group.strike(group.approaching()) || !group.approaching().empty()) return {};
   GroupImpact result = group.result();
-  result.is_whole = whole && group.approaching().empty();
+  result.is_whole = true;
   return result;
 }
 
 GroupImpact strike_together(const Body& body, const State& before, std::span<const Corner> touching, const Law& law) {
   if (const Corner* rim = level_rim(touching)) return LevelRim(body, before, *rim, law).strike();
+  if (auto whole = rebound_as_a_whole(body, before, touching, law)) return *whole;
   StrikingGroup group(body, before, touching, law);
   StrikeSeries series;
-  bool whole = false;
-  for (auto some = group.approaching(); !some.empty(); some = group.approaching()) {
+  for (auto fastest = group.fastest(); !fastest.empty(); fastest = group.fastest()) {
     check_number_of_strikes(group.strikes());
     if (group.converges(series)) continue;
-    whole = group.strike(some) && group.strikes() == 1;
+    if (!group.strike(fastest)) group.strike_corner(fastest.front());
   }
-  GroupImpact result = group.result();
-  result.is_whole = whole;
-  return result;
+  return group.result();
 }
 
 GroupImpact strike_beside(const Body& body, const State& before, std::span<const Corner> arriving,

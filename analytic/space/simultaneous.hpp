@@ -1,26 +1,24 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Several corners that strike the ground at once: an edge, a face.
 //
-// All corners that approach strike together, and then those that others have made approach, until none does: no order
-// among them is asked for.  A corner whose approach is below the rounding of its velocity is at rest.
 // The body rebounds as a whole, every corner that approaches leaving at e times its approach speed, if pushes alone
 // can do it:
 //   edge   the frictionless impulses of its two corners from the normal inverse inertias G,
 //              G p = (1+e) u,   u the approach speeds,                                                (1)
 //          must not pull.  Their resultant acts at one point of the edge, which does not depend on e; the edge strikes
-//          with that point as a corner would, friction and law included, or with friction all along it
-//          (edge_friction.hpp).
+//          with that point as a corner would, friction and law included.  If friction then leaves one of the two
+//          approaching, the edge does not rebound as a whole.
 //   face   V_z, ω_x, ω_y → −e times themselves (Eq. 10 in space); ω_z changes through the inertia's off-diagonal
 //          elements and by friction, which acts all over the polygon of the corners under a linear pressure
 //          (face_friction.hpp).  The pressure point (−N_y, N_x)/P_z from the centre of mass, N the moment of the
 //          normal impulses, must lie inside the polygon, of each part of the impulse.  A face that slides straight
-//          (slides_straight()) has no couple: it is a flat landing in the plane, with friction at the point below the
-//          centre of mass (FaceContact).                                                                            (2)
+//          (slides_straight()) has no couple; it keeps the rule of a flat landing in the plane, friction at the point
+//          below the centre of mass (FaceContact), by which the pressure point is that of the impulse as a whole. (2)
 // The viscoelastic law takes e at the approach speed of the edge's point, and of the pressure point that a face has
 // without friction, −V_z + ω·Mω/(m (−V_z)) with M the inverse of the horizontal part of I⁻¹: there the landing is that
 // of one contact.
-// Otherwise the ground pushes, as long as the pressure point would have to lie outside, at the side or corner that is
-// nearest to it, and the tilt that comes of it stays: level_contact.hpp.
+// Otherwise corners strike one after the other, the fastest approach first; those equally fast to rounding strike as an
+// edge or a face if they can.  A corner whose approach is below the rounding of its velocity is at rest.
 //
 // What small tilts make of it: tilted_outcomes.hpp.
 //
@@ -39,11 +37,6 @@ namespace clatter::analytic::space {
 /// @throws as strike(); std::domain_error for a level rim beside another corner
 [[nodiscard]] std::optional<GroupImpact> rebound_as_a_whole(const Body& body, const State& before,
                                                             std::span<const Corner> touching, const Law& law);
-
-/// One strike of those of the corners, no level rim among them, that approach, by the rules above.
-/// @throws as strike_together()
-[[nodiscard]] GroupImpact strike_once(const Body& body, const State& before, std::span<const Corner> touching,
-                                      const Law& law);
 
 /// The impact of a set of touching corners by the rules above.  No impulse if none approaches.
 /// @throws as strike(); NumericalError if 40 000 strikes do not end it

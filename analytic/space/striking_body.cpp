@@ -14,9 +14,10 @@ namespace clatter::analytic::space {
 
 namespace {
 
-/// Where the pushes act in the ground while its friction is `ratio` of them, a force below the centre of mass.
-Vector2 point_of_pushes(const Vector3& moment, double normal, double depth, const Vector2& ratio) {
-  return Vector2(-moment.y(), moment.x()) / normal - depth * ratio;
+/// Where the pushes act in the ground, if its friction has the moment of a force below the centre of mass.
+Vector2 point_of_pushes(const Vector3& impulse, const Vector3& moment, const Vector3& below) {
+  const Vector2 of_pushes = (moment - below.cross(impulse)).head<2>();
+  return Vector2(-of_pushes.y(), of_pushes.x()) / impulse.z();
 }
 
 }  // namespace
@@ -68,15 +69,9 @@ std::optional<FaceRebound> StrikingBody::face_rebound(double depth) const {
                     .velocity_scale = state_.velocity.norm() + state_.angular_velocity.norm() * depth},
                    law_);
   const Vector3 of_all(moment.x(), moment.y(), 0);
-  Vector2 first = whole.impulse.head<2>() / normal, last = first;
-  if (whole.slip_stop_impulse < normal) {
-    first = -law_.law.friction_value * slip.head<2>().normalized();
-    last = (whole.impulse.head<2>() - whole.slip_stop_impulse * first) / (normal - whole.slip_stop_impulse);
-  }
   return FaceRebound{.impulse = whole.impulse,
                      .moment = of_all,
-                     .first_point = point_of_pushes(of_all, normal, depth, first),
-                     .last_point = point_of_pushes(of_all, normal, depth, last),
+                     .pressure_point = point_of_pushes(whole.impulse, of_all, below),
                      .path = whole.path};
 }
 
@@ -104,7 +99,7 @@ std::optional<FaceRebound> StrikingBody::face_rebound(double depth, const Contac
   rebound->impulse.head<2>() = friction->impulse;
   rebound->moment.head<2>() -= friction->couple * (inertia * inverse_inertia_.block<2, 1>(0, 2));
   rebound->moment.z() = friction->couple;
-  rebound->first_point = rebound->last_point = area.middle();  // the path has seen to it that they are inside
+  rebound->pressure_point = point_of_pushes(rebound->impulse, rebound->moment, below);
   rebound->spin_after = friction->spin_after;
   return rebound;
 }
@@ -121,25 +116,6 @@ EdgeContact StrikingBody::edge_contact(const Vector3& from, const Vector3& to) c
   edge.velocity = force.transpose() * place(state_.velocity) + moment.transpose() * place(state_.angular_velocity);
   edge.velocity_scale = state_.velocity.norm() + state_.angular_velocity.norm() * (middle.norm() + half.norm());
   return edge;
-}
-
-void StrikingBody::strike_level(double depth, const ContactArea& area, const std::vector<int>& points) {
-  const Vector2 middle = area.middle();
-  const double unit = area.extent();
-  LevelContact level{.area = {.corners = {}, .radius = area.radius > 0 ? 1.0 : 0.0}, .below = -middle / unit};
-  for (const Vector2& corner : area.corners) level.area.corners.emplace_back((corner - middle) / unit);
-  // In body axes, as in strike().
-  const Vector3 centre = place({middle.x(), middle.y(), -depth});
-  const Vector3 x = place(Vector3::UnitX()), y = place(Vector3::UnitY()), up = place(Vector3::UnitZ());
-  Eigen::Matrix<double, 3, 6> force, moment;  // of the impulses f
-  force << x, y, Vector3::Zero(), up, Vector3::Zero(), Vector3::Zero();
-  moment << centre.cross(x), centre.cross(y), unit * up, centre.cross(up), unit * x.cross(up), unit * y.cross(up);
-  level.inverse_inertia =
-      force.transpose() * force / body_.mass + moment.transpose() * body_.inertia.inverse() * moment;
-  level.velocity = force.transpose() * place(state_.velocity) + moment.transpose() * place(state_.angular_velocity);
-  level.velocity_scale = state_.velocity.norm() + state_.angular_velocity.norm() * (centre.norm() + unit);
-  const LevelImpulse struck = level_impulse(level, law_);
-  push(arm(force * struck.impulse), arm(moment * struck.impulse), struck.path, points);
 }
 
 bool StrikingBody::strike_along(const EdgeContact& edge, const Vector3& from, const Vector3& to,

@@ -8,7 +8,6 @@
 #include "analytic/space/contact_area.hpp"
 #include "analytic/space/edge_friction.hpp"
 #include "analytic/space/impact.hpp"
-#include "analytic/space/level_contact.hpp"
 
 namespace clatter::analytic::space {
 
@@ -30,8 +29,7 @@ struct GroupImpact {
 struct FaceRebound {
   Vector3 impulse = Vector3::Zero();         ///< P, world frame [N·s]
   Vector3 moment = Vector3::Zero();          ///< about the centre of mass [N·m·s]
-  /// Of (2) in simultaneous.hpp at the beginning and at the end, from the centre of mass [m].
-  Vector2 first_point = Vector2::Zero(), last_point = Vector2::Zero();
+  Vector2 pressure_point = Vector2::Zero();  ///< of (2) in simultaneous.hpp, from the centre of mass [m]
   PathKind path = PathKind::frictionless;
   std::optional<double> spin_after = {};  ///< ω_z, where friction has a couple about the vertical [rad/s]
 };
@@ -83,9 +81,6 @@ class StrikingBody {
   [[nodiscard]] std::optional<FaceRebound> face_rebound(double depth, const ContactArea& area) const;
   /// The edge between two places at one height, as (1) of edge_friction.hpp has it.
   [[nodiscard]] EdgeContact edge_contact(const Vector3& from, const Vector3& to) const;
-  /// Strikes with an area or an edge (two corners) of which all approaches, by level_contact.hpp.
-  /// @param area   from the centre of mass [m]
-  void strike_level(double depth, const ContactArea& area, const std::vector<int>& points);
   /// Strikes with that edge, its edge_contact(from, to), friction all along it; false, and nothing done, if it has no
   /// pressure for that.
   bool strike_along(const EdgeContact& edge, const Vector3& from, const Vector3& to, const std::vector<int>& points);

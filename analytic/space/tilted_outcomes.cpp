@@ -154,7 +154,7 @@ class SectorSearch {
   bool put_down(Sector& sector, std::size_t lowest) const;
   bool strike(Sector& sector, std::size_t first);
   void strike_corner(StrikingBody& struck, std::size_t i);
-  void strike_group(StrikingBody& struck, const std::vector<std::size_t>& group);
+  bool strike_whole(StrikingBody& struck, const std::vector<std::size_t>& group);
   void settle(StrikingBody& struck);
   void settle_once(StrikingBody& struck);
   [[nodiscard]] bool is_spent() const { return strikes_ >= most_.strikes || rubs_ >= most_.rubs; }
@@ -270,18 +270,20 @@ void SectorSearch::strike_corner(StrikingBody& struck, std::size_t i) {
   ++strikes_;
 }
 
-/// Strikes once with those of the corners that approach.
-void SectorSearch::strike_group(StrikingBody& struck, const std::vector<std::size_t>& group) {
+/// Strikes with those corners as a whole, if pushes alone can do it.
+bool SectorSearch::strike_whole(StrikingBody& struck, const std::vector<std::size_t>& group) {
   std::vector<Corner> corners;
   std::vector<int> points;
   for (const std::size_t i : group) {
     corners.push_back(touching_[i]);
-    points.push_back(touching_[i].index);
+    if (speeds_[i] > 0) points.push_back(touching_[i].index);
   }
-  const GroupImpact one = strike_once(struck.body(), struck.state(), corners, struck.law());
+  const auto whole = rebound_as_a_whole(struck.body(), struck.state(), corners, struck.law());
   ++strikes_;
   if (struck.law().law.rubs()) ++rubs_;
-  struck.push({.impulse = one.impulse, .moment = one.moment, .path = one.path}, points);
+  if (!whole) return false;
+  struck.push({.impulse = whole->impulse, .moment = whole->moment, .path = whole->path}, points);
+  return true;
 }
 
 /// The corners of level_ strike by the rules of strike_together(), until none of them approaches.
@@ -295,15 +297,18 @@ void SectorSearch::settle(StrikingBody& struck) {
 }
 
 void SectorSearch::settle_once(StrikingBody& struck) {
+  if (strike_whole(struck, level_)) return;
   StrikeSeries series(12);
-  std::vector<std::size_t> group;
+  std::vector<std::size_t> fastest;
   while (!is_spent() && find_approach(struck)) {
     if (series.converges(struck)) continue;
-    group.clear();
-    std::ranges::copy_if(level_, std::back_inserter(group), [&](std::size_t i) { return speeds_[i] > 0; });
-    if (group.empty()) return;
-    if (group.size() > 1) strike_group(struck, group);
-    else strike_corner(struck, group.front());
+    double most = 0;
+    for (const std::size_t i : level_) most = std::fmax(most, speeds_[i]);
+    if (!(most > 0)) return;
+    fastest.clear();
+    std::ranges::copy_if(level_, std::back_inserter(fastest),
+                         [&](std::size_t i) { return speeds_[i] >= most - slow_; });
+    if (fastest.size() == 1 || !strike_whole(struck, fastest)) strike_corner(struck, fastest.front());
   }
 }
 
