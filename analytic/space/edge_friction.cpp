@@ -27,59 +27,41 @@ constexpr double smooth_slip = 3;
 constexpr double nearest_to_end = 1e-4;
 constexpr double edge_rounding = 16 * detail::epsilon;
 
-/// ∫ d_t ξᵏ, k <= 2, and ∫ d_m ξᵏ, k <= 3, over −1 <= ξ <= 1 for the slip (α, β + w ξ), as seen from a distance ρ.
+/// ∫ d_t ξᵏ and ∫ d_m ξᵏ over −1 <= ξ <= 1, slip (α, β + w ξ).
 struct DirectionMoments {
-  Vector3 along = Vector3::Zero();
-  Eigen::Vector4d across = Eigen::Vector4d::Zero();
+  Vector2 along;
+  Vector3 across;
 
-  DirectionMoments(const Vector3& slip, double distance);
+  explicit DirectionMoments(const Vector3& slip);
 };
 
-DirectionMoments::DirectionMoments(const Vector3& slip, double distance) {
+DirectionMoments::DirectionMoments(const Vector3& slip) : along(Vector2::Zero()), across(Vector3::Zero()) {
   static const GaussRule<10> rule;
-  const double a = slip[0], b = slip[1], w = slip[2], aside = distance == 0 ? std::fabs(a) : std::hypot(a, distance);
-  if (aside * aside + b * b > smooth_slip * smooth_slip * w * w) {
+  const double a = slip[0], b = slip[1], w = slip[2];
+  if (a * a + b * b > smooth_slip * smooth_slip * w * w) {
     const auto& x = rule.nodes;
-    const GaussRule<10>::Array z = b + w * x, part = rule.weights / (aside * aside + z.square()).sqrt(),
-                               across_part = part * z, square = x.square();
-    along << a * part.sum(), a * (part * x).sum(), a * (part * square).sum();
-    across << across_part.sum(), (across_part * x).sum(), (across_part * square).sum(),
-        (across_part * square * x).sum();
+    const GaussRule<10>::Array z = b + w * x, part = rule.weights / (a * a + z.square()).sqrt(), across_part = part * z;
+    along << a * part.sum(), a * (part * x).sum();
+    across << across_part.sum(), (across_part * x).sum(), (across_part * x.square()).sum();
     return;
   }
-  const double from = b - w, to = b + w, r1 = std::hypot(aside, from), r2 = std::hypot(aside, to);
-  const double of_square = aside * aside;
-  const double log = aside == 0 ? 0 : std::asinh(to / aside) - std::asinh(from / aside);  // ∫ dz/r
-  const double first = r2 - r1, second = (to * r2 - from * r1 - of_square * log) / 2;     // ∫ zᵏ dz/r
-  const double third = (r2 * r2 * r2 - r1 * r1 * r1) / 3 - of_square * first;
-  const double fourth = (to * to * to * r2 - from * from * from * r1 - 3 * of_square * second) / 4;
-  const double w2 = w * w, at_square = second - b * (2 * first - b * log);
-  along << a * log / w, a * (first - b * log) / w2, a * at_square / (w2 * w);
-  across << first / w, (second - b * first) / w2, (third - b * (2 * second - b * first)) / (w2 * w),
-      (fourth - b * (3 * third - b * (3 * second - b * first))) / (w2 * w2);
+  const double from = b - w, to = b + w, r1 = std::hypot(a, from), r2 = std::hypot(a, to);
+  const double log = a == 0 ? 0 : std::asinh(to / std::fabs(a)) - std::asinh(from / std::fabs(a));  // ∫ dz/r
+  const double first = r2 - r1, second = (to * r2 - from * r1 - a * a * log) / 2;                   // ∫ zᵏ dz/r
+  const double third = (r2 * r2 * r2 - r1 * r1 * r1) / 3 - a * a * first;
+  along << a * log / w, a * (first - b * log) / (w * w);
+  across << first / w, (second - b * first) / (w * w), (third - b * (2 * second - b * first)) / (w * w * w);
 }
 
-/// Where the pressure of mean x̄ pushes, x = centre + half ξ, and q there, q dx = (Σ weights ξᵏ) dξ.
+/// Where a linear pressure of mean x̄ pushes, x = centre + half ξ, and q there, q dx = (level + slope ξ) dξ.
 struct PressedPiece {
-  double centre = 0, half = 1;
-  Vector3 weights;
+  double centre = 0, half = 1, level = 0.5, slope;
 
-  PressedPiece(double mean, int power) {
-    const bool is_linear = power == 1;
-    const double size = std::fabs(mean), most = is_linear ? 1.0 / 3 : 0.5;
-    const bool is_cut = size > most;
-    if (is_cut) {
-      half = (1 - size) / (1 - most);
-      centre = std::copysign(1 - half, mean);
-    }
-    if (is_linear) {
-      weights << 0.5, is_cut ? std::copysign(0.5, mean) : 1.5 * mean, 0;
-      return;
-    }
-    // (α + β ξ)²: α² + β²/3 = 1/2, 4αβ/3 = x̄.
-    const double level = is_cut ? 0.375 : (0.5 + std::sqrt(0.25 - 0.75 * mean * mean)) / 2;
-    const double twice = is_cut ? std::copysign(0.75, mean) : 1.5 * mean;  // 2αβ
-    weights << level, twice, twice * twice / (4 * level);
+  explicit PressedPiece(double mean) : slope(1.5 * mean) {
+    if (std::fabs(mean) <= 1.0 / 3) return;
+    half = 1.5 * (1 - std::fabs(mean));
+    centre = std::copysign(1 - half, mean);
+    slope = std::copysign(0.5, mean);
   }
 };
 
@@ -234,14 +216,15 @@ std::optional<EdgeImpulse> EdgePath::follow() {
 
 }  // namespace
 
-Vector3 rub_along(const Vector3& slip, const EdgePressure& pressure) {
-  const PressedPiece piece(pressure.place, pressure.power);
+Vector3 rub_of_edge(const Vector3& slip, double pressure_point) {
+  const PressedPiece piece(pressure_point);
   const Vector3 s = slip / slip.lpNorm<Eigen::Infinity>();  // its direction decides, and squares of it exist
-  const double distance = std::fabs(s[2]) * std::fmax(pressure.end_size - piece.half, 0);
-  const DirectionMoments d({s[0], s[1] + piece.centre * s[2], piece.half * s[2]}, distance);
-  const double across = piece.weights.dot(d.across.head<3>());
-  return {piece.weights.dot(d.along), across,
-          piece.centre * across + piece.half * piece.weights.dot(d.across.tail<3>())};
+  const DirectionMoments d({s[0], s[1] + piece.centre * s[2], piece.half * s[2]});
+  const auto weighted = [&](const auto& moments, int k) {
+    return piece.level * moments[k] + piece.slope * moments[k + 1];
+  };
+  const double across = weighted(d.across, 0);
+  return {weighted(d.along, 0), across, piece.centre * across + piece.half * weighted(d.across, 1)};
 }
 
 double EdgeContact::pressure_point() const {

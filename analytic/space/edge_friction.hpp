@@ -38,23 +38,13 @@ struct EdgeImpulse {
   PathKind path = PathKind::turning_slip;
 };
 
-/// A pressure along −1 <= x <= 1: max(0, a + b x)ᵏ with ∫q dx = 1.
-struct EdgePressure {
-  double place = 0;     ///< its mean, x̄
-  int power = 1;        ///< k, 1 or 2
-  double end_size = 0;  ///< a pressed piece of a half-length below this rubs as if it were so wide
-};
-/// ∫q (d_t, d_m, x d_m) dx.
-/// Domain: |x̄| < 1 (|x̄| <= 1 with an end_size), slip ≠ 0.  Accuracy: 1e-14.
-[[nodiscard]] Vector3 rub_along(const Vector3& slip, const EdgePressure& pressure);
-/// The same for the linear pressure of mean x̄.
-[[nodiscard]] inline Vector3 rub_of_edge(const Vector3& slip, double pressure_point) {
-  return rub_along(slip, {.place = pressure_point});
-}
+/// ∫q (d_t, d_m, x d_m) dx under the linear pressure of mean x̄.
+/// Domain: |x̄| < 1, slip ≠ 0.  Accuracy: 1e-14.
+[[nodiscard]] Vector3 rub_of_edge(const Vector3& slip, double pressure_point);
 
 /// The impulse of an edge by Coulomb's law with μ > 0; nothing where (2) asks at any moment for a pressure point beyond
-/// the edge, or nearer to its end than 1e-4 of its half (level_contact.hpp then).  An edge that friction can hold
-/// sticks. Accuracy: 1e-12 of the impulse.
+/// the edge, or nearer to its end than 1e-4 of its half.  An edge that friction can hold sticks.
+/// Accuracy: 1e-12 of the impulse.
 [[nodiscard]] std::optional<EdgeImpulse> edge_impulse(const EdgeContact& edge, const ImpactLaw& law);
 
 }  // namespace clatter::analytic::space

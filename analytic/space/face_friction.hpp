@@ -47,7 +47,7 @@ struct FaceFriction {
 [[nodiscard]] bool slides_straight(const SlidingFace& face);
 
 /// Friction of a face; nothing where (2) asks at any moment for a point that pushes on the area cannot have, or one so
-/// near to its edge that less than 1e-4 of the area is pushed (level_contact.hpp then).
+/// near to its edge that less than 1e-4 of the area is pushed.
 /// Accuracy: 1e-12 of μN and of what (U, w) does to m, J.
 [[nodiscard]] std::optional<FaceFriction> face_friction(const SlidingFace& face, const ContactArea& area);
 

@@ -10,6 +10,8 @@ namespace clatter::analytic::space {
 
 namespace {
 
+/// Local error of a step, relative to the largest slip so far, and of what goes along with it.
+constexpr double slip_step_error = 4e-15;
 /// Forecasts of a stop this near to one another, relative to the impulse of the slip, differ by the errors of steps;
 constexpr double stop_agreement = 16 * detail::epsilon;
 /// those of a slip that began at first_slip and is below `little` times that need only say that it dies out.
@@ -37,9 +39,8 @@ struct StopForecast {
 
 }  // namespace
 
-SlipMotion::SlipMotion(Eigen::Index size, double step_error)
-    : y_(Values::Zero(size)), size_(static_cast<std::size_t>(size)),
-      step_error_(step_error), system_{derivative, nullptr, size_, this},
+SlipMotion::SlipMotion(Eigen::Index size)
+    : y_(Values::Zero(size)), size_(static_cast<std::size_t>(size)), system_{derivative, nullptr, size_, this},
       step_(gsl_odeiv2_step_alloc(gsl_odeiv2_step_rk8pd, size_)) {}
 
 int SlipMotion::derivative(double, const double y[], double change[], void* motion) {
@@ -66,7 +67,7 @@ void SlipMotion::go_straight_to(double stop) {
     const double taken = is_last ? stop - spent_ : length;
     Values next = y_, error = y_;
     gsl_odeiv2_step_apply(step_.get(), 0, taken, next.data(), error.data(), nullptr, nullptr, &system_);
-    if (!(error_along(next, error) <= step_error_) && taken > shortest * whole) {
+    if (!(error_along(next, error) <= slip_step_error) && taken > shortest * whole) {
       length = taken / 2;
       continue;
     }
@@ -121,7 +122,7 @@ SlipMotion::End SlipMotion::slide(bool from_rest) {
     const double taken = std::fmin(length, left);
     Values next = y_, error = y_;
     gsl_odeiv2_step_apply(step_.get(), 0, taken, next.data(), error.data(), now.data(), nullptr, &system_);
-    const double wrong = (error.head<3>().norm() / scale + error_along(next, error)) / step_error_;
+    const double wrong = (error.head<3>().norm() / scale + error_along(next, error)) / slip_step_error;
     const bool is_shortest = std::fabs(taken) * now.head<3>().norm() <= shortest_step * size;
     if (is_shortest && !next.allFinite()) return End::no_pressure;
     if (wrong <= 1 || is_shortest) {

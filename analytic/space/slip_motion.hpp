@@ -22,8 +22,7 @@ class SlipMotion {
  protected:
   enum class End { impulse_spent, stopped, no_pressure };  ///< the last: no rate, or too many steps
 
-  /// @param step_error  of a step, relative to the largest slip so far, and of what goes along with it
-  explicit SlipMotion(Eigen::Index size, double step_error = 4e-15);
+  explicit SlipMotion(Eigen::Index size);
   ~SlipMotion() = default;
 
   /// dy/dP at y; NaN where no pressure does it.
@@ -53,7 +52,6 @@ class SlipMotion {
   void go_straight_to(double stop);
 
   std::size_t size_;
-  double step_error_;
   bool holds_direction_ = false;
   gsl_odeiv2_system system_;
   std::unique_ptr<gsl_odeiv2_step, StepDeleter> step_;
