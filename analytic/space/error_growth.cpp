@@ -396,6 +396,7 @@ void ErrorGrowth::stay(const SustainedContact& contact, const std::optional<Cont
   arriving_ = Factor(size, 0);
   depart();
   append(factor_of(before));
+  append(factor_of(rounding));
   Gradient shift = derivatives->of_state.row(0);
   shift[0] = 0;
   const double late = bound(shift.lazyProduct(factor_));

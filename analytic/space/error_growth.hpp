@@ -38,7 +38,8 @@ class ErrorGrowth {
   void fly(const FreeFlight& flight, const FirstContact& contact, const Vector3& from_place, const Vector3& to_place);
   /// Carries the errors through a contact that lasts; amplification is not known thereafter.
   /// @param derivatives  contact_derivatives(); none: nothing is predictable any more
-  /// @param before, rounding  what adds to the errors at its beginning and end
+  /// @param before  what adds to the errors at its beginning
+  /// @param rounding  contact_rounding()
   void stay(const SustainedContact& contact, const std::optional<ContactDerivatives>& derivatives,
             const StateErrors& before, const StateErrors& rounding);
   /// Begins anew with these bounds.

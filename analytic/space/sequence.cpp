@@ -245,7 +245,7 @@ class Run : public SequenceLoop<Sequence, ErrorGrowth> {
     const StateErrors exact{.time = 0, .attitude = 0, .velocity = 0, .angular_velocity = 0};
     const auto derivatives = contact_derivatives(drop_, standing.state, contact, all);
     growth_->stay(contact, derivatives, std::exchange(regained_, false) ? exact : errors_of_hops(),
-                  derivatives ? contact_rounding(drop_, standing.state, contact, *derivatives) : StateErrors());
+                  contact_rounding(drop_, standing.state, contact));
     contact.error = growth_->bounds();
     add_impulse_error(drop_, all, contact);
     return contact;

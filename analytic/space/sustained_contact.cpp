@@ -159,23 +159,17 @@ std::optional<ContactDerivatives> contact_derivatives(const Drop& drop, const St
   return Neighbours(drop, now, contact).derivatives(errors);
 }
 
-StateErrors contact_rounding(const Drop& drop, const State& now, const SustainedContact& contact,
-                             const ContactDerivatives& derivatives) {
+StateErrors contact_rounding(const Drop& drop, const State& now, const SustainedContact& contact) {
   constexpr double accuracy = 1e-12;
   const double reach = drop.body.reach(), falling = std::sqrt(reach / drop.gravity);
   const double speed = reach / falling + now.angular_velocity.norm() * reach;
   const double rounding = accuracy * std::fmin(1, contact.duration / falling) + 8 * detail::epsilon;
   // What is left of normal velocity and slip is taken away.
   const Changes held = change(now, ContactMotion(drop, now, contact.corners).state());
-  const StateErrors made{.time = rounding * contact.duration,
-                         .attitude = rounding + held.head<3>().norm(),
-                         .velocity = rounding * speed + held.segment<3>(3).norm(),
-                         .angular_velocity = rounding * speed / reach + held.tail<3>().norm()};
-  const Eigen::Matrix<double, 10, 1> carried = derivatives.of_state.cwiseAbs() * made.in_each_direction();
-  return {.time = made.time + carried[0],
-          .attitude = made.attitude + carried.segment<3>(1).norm(),
-          .velocity = made.velocity + carried.segment<3>(4).norm(),
-          .angular_velocity = made.angular_velocity + carried.tail<3>().norm()};
+  return {.time = rounding * contact.duration,
+          .attitude = rounding + held.head<3>().norm(),
+          .velocity = rounding * speed + held.segment<3>(3).norm(),
+          .angular_velocity = rounding * speed / reach + held.tail<3>().norm()};
 }
 
 SustainedContact follow_contact(const Drop& drop, const State& now, const std::vector<int>& corners,
@@ -183,9 +177,10 @@ SustainedContact follow_contact(const Drop& drop, const State& now, const std::v
   SustainedContact contact = follow_contact(drop, now, corners);
   const auto d = contact_derivatives(drop, now, contact, errors);
   if (!d) return contact;
-  const Eigen::Matrix<double, 10, 1> bounds = d->of_state.cwiseAbs() * errors.in_each_direction();
+  const StateErrors rounding = contact_rounding(drop, now, contact);
+  const Eigen::Matrix<double, 10, 1> bounds =
+      d->of_state.cwiseAbs() * (errors.in_each_direction() + rounding.in_each_direction());
   if (!d->hold(drop.body, bounds[0] - errors.time, bounds.segment<3>(1).norm())) return contact;
-  const StateErrors rounding = contact_rounding(drop, now, contact, *d);
   contact.error = {.time = bounds[0] + rounding.time,
                    .attitude = bounds.segment<3>(1).norm() + rounding.attitude,
                    .velocity = bounds.segment<3>(4).norm() + rounding.velocity,

@@ -54,10 +54,9 @@ struct ContactDerivatives {
                                                                     const SustainedContact& contact,
                                                                     const StateErrors& errors);
 
-/// What computing a contact may add to the errors: what its steps err by, and what is taken from its beginning, both as
-/// they are and as the contact carries them on.
-[[nodiscard]] StateErrors contact_rounding(const Drop& drop, const State& now, const SustainedContact& contact,
-                                           const ContactDerivatives& derivatives);
+/// What computing a contact may add to the errors: what its steps err by, and what is taken from its beginning.  It adds
+/// to those at the beginning, which the contact carries on, and once more to those at the end.
+[[nodiscard]] StateErrors contact_rounding(const Drop& drop, const State& now, const SustainedContact& contact);
 
 /// The same with error bars, by contact_derivatives(); infinite where those are not known.
 /// @param errors  of `now`, bounds
