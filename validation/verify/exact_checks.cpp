@@ -340,6 +340,41 @@ Measured spinning_face(CaseRuns&) {
           "each place's own slip, and the patch as a whole; with 1 nm/s of slip and without"};
 }
 
+/// The peak force of a ball that comes down on the springs of its projected area, E(δ) = π k δ³ (R/3 − δ/12), and the
+/// spin that one without friction gets from an oblique blow: none.
+Measured ball_landing(CaseRuns&) {
+  constexpr double radius = 0.05, mass = 1, speed = 1;
+  const numeric::Mesh mesh = numeric::round_mesh({.semiaxes = numeric::Vector3::Constant(radius), .sectors = 8});
+  const numeric::Body ball({.mass = mass,
+                            .centre = numeric::Vector3::Zero(),
+                            .inertia = 0.4 * mass * radius * radius * numeric::Matrix3::Identity()},
+                           numeric::boundary_surface(mesh), true,
+                           numeric::SmoothShape{.semiaxes = numeric::Vector3::Constant(radius)});
+  const auto land = [&](double stiffness, double tangential) {
+    const numeric::World world{.ground = {.stiffness = stiffness, .area = numeric::AreaMeasure::projected},
+                               .gravity = 0};
+    const auto start = numeric::touching_state(ball, {.inclination = 0.1, .velocity = {tangential, 0, -speed}});
+    const numeric::Request one_impact{.impacts = 1, .error_estimates = false, .amplification = false};
+    return numeric::simulate(ball, world, start, one_impact, {.digits = 9}).impacts.at(0).value;
+  };
+  WorstError worst;
+  double force = 0;
+  for (const double k : {1e9, 1e11}) {
+    double low = 0, high = radius;
+    while (low < (low + high) / 2 && (low + high) / 2 < high) {
+      const double d = (low + high) / 2, energy = analytic::pi * k * d * d * d * (radius / 3 - d / 12);
+      (energy < mass * speed * speed / 2 ? low : high) = d;
+    }
+    const double exact = analytic::pi * k * low * low * (radius - low / 3);
+    const auto straight = land(k, 0), oblique = land(k, 0.7);
+    force = straight.peak_force;
+    worst.take(relative(force, exact));
+    worst.take(relative(oblique.peak_force, exact));
+    worst.take(oblique.angular_velocity_after.norm() * radius / speed);
+  }
+  return {force, worst.value(), Finding::holds, "ball of 1 kg and 0.05 m at 1 m/s, k_G 1e9 and 1e11 N/m³"};
+}
+
 }  // namespace
 
 CheckMeasures exact_measures() {
@@ -361,6 +396,7 @@ CheckMeasures exact_measures() {
           {"X16", hardest_blow_of_the_phone},
           {"X23", plastic_level_landing},
           {"X24", spinning_face},
+          {"X25", ball_landing},
           {"X17", endless_strikes}};
 }
 
