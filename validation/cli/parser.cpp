@@ -43,7 +43,7 @@ const Command& find_command(const std::vector<Command>& commands, const std::str
 void require_scene_by_keys(const Command& command, const std::string& name) {
   const std::vector<std::string> names = command.option_names();
   if (std::find(names.begin(), names.end(), "--set") == names.end()) return;
-  for (const scene::Key& key : scene::all_keys()) {
+  for (const Key& key : all_keys()) {
     if (key.flag != name) continue;
     throw BadInput(fmt::format("{}: {} takes a scene and its keys, as in clatter {} rod-10 --set {}=...", name,
                                command.name, command.name, key.name));

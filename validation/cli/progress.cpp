@@ -23,7 +23,7 @@ Progress::~Progress() {
 std::string Progress::time_left(std::size_t done, std::size_t of) const {
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
   if (done == 0 || seconds < 2) return "";
-  return ", " + cli::time_left(seconds * static_cast<double>(of - done) / static_cast<double>(done));
+  return ", " + validation::time_left(seconds * static_cast<double>(of - done) / static_cast<double>(done));
 }
 
 std::string time_left(double seconds) {
