@@ -31,7 +31,7 @@ struct Ellipsoid {
   Vector3 semiaxes = Vector3::Ones();  ///< along x, y, z; the least above 1e-9 of the largest [m]
 
   [[nodiscard]] bool is_sphere() const { return semiaxes == Vector3::Constant(semiaxes.x()); }
-  /// Of revolution, unit: of a sphere that through the origin; zero if no two axes are equal, or any will do.
+  /// Axis of revolution, unit; a sphere has that through the origin; zero if no two axes are equal, or any will do.
   [[nodiscard]] Vector3 axis() const;
 };
 

@@ -23,7 +23,7 @@ using Row5 = Eigen::Matrix<double, 1, 5>;
 /// Slip without a zero, complex ones too, within this many halves of a piece is smooth enough for Gauss's rule; closed
 /// forms would cancel digits of its square.
 constexpr double smooth_slip = 3;
-/// Of the edge's half: a pressure point nearer to the end counts as one on it, where there is no pressure.
+/// Part of the edge's half: a pressure point nearer to the end counts as one on it, where there is no pressure.
 constexpr double nearest_to_end = 1e-4;
 constexpr double edge_rounding = 16 * detail::epsilon;
 

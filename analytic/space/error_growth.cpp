@@ -50,7 +50,7 @@ Eigen::Matrix<double, 10, 10> factor_of(const StateErrors& errors) {
 
 /// Rounding of an impulse with friction, relative: half of what impact.hpp promises, as a standard deviation.
 constexpr double friction_rounding = 5e-14;
-/// Likewise of what face_friction.hpp promises.
+/// The same for what face_friction.hpp promises.
 constexpr double face_rounding = 5e-13;
 
 /// Bound on the length of a vector whose errors are these combinations of independent ones.

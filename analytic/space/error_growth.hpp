@@ -71,8 +71,8 @@ class ErrorGrowth {
   [[nodiscard]] StrikeDerivatives corner_differences(const Strike& strike, const ImpactRow& row) const;
   [[nodiscard]] Struck differences_along_errors(const Strike& strike, const ImpactRow& row) const;
   [[nodiscard]] StrikeDerivatives group_differences(const Strike& strike, const ImpactRow& row) const;
-  /// Of the energy before the impact by the state before, with z = −r_z and the inertia turned; of the energy after it
-  /// by the attitude.
+  /// Derivative of the energy before the impact by the state before, with z = −r_z and the inertia turned; of the
+  /// energy after it by the attitude.
   struct EnergyGradients {
     Gradient before = Gradient::Zero(), after = Gradient::Zero();
   };

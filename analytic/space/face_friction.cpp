@@ -57,7 +57,7 @@ class FacePath final : SlipMotion {
   double impulse_left(const Values&) override { return face_.normal_impulse - spent_; }
   bool end_stage() override { return true; }
   std::optional<bool> is_held(Vector3& direction);
-  /// Of y.
+  /// What rounding leaves of y.
   [[nodiscard]] double rounding() const { return 16 * detail::epsilon * root_mass_ * face_.velocity_scale; }
   [[nodiscard]] bool solve(const Vector2& slip, double spin) {
     return solve(turning_.point, slip + spin * Vector2(-pushed_.centre().y(), pushed_.centre().x()), spin);

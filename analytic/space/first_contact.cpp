@@ -30,7 +30,7 @@ class Hop {
  public:
   static constexpr double largest_turn = 0.1;  ///< [rad]
 
-  /// Of a vertex or the lowest point of a rim or ellipsoid, which leaves with the normal velocity `speed`.
+  /// The bounce of a vertex or the lowest point of a rim or ellipsoid, which leaves with the normal velocity `speed`.
   Hop(const Body& body, const FreeFlight& flight, int point, double speed);
 
   struct Value {
@@ -522,7 +522,7 @@ class Search {
     found_.time_error = found_.is_hop ? best * found_.velocity_error / std::fabs(found_.normal_velocity)
                                       : heights_.noise(best) / std::fabs(first.velocity);
     // The others' heights err by the time's error, too.
-    // Of a graze by the square of that time, and never beside a departure that was later.
+    // A graze errs by the square of that time, and never beside a departure that was later.
     const double noise = heights_.noise(best);
     const double late = found_.is_hop ? 4 * epsilon * best
                                       : std::fmin(std::fmin(noise / std::fabs(first.velocity), best),

@@ -428,7 +428,7 @@ double FreeFlight::falls_through(double height) const {
     const double square = velocity * velocity + 2 * gravity_ * above;
     if (!(square > 0)) return 0;
     const double root = std::sqrt(square);
-    // Of (V + √…)/g and its conjugate the one that does not cancel.
+    // The one of (V + √…)/g and its conjugate that does not cancel.
     return std::fmax(velocity > 0 ? (velocity + root) / gravity_ : 2 * above / (root - velocity), 0.0);
   }
   return velocity < 0 ? std::fmax(above / -velocity, 0.0) : never;

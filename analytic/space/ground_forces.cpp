@@ -14,7 +14,7 @@ namespace {
 using Small = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 6, 6>;
 using SmallVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 6, 1>;
 
-/// Of one or two rows.
+/// A system of one or two rows.
 double determinant(const Small& m) { return m.rows() == 1 ? m(0, 0) : m(0, 0) * m(1, 1) - m(0, 1) * m(1, 0); }
 
 /// Unknowns of (1): `given` makes forces of them, `rows` takes from the accelerations those that are zero.

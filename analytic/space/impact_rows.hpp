@@ -53,8 +53,8 @@ struct ImpactRow {
   double start = 0;             ///< time since the first impact [s]
   std::vector<Corner> corners;  ///< that arrived, then those held; the first is the one that `impact` is of
   State before;                 ///< height of the centre of mass in position.z
-  /// Of the corner, or of several corners or a level rim together: then the contact velocities are those of the first
-  /// corner, path and energy those of the group, p_c and what describes slip are not known (NaN).
+  /// Impact of the corner, or of several corners or a level rim together: then the contact velocities are those of the
+  /// first corner, path and energy those of the group, p_c and what describes slip are not known (NaN).
   Impact impact;
   std::optional<GroupImpact> group;  ///< if several corners arrived, or all of a rim that lies level
   std::size_t held = 0;              ///< how many of the corners, the last ones, were on the ground already
@@ -97,7 +97,7 @@ struct StateErrors {
   double velocity = std::numeric_limits<double>::infinity();          ///< [m/s]
   double angular_velocity = std::numeric_limits<double>::infinity();  ///< [rad/s]
 
-  /// Of the time, and of the others in each direction: attitude, velocity, angular velocity.
+  /// Errors of the time, and of the others in each direction: attitude, velocity, angular velocity.
   [[nodiscard]] Eigen::Matrix<double, 10, 1> in_each_direction() const;
 };
 

@@ -111,7 +111,7 @@ Number CoulombPath<Number>::initial_slip() const {
   }
 }
 
-/// Of the angle of slip at the start.
+/// Derivatives of the angle of slip at the start.
 template <class Number>
 std::array<double, 5> CoulombPath<Number>::initial_turn() const {
   const Vector2 across = field_.to_world(Vector2(-velocity_.y(), velocity_.x()) / velocity_.squaredNorm());

@@ -47,9 +47,9 @@ void find_departures(const Drop& drop, const ImpactRow& row, const State& after,
   }
 }
 
-/// Of the rotation, in a sequence: a third of a second.
+/// Evaluations of the rotation in a sequence: a third of a second.
 constexpr int most_evaluations = 1'000'000;
-/// Of corners that stay on the ground, in a sequence.
+/// Contacts of corners that stay on the ground in a sequence.
 constexpr std::size_t most_contacts = 10'000;
 /// Angle that the body turns by during hops that are only summed up before a contact that lasts [rad].
 constexpr double least_turn = 1e-8;
@@ -251,7 +251,7 @@ class Run : public SequenceLoop<Sequence, ErrorGrowth> {
     return contact;
   }
 
-  /// Of a corner that lifts off height, velocity and acceleration are zero: the flight begins when it has risen.
+  /// Height, velocity and acceleration of a corner that lifts off are zero: the flight begins when it has risen.
   Next lift_off(int corner) {
     const FreeFlight flight(principal_, state_, drop_.gravity, drop_.gravity_along);
     const double falling = std::sqrt(reach_ / drop_.gravity);
@@ -411,7 +411,7 @@ class Run : public SequenceLoop<Sequence, ErrorGrowth> {
     end_in(std::move(tail), turns, slides_on || spins, stays, comes_down ? ", then the body settles on a face" : "");
   }
 
-  /// Of the attitude in which hops end, from the second order of the turn meanwhile and the error of its time.
+  /// Error of the attitude in which bounces end, from the second order of the turn meanwhile and the error of its time.
   [[nodiscard]] double turn_error(const Tail& tail, double time_error) const {
     const double turning = tail.angular_velocity_after.norm();
     const double turned = turning * (tail.end_time - result_.rows.back().start);
@@ -438,7 +438,7 @@ class Run : public SequenceLoop<Sequence, ErrorGrowth> {
     return {e.start, e.attitude, e.velocity_after, e.angular_velocity_after};
   }
 
-  /// Likewise at the end of hops.
+  /// The same at the end of bounces.
   [[nodiscard]] StateErrors errors_after(const Tail& tail) const {
     StateErrors e = errors_now();
     e.attitude += turn_error(tail, tail.end_time_error);
@@ -495,7 +495,7 @@ class Run : public SequenceLoop<Sequence, ErrorGrowth> {
     end_in_flight(flown.near_miss);
   }
 
-  /// Of damped ground, whose hops are no geometric series.
+  /// Damped ground, whose bounces are no geometric series.
   void note_slow_contacts() {
     if (drop_.law.law.law != RestitutionLaw::viscoelastic) return;
     result_.message += "; on damped ground slow contacts lose next to nothing, so that hops last for ever";

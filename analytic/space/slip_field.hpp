@@ -109,7 +109,7 @@ class SlipFieldSlopes {
   /// @param inverse_contact_inertia, turns  W, and δW for the two turns
   SlipFieldSlopes(const SlipField& field, const Matrix3& inverse_contact_inertia, const std::array<Matrix3, 3>& turns);
 
-  /// Of f, g and h where the direction stays.
+  /// Rates f, g and h for a direction that stays.
   [[nodiscard]] Row slip_rate(const Direction& s) const {
     return push(s) - friction_ * (a11 * s.cosine * s.cosine + 2 * a12 * s.cosine * s.sine + a22 * s.sine * s.sine);
   }

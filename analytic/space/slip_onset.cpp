@@ -60,7 +60,7 @@ void begin(GroundPoint& point, const Vector3& direction) {
   point.angle = std::atan2(direction.y(), direction.x());
 }
 
-/// Of an edge both corners of which stuck: one gives way across the edge, or both do.
+/// An edge both corners of which stuck: one gives way across the edge, or both do.
 void give_way_on_edge(const GroundLaw& law, const State& s, std::vector<GroundPoint>& points, const GroundForces& f) {
   constexpr double together = 1e-6;  // of what friction can hold
   const auto loads = law.edge_loads(s, points, f);

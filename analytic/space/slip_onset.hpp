@@ -16,7 +16,7 @@
 
 namespace clatter::analytic::space {
 
-/// Of the corners that turning_points() names [rad].
+/// Directions of the corners that turning_points() names [rad].
 using SlipAngles = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, 2, 1>;
 
 /// The corners that begin to slip in a direction that nothing but (1) says.

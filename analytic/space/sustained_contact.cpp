@@ -48,7 +48,7 @@ class Neighbours {
     followed_ = base_.advance(contact.duration);
   }
 
-  /// Of time and state at the end for those at the beginning; nothing where errors are too large for that.
+  /// Derivatives of time and state at the end by those at the beginning; nothing where errors are too large for that.
   [[nodiscard]] std::optional<ContactDerivatives> derivatives(const StateErrors& errors) const;
 
  private:

@@ -54,8 +54,8 @@ struct ContactDerivatives {
                                                                     const SustainedContact& contact,
                                                                     const StateErrors& errors);
 
-/// What computing a contact may add to the errors: what its steps err by, and what is taken from its beginning.  It adds
-/// to those at the beginning, which the contact carries on, and once more to those at the end.
+/// What computing a contact may add to the errors: what its steps err by, and what is taken from its beginning.  It
+/// adds to those at the beginning, which the contact carries on, and once more to those at the end.
 [[nodiscard]] StateErrors contact_rounding(const Drop& drop, const State& now, const SustainedContact& contact);
 
 /// The same with error bars, by contact_derivatives(); infinite where those are not known.

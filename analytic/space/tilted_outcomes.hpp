@@ -64,7 +64,7 @@ struct OutcomeSet {
 /// At most so many strikes in all.
 struct TiltEffort {
   std::size_t strikes = 10'000;
-  /// Of them with all of an edge or a face, which rubs: each takes as long as thirty of a corner.
+  /// Strikes among them with all of an edge or a face, which rubs: each takes as long as thirty of a corner.
   std::size_t rubs = 10'000;
 };
 

@@ -108,7 +108,7 @@ class ArcMap {
     return sense_ / sine_ / factor;
   }
   [[nodiscard]] double sense() const { return sense_; }
-  /// Of m.
+  /// Cosine and sine of m.
   [[nodiscard]] const Direction& middle() const { return middle_; }
   /// κ and sin(w/2).
   [[nodiscard]] double half_cosine() const { return cosine_; }
@@ -176,7 +176,7 @@ class TurningPath {
   void accept(const Panel& panel);
   void end_stage();
   void start_slopes();
-  /// Of φ, E, f and h at the nodes of a panel of fixed length, and of sin(w/2), relative, by one variable.
+  /// Derivatives by one variable of φ, E, f and h at the nodes of a panel of fixed length, and of sin(w/2), relative.
   struct NodeChanges {
     Nodes turn, factor, slip_rate, rise;
     double stretch = 0;

@@ -18,7 +18,8 @@ enum class FrictionLaw {
   /// Coulomb's law of a contact patch taken as flat: f_t = −μ_k f_n v/|v|, v the slip of the pressure centre plus the
   /// spin about the vertical times the distance from it; a patch that spins slips, even where its pressure centre
   /// rests.  Stick is one unknown resultant at the pressure centre and one couple about the vertical.  The discrete
-  /// model's law, whose contact is a point or an evenly pressed face.  Leaves out the slip of the points from the turning
+  /// model's law, whose contact is a point or an evenly pressed face.  Leaves out the slip of the points from the
+  /// turning
   /// about the horizontal times their depth; cannot represent areas that slip while others stick.
   coulomb,
   /// f_t = −μ_k f_n v / √(v² + v_r²) everywhere.  Represents spin; cannot represent stick: a body on a slope or under

@@ -85,7 +85,7 @@ class SmoothContact final : public ContactSurface {
   int count_ = 0;
 };
 
-/// That of the body: smooth where its shape is, else its facets.
+/// The surface of a body: smooth where its shape is, else its facets.
 [[nodiscard]] std::unique_ptr<ContactSurface> contact_surface(const Body& body, const Ground& ground);
 
 }  // namespace clatter::numeric

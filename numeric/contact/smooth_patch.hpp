@@ -220,9 +220,9 @@ class Slices {
     int count = 0;
   };
 
-  /// Of a cylinder of this length.
+  /// Strip of a cylinder of this length.
   Slices(double length, const HalfSpaces& half_spaces);
-  /// Of the sphere, the axis along the ground at this angle from x.
+  /// Cap of the sphere, the axis along the ground at this angle from x.
   Slices(const HalfSpaces& half_spaces, double axis);
 
   /// Makes intervals end where these planes meet one another and where they touch a circle.

@@ -39,7 +39,7 @@ double rise_to(const StepCubic& p, double s) {
   return s * (p.slope + s * (b + s * a));
 }
 
-/// Of the deepest vertex; the load looks at no facet above the ground.
+/// Depth of the deepest vertex; the load looks at no facet above the ground.
 Depth deepest_point(const ContactSystem& system, const ContactInstant& at) {
   const ContactLoad& load = at.diagnosis.load;
   if (load.deepest > 0) return {load.deepest, load.deepest_rate};

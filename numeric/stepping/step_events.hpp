@@ -47,8 +47,8 @@ class ForcePeak {
   void begin() { force_ = time_ = 0; }
 
   /// Looks for a larger force in the accepted step from `now` to `next`: at its end, and at a maximum of F_n inside it.
-  /// That of the cubic through the forces and their rates at both ends gives its time, which a secant of the rate then
-  /// mends once; the force is that of the numerical solution there, and its error of second order in the time's.
+  /// The peak of the cubic through the forces and their rates at both ends gives its time, which a secant of the rate
+  /// then mends once; the force is that of the numerical solution there, and its error of second order in the time's.
   /// @return the instant of the largest force so far if that lies inside the step, else null.
   [[nodiscard]] const ContactInstant* look(const ContactInstant& now, const ContactInstant& next);
 

@@ -42,7 +42,8 @@ struct MapPlan {
   SweepPlan sweep;  ///< whose first two axes are those of the map, the others random
   const MapQuantity* quantity = nullptr;
   std::string wanted;  ///< with samples: the class whose probability is asked for
-  /// Of a class of counts, "3" or ">=3".  Which it is follows from one impact more, or that many, whatever run.impacts.
+  /// Impacts to follow for a class of counts, "3" or ">=3".  Which it is follows from one impact more, or that many,
+  /// whatever run.impacts.
   std::optional<int> wanted_count;
   long long columns = 0, rows = 0;
   long long samples = 0;  ///< for each pixel; 0: the pixel's drop itself

@@ -16,7 +16,7 @@ void handle_signals();
 /// The signals that ask this process to end.
 [[nodiscard]] std::vector<int> ending_signals();
 
-/// Those of stdin, stdout and stderr that were closed become unusable ones, so that no file gets their numbers: reading
+/// Each of stdin, stdout and stderr that was closed becomes an unusable one, so that no file gets its number: reading
 /// and writing fail, only what is said on stderr is lost without an error.
 void occupy_closed_streams();
 

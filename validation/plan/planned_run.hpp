@@ -20,8 +20,9 @@ struct PlannedRun {
   /// The first impacts, before rounding errors have grown beyond what is asked, or a second run goes another way;
   /// without amplification, before estimated errors are more than asked.
   int known_impacts = 0;
-  std::vector<std::string> warnings;  ///< of what the run leaves out although the scene has it, and of bodies that go deep
-  MotionNumbers sizes{};              ///< of all impacts, against which a number counts as zero; 0 without impacts
+  std::vector<std::string>
+      warnings;           ///< of what the run leaves out although the scene has it, and of bodies that go deep
+  MotionNumbers sizes{};  ///< of all impacts, against which a number counts as zero; 0 without impacts
 };
 
 /// A warning if the motion is kept in its plane although nothing but that keeps it there; empty: none.

@@ -128,7 +128,7 @@ SolidBody read_solid(const BodyScene& body) {
   return {numeric::mass_properties(mesh), numeric::boundary_surface(mesh), {}};
 }
 
-/// Of a sphere, an ellipsoid or a capsule.
+/// Properties of a sphere, an ellipsoid or a capsule.
 numeric::SmoothShape round_shape(const BodyScene& body) {
   return {.semiaxes = body.has_size() ? Vector3(body.size / 2) : Vector3(Vector3::Constant(body.radius)),
           .straight = body.has_length() ? body.length - 2 * body.radius : 0};

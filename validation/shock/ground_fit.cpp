@@ -53,7 +53,7 @@ double indentation_of(const MeasuredDrop& drop, double stiffness) {
   return (root.first + root.second) / 2;
 }
 
-/// Of the first impact; the indentation is left 0.
+/// Measures of the first impact; the indentation is left 0.
 Measures impact_measures(const MeasuredDrop& drop, double stiffness, double damping, double tolerance) {
   numeric::World world = drop.world;
   world.ground.stiffness = stiffness;

@@ -18,7 +18,7 @@ struct Extremes {
   [[nodiscard]] double maximax() const { return high > -low ? high : -low; }
 };
 
-/// Of the two quantities of a shock response spectrum.
+/// Values of the two quantities of a shock response spectrum.
 struct ResponseExtremes {
   Extremes acceleration;     ///< absolute, of the oscillator's mass: −2ζω ż − ω² z [m/s²]
   Extremes pseudo_velocity;  ///< −ω z [m/s]

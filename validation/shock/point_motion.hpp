@@ -29,7 +29,7 @@ struct MotionPiece {
 /// The components of a vector over a piece.
 using VectorPolynomial = std::array<ChebyshevPolynomial, 3>;
 [[nodiscard]] Vector3 value_at(const VectorPolynomial& vector, double x);
-/// Of `value(sample)`, a vector.
+/// The polynomial of `value(sample)`, a vector.
 template <class Function>
 [[nodiscard]] VectorPolynomial polynomial_of(const MotionPiece& piece, const Function& value) {
   std::array<Samples, 3> samples{};

@@ -87,7 +87,7 @@ ResponsePoint response(std::span<const VelocityStep> steps, double frequency, do
   return point;
 }
 
-/// Of unit frequency: only ω times the time between the steps matters.
+/// An oscillator of unit frequency: only ω times the time between the steps matters.
 Envelope envelope(double first, double second, double quality) {
   constexpr int points = 720;
   const double frequency = 1 / (2 * std::numbers::pi);

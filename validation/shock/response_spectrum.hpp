@@ -19,11 +19,11 @@ struct BasePiece {
   double begin = 0, length = 0;      ///< [s]
   ChebyshevPolynomial acceleration;  ///< [m/s²]
 };
-/// Of the point r along a unit vector of the body, from the first touch-down to the end of the last impact; before and
-/// after it the base counts as unaccelerated.
+/// Acceleration of the point r along a unit vector of the body, from the first touch-down to the end of the last
+/// impact; before and after it the base counts as unaccelerated.
 [[nodiscard]] std::vector<BasePiece> base_pieces(const MotionRecorder& motion, const Vector3& r, double mass,
                                                  const Vector3& axis);
-/// Those of impact 1 alone, or to the end of impact `last`.
+/// The pulses of impact 1 alone, or to the end of impact `last`.
 [[nodiscard]] std::vector<BasePiece> first_pieces(const std::vector<BasePiece>& pieces, int last);
 
 /// A sudden change of the base's velocity: an impact of the discrete model.
@@ -33,7 +33,7 @@ struct VelocityStep {
   double delta_v_error = 0, time_error = 0;
 };
 
-/// Of one natural frequency.  Errors are of the maximax.
+/// Response at one natural frequency.  Errors are of the maximax.
 struct ResponsePoint {
   double frequency = 0;         ///< [Hz]
   ResponseExtremes primary{};   ///< while the base is accelerated

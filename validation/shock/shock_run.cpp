@@ -9,7 +9,7 @@
 namespace clatter::validation {
 namespace {
 
-/// Of the probes, from the centre of mass of the body that a model drops [m].
+/// Places of the probes, from the centre of mass of the body that a model drops [m].
 std::vector<Vector3> places_of(const Scene& scene, const std::vector<Probe>& probes, Model model) {
   return places_from(body_properties(scene, model).centre, probes);
 }
@@ -57,7 +57,7 @@ void add_distance(const std::vector<BasePiece>& other, double quality, double er
       error_per_distance * std::fabs(mine.pseudo_velocity.maximax() - theirs.pseudo_velocity.maximax());
 }
 
-/// Of a probe in the continuous model.
+/// Shock of a probe in the continuous model.
 void add_continuous(const ContinuousShock& shock, double mass, const Vector3& place, const ShockRequest& request,
                     const Spectrum& begun, std::vector<Spectrum>& spectra) {
   const Vector3 axis = Vector3::Unit(begun.axis);

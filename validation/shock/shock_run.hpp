@@ -49,7 +49,7 @@ struct ShockRun {
   std::vector<std::optional<Envelope>> envelopes;  ///< of each probe, after its first two impacts; the discrete model's
 
   [[nodiscard]] const Spectrum* spectrum(std::size_t probe, bool of_continuous, Blows blows) const;
-  /// That of most impacts.
+  /// The spectrum of most impacts.
   [[nodiscard]] const Spectrum* whole(std::size_t probe, bool of_continuous) const;
   /// The model that comes first: the continuous one where it ran.
   [[nodiscard]] const std::vector<ShockRow>& rows() const { return continuous ? continuous->rows : discrete; }

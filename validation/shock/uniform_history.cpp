@@ -36,7 +36,7 @@ struct PiecePolynomials {
     scalar = ChebyshevPolynomial(samples);
   }
 
-  /// Of the two quaternions of an attitude that on the first sample's side.
+  /// The one of the two quaternions of an attitude that lies on the first sample's side.
   static double sign(const MotionPiece& piece, const numeric::PieceSample& sample) {
     return piece.samples.front().state.attitude.dot(sample.state.attitude) < 0 ? -1 : 1;
   }

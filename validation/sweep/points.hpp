@@ -33,8 +33,8 @@ struct SweepAxis {
 
   std::vector<SweptAttitude> attitudes{};  ///< likewise, of a key whose values are attitudes
   bool any_attitude = false;               ///< attitudes drawn uniformly over all rotations
-  /// Of drawn attitudes about the listed ones, each in its turn: standard deviation of the turn about each of the three
-  /// axes, normally distributed [rad].
+  /// Scatter of drawn attitudes about the listed ones, each in its turn: standard deviation of the turn about each of
+  /// the three axes, normally distributed [rad].
   double scatter = 0;
 
   [[nodiscard]] bool is_attitude() const { return any_attitude || !attitudes.empty(); }

@@ -46,7 +46,7 @@ class SweepFile {
   void flush();
   /// Ends the file and gives it its name.
   void commit();
-  /// Likewise, for a file of another form: make(path) writes that from with_rows().
+  /// The same for a file of another form: make(path) writes that from with_rows().
   void commit(const std::function<void(const std::string& path)>& make);
   /// Removes the part, when what its rows were for is written elsewhere.
   void discard();
