@@ -78,16 +78,6 @@ void SlipMotion::go_straight_to(double stop) {
   spent_ = stop;
 }
 
-/// Whether slip goes on straight: exactly so, or along a direction that has attracted it for many steps, in which it
-/// may last for thousands.
-bool SlipMotion::keeps_direction(const Values& rate, int steps) const {
-  constexpr int many = 200;
-  constexpr double straight = 1e-15, attracted = 1e-8;
-  const Eigen::Vector3d along = y_.head<3>().normalized(), change = rate.head<3>();
-  const double across = (change - change.dot(along) * along).norm();
-  return across <= (steps < many ? straight : attracted) * change.norm();
-}
-
 SlipMotion::End SlipMotion::slide(bool from_rest) {
   constexpr int most_steps = 20000;
   double scale = y_.head<3>().norm(), length = std::numeric_limits<double>::infinity();
@@ -110,13 +100,6 @@ SlipMotion::End SlipMotion::slide(bool from_rest) {
     if (growth < 0 && (is_rounding || forecast.agrees(spent_, left, size, stop, only_friction_))) {
       go_straight_to(stop);
       return End::stopped;
-    }
-    if (keeps_direction(now, i) && std::isfinite(left)) {
-      const bool ends = growth < 0 && stop - spent_ <= left;
-      go_straight_to(ends ? stop : spent_ + left);
-      if (ends) return End::stopped;
-      y_.head<3>() *= 1 + growth / size * left;
-      continue;
     }
     length = std::fmin(length, size / std::fmax(-growth / 0.9, now.head<3>().norm() / 8));
     const double taken = std::fmin(length, left);

@@ -47,7 +47,6 @@ class SlipMotion {
   static int derivative(double impulse, const double y[], double change[], void* motion);
   /// Error of a step in what goes along with slip, relative to its size or to 1.
   static double error_along(const Values& next, const Values& error);
-  [[nodiscard]] bool keeps_direction(const Values& rate, int steps) const;
   /// What goes along with slip, up to where it stops without turning.
   void go_straight_to(double stop);
 
