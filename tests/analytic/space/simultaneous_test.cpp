@@ -274,3 +274,16 @@ BOOST_AUTO_TEST_CASE(touching_corners_of_which_none_approaches_get_no_impulse) {
 }
 
 }  // namespace
+
+BOOST_AUTO_TEST_CASE(a_face_that_slips_to_its_stop_against_much_friction_rebounds_as_a_whole) {
+  const FlatBox box(0.545944, 0.455393, 0.424524, 19.3784);
+  State before;
+  before.attitude = Quaternion(0.1566730109646018, 0, 0, 0.9876505291019115).normalized();
+  before.velocity = {0.7704, 0, -1.011};
+  before.angular_velocity = {0, 0, 0.1893};
+  const Law law = clatter::oracle::coulomb(0.523, 1.38, RestitutionLaw::poisson);
+  const GroupImpact stopped = strike_together(box.body, before, box.bottom, law);
+  BOOST_TEST(stopped.is_whole);
+  BOOST_TEST((stopped.velocity_after - Vector3(0, 0, 0.523 * 1.011)).norm() <= 1e-12);
+  BOOST_TEST(stopped.angular_velocity_after.norm() <= 1e-12);
+}
