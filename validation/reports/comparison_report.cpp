@@ -10,6 +10,7 @@
 
 #include "validation/compare/number_pair.hpp"
 #include "validation/output/number.hpp"
+#include "validation/plan/facet_words.hpp"
 #include "validation/scene/body_properties.hpp"
 #include "validation/scene/discrete_scene.hpp"
 #include "validation/scene/scene_value.hpp"
@@ -337,6 +338,10 @@ void add_comparison(const Comparison& comparison, const Row& front, Value& field
 Report comparison_report(const Scene& scene, const Comparison& comparison) {
   Report report = begun_comparison(scene, comparison.approach_speed);
   add_comparison(comparison, {}, report.fields, report.grid);
+  if (const std::string facets = facet_words(scene, comparison.run); !facets.empty()) {
+    report.head.push_back(facets);
+    report.fields["message"] = verdict_words(comparison) + "; " + facets;
+  }
   const bool in_space = comparison.discrete.in_space;
   report.digest->columns = {{"n", "n", ""},
                             {"end", in_space ? "corner" : "end", ""},

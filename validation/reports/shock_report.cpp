@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "validation/output/number.hpp"
+#include "validation/plan/facet_words.hpp"
 #include "validation/record/names.hpp"
 #include "validation/reports/shock_history.hpp"
 #include "validation/reports/shock_pulses.hpp"
@@ -405,6 +406,8 @@ void add_outcome(const ShockRun& run, Report& report) {
     report.fields["outcome"] = outcome_name(simulation.outcome);
     report.fields["message"] = simulation.message;
     report.fields["warnings"] = run.continuous->planned.warnings;
+    const std::string facets = facet_words(run.scene, simulation);
+    if (!facets.empty()) report.fields["warnings"].push_back(facets);
     report.fields["shortfall"] = text_or_nothing(shortfall(run.scene, run.continuous->planned));
   } else {
     report.fields["outcome"] = run.discrete_run->outcome;
@@ -497,6 +500,8 @@ Report shock_report(const ShockRun& run, const ShockView& view) {
   Report report = begun_report("shock", titles[static_cast<std::size_t>(view.rows)]);
   const Model model = continuous ? Model::continuous : Model::discrete;
   report.head = scene_head(run.scene, model);
+  const std::string facets = continuous ? facet_words(run.scene, run.continuous->planned.run) : "";
+  if (!facets.empty()) report.head.push_back(facets);
   report.head.push_back(probe_words(run.probes));
   report.notes = notes_of(run, view);
   if (const std::string far = far_probes(run.scene, run.probes); !far.empty()) report.notes.push_back(far);

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "validation/output/number.hpp"
+#include "validation/plan/facet_words.hpp"
 #include "validation/record/impact_rows.hpp"
 #include "validation/record/names.hpp"
 #include "validation/record/totals.hpp"
@@ -210,6 +211,7 @@ void add_results(const Scene& scene, const PlannedRun& planned, Value& fields) {
   const Simulation& run = planned.run;
   fields["outcome"] = outcome_name(run.outcome);
   fields["warnings"] = planned.warnings;
+  if (const std::string facets = facet_words(scene, run); !facets.empty()) fields["warnings"].push_back(facets);
   fields["message"] = run.message + "; restitution is null where an impact has several touches";
   fields["notes"] = remarks_of(scene, run);
   fields["method"] = method_name(run.method);
@@ -256,6 +258,7 @@ std::vector<Column> simulation_columns() { return impact_columns(RunModel::conti
 Report simulation_report(const Scene& scene, const PlannedRun& planned) {
   Report report = begun_report("simulate", "impact sequence, continuous contact");
   report.head = scene_head(scene);
+  if (const std::string facets = facet_words(scene, planned.run); !facets.empty()) report.head.push_back(facets);
   report.notes = notes_of(scene, planned);
   report.remarks = {totals_line(totals(run_of(planned.run)))};
   report.grid = {columns_of(scene), rows_of(scene, planned)};

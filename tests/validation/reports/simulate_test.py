@@ -8,6 +8,7 @@ import io
 import json
 import math
 import os
+import re
 import signal
 import subprocess
 import unittest
@@ -461,6 +462,33 @@ class Claims(Folder):
         self.assertLess(max(ratios[13:]) - min(ratios[13:]), 1e-5)
 
 
+class Facets(Folder):
+    """A mesh in place of a round body against the round one, or one of facets that are 250 times as close to it."""
+
+    def of(self, angle, body, mesh, ground):
+        scene = self.write("body.toml", f"[body]\n{body}\n" + (f"mesh = {{ {mesh} }}\n" if mesh else ""))
+        return self.json(scene, "--mass", "1", "--angle", str(angle), "--speed", "1", "--impacts", "1", *ground)
+
+    def test_the_head_says_how_far_facets_may_put_an_impact_off(self):
+        rod, ball = 'shape = "rod"\nlength = 0.3\nradius = 0.03', 'shape = "sphere"\nradius = 0.1'
+        grounds = (["--stiffness", "1e9", "--area", "projected"],
+                   ["--stiffness", "1e10", "--damping", "2e9", "--static-friction", "0.3", "--sliding-friction", "0.3"])
+        for body, mesh, fine in ((rod, "sectors = 64", "sectors = 1024, layers = 1, rings = 1"), (ball, "sectors = 32, rings = 8", "")):
+            for angle in (0.5, 20, 70):
+                for ground in grounds:
+                    meshed, true = self.of(angle, body, mesh, ground), self.of(angle, body, fine, ground)
+                    said = re.search(r"facets: up to (\S+) m inside .* by (\S+) % in impact 1$", meshed["warnings"][0])
+                    part = float(said[2]) / 100
+                    one, other = meshed["impacts"][0], true["impacts"][0]
+                    self.assertLessEqual(part * one["indentation"], 1.2 * float(said[1]))
+                    for number in ("indentation", "duration", "peak_force"):
+                        self.assertLessEqual(abs(one[number] / other[number] - 1), part, (body, angle, number))
+                    self.assertLessEqual(math.dist(one["velocity_after"], other["velocity_after"]), part, (body, angle))
+                    self.assertEqual(len(true["warnings"]), 1 if fine else 0)
+        for command in ("simulate", "compare"):
+            self.assertIn("facets: up to 0.0002 m inside", run(command, "rod-45", "--impacts", "1").stdout)
+
+
 class Friction(Folder):
     """What friction, a plane and a deep ground do to a run, and what is said of it."""
 
@@ -505,7 +533,7 @@ class Friction(Folder):
             self.assertEqual("sinks below the ground in impact 1" in result.stderr, sinks)
             rows = self.json(case, "--stiffness", stiffness, "--impacts", "1")
             self.assertEqual([row["submerged"] for row in rows["impacts"]], [sinks])
-            self.assertEqual(len(rows["warnings"]), 1 if sinks else 0)
+            self.assertEqual(["sinks below" in warning for warning in rows["warnings"]], [sinks])  # else: goes deep
 
 
 if __name__ == "__main__":
