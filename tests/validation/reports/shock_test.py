@@ -258,7 +258,7 @@ class Handout(EmptyFolder):
     def test_where_prediction_ends_it_says_so(self):
         sequence = json.loads(run("sequence", *ROCKING, "--format", "json").stdout)
         known = [impact["predictable"] for impact in sequence["impacts"]].index(False)
-        self.assertEqual(run("report", *ROCKING, "--model", "discrete", "--drops", "0", "--output", self.path("rod.html")).returncode, 0)
+        self.assertEqual(run("report", *ROCKING, "--model", "discrete", "--output", self.path("rod.html")).returncode, 0)
         self.assertIn(f"impacts 1 to {known} can be predicted; later ones", self.read("rod.html"))
 
     def test_without_a_file_nothing_is_written(self):
