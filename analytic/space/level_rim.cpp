@@ -51,7 +51,7 @@ State levelled(const Body& body, const State& state, const Corner& rim) {
 
 LevelRim::LevelRim(const Body& body, const State& before, const Corner& rim, const Law& law)
     : struck_(body, before, law), index_(rim.index), radius_(rim.radius), arm_(struck_.arm(rim.place)),
-      rounding_(struck_.rounding(arm_ + radius_ * Vector3::UnitX())) {
+      rounding_(64 * detail::epsilon * (before.velocity.norm() + before.angular_velocity.norm() * reach())) {
   struck_.know_approach(-slowest_rise(motion()));
 }
 
