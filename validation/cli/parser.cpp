@@ -160,7 +160,12 @@ std::vector<std::string> checked_arguments(const std::vector<Command>& commands,
 }
 
 /// Texts of arguments that have a reader, which wait until the whole line is known to be in order.
-using Waiting = std::deque<std::pair<const Argument*, std::string>>;
+struct WaitingText {
+  const Argument* argument;
+  std::string text{};
+  const CLI::Option* option = nullptr;
+};
+using Waiting = std::deque<WaitingText>;
 
 CLI::Option* add_value(CLI::App& app, const Argument& argument, Waiting& waiting) {
   if (bool* const* truth = std::get_if<bool*>(&argument.target))
@@ -169,7 +174,10 @@ CLI::Option* add_value(CLI::App& app, const Argument& argument, Waiting& waiting
   CLI::Option* option = nullptr;
   if (auto* const* list = std::get_if<std::vector<std::string>*>(&argument.target)) option = add(**list);
   else if (auto* const* text = std::get_if<std::string*>(&argument.target)) option = add(**text);
-  else option = add(waiting.emplace_back(&argument, "").second);
+  else {
+    WaitingText& text = waiting.emplace_back(WaitingText{&argument});
+    text.option = option = add(text.text);
+  }
   option->type_name(argument.type)->required(argument.required);
   return option;
 }
@@ -272,8 +280,8 @@ ParsedLine parse_line(const std::vector<Command>& commands, const std::vector<st
   if (show_version) return {.text = std::string("clatter ") + version + "\n"};
   const auto chosen = app.get_subcommands();
   if (chosen.empty()) throw BadInput("a command is required; clatter --help lists them");
-  for (const auto& [argument, text] : waiting) {
-    if (!text.empty()) std::get<Argument::Reader>(argument->target)(argument->name, text);
+  for (const auto& [argument, text, option] : waiting) {
+    if (option->count() > 0) std::get<Argument::Reader>(argument->target)(argument->name, text);
   }
   const auto found = std::find_if(commands.begin(), commands.end(),
                                   [&](const Command& command) { return command.name == chosen[0]->get_name(); });
