@@ -175,8 +175,8 @@ CLI::Option* add_value(CLI::App& app, const Argument& argument, Waiting& waiting
   if (auto* const* list = std::get_if<std::vector<std::string>*>(&argument.target)) option = add(**list);
   else if (auto* const* text = std::get_if<std::string*>(&argument.target)) option = add(**text);
   else {
-    WaitingText& text = waiting.emplace_back(WaitingText{&argument});
-    text.option = option = add(text.text);
+    WaitingText& waits = waiting.emplace_back(WaitingText{&argument});
+    waits.option = option = add(waits.text);
   }
   option->type_name(argument.type)->required(argument.required);
   return option;
