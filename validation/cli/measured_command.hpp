@@ -6,6 +6,7 @@
 #include <string>
 
 #include "validation/reports/measured_report.hpp"
+#include "validation/scene/argument.hpp"
 
 namespace clatter::validation {
 

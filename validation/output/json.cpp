@@ -7,8 +7,6 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
-#include "validation/output/long_report.hpp"
-
 namespace clatter::validation {
 namespace {
 

@@ -9,7 +9,6 @@
 #include <utility>
 
 #include "validation/output/json.hpp"
-#include "validation/output/long_report.hpp"
 #include "validation/output/number.hpp"
 #include "validation/output/symbols.hpp"
 #include "validation/output/version.hpp"

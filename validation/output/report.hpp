@@ -2,11 +2,14 @@
 // What a command says, once for people and for other programs: tables, CSV and JSON are projections of a report.
 #pragma once
 
+#include <cstddef>
+#include <functional>
 #include <optional>
 #include <string>
 #include <type_traits>
 #include <vector>
 
+#include "validation/output/json.hpp"
 #include "validation/output/value.hpp"
 
 namespace clatter::validation {
@@ -123,5 +126,17 @@ void note_interrupt(const std::string& left_out, Report& report);
 /// columns unless a word, quoted or not, is as long.  Lines after the first begin with `indent`.
 [[nodiscard]] std::string folded_command(const std::string& command, const std::string& indent = "  ",
                                          std::size_t width = 79);
+
+// Reports of so many rows that they are made one at a time, as often as the form needs them, and not kept.
+
+/// Rows by their number, from 0.  A row is valid until the next one is asked for.
+struct RowSource {
+  std::size_t count = 0;
+  std::function<const Row&(std::size_t)> row;
+};
+
+/// The text of report_text() in any form but JSON, with these rows in place of the report's: each is asked for once by
+/// CSV, Markdown and LaTeX, by a table once for the widths and once for each block.
+void write_rows(const Report& report, const RowSource& rows, const TextStyle& style, const WriteText& write);
 
 }  // namespace clatter::validation

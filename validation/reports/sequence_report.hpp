@@ -4,7 +4,6 @@
 
 #include <vector>
 
-#include "validation/output/long_report.hpp"
 #include "validation/output/report.hpp"
 #include "validation/plan/sequence_method.hpp"
 

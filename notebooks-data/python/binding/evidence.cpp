@@ -36,7 +36,8 @@ Report verify(bool quick, const std::vector<std::string>& only, const py::object
 
 /// @param action  fit, predict or score
 Report measured(const std::string& action, const std::string& file, const NamedTexts& options) {
-  validation::MeasuredRequest request{.file = file};
+  validation::MeasuredRequest request;
+  request.file = file;
   take(measured_arguments(request), options);
   return run_interruptible([request, action](const Watch&) {
     const validation::MeasuredRun run = validation::read_measured_run(request);

@@ -158,7 +158,7 @@ Report compare(const std::string& name, const std::optional<std::string>& text, 
 py::tuple plan(const std::string& name, const std::optional<std::string>& text, const NamedTexts& changes,
                const std::optional<std::string>& given_within) {
   std::optional<double> within;
-  if (given_within) take({within_argument(within)}, {{"within", *given_within}});
+  if (given_within) validation::take({validation::within_argument(within)}, {{"within", *given_within}});
   const auto work = [source = SceneSource{name, text, changes}, within](const Watch& watch) {
     const Scene scene = source.read(Model::continuous);
     const auto is_given = [&](const char* argument) { return source.changes.contains(argument); };
