@@ -194,7 +194,8 @@ class Shortfalls(Base):
     def short(self, *arguments):
         result = run(*arguments)
         self.assertEqual(result.returncode, 3, (arguments, result.stderr))
-        self.assertEqual(result.stderr.count("\n"), 1, result.stderr)
+        said = [line for line in result.stderr.splitlines() if "goes" not in line or "into the ground" not in line]  # a warning of its own
+        self.assertEqual(len(said), 1, result.stderr)
         return result
 
     def test_fewer_impacts_than_asked_because_of_a_limit_are_status_3_with_the_rows_so_far(self):
