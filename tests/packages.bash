@@ -22,11 +22,11 @@ test_packages=(libboost-test-dev python3 python3-numpy python3-matplotlib python
 # What `tests/run --full` alone needs.  Without the shells and groff the tests of completion and man page would be
 # skipped; help2man writes the packages' manual pages; emscripten, with Node.js, builds the page of clatter demo from the
 # program's sources and those of GSL and Qhull; Chromium and Firefox open it; OpenMPI shares a sweep among processes.
-# clang-format holds the form of C++ files, ctags the length of their functions; ccache keeps what two trees have in
+# clang-format holds the form of C++ files; ccache keeps what two trees have in
 # common.  The Python module, the figures and the
 # notebooks take the line of Python packages.
 # shellcheck disable=SC2034
-full_packages=(ccache clang-format universal-ctags libgmsh-dev libbenchmark-dev zsh fish groff-base chromium chromium-driver emscripten firefox-esr nodejs npm zopfli "${mpi_packages[@]}"
+full_packages=(ccache clang-format libgmsh-dev libbenchmark-dev zsh fish groff-base chromium chromium-driver emscripten firefox-esr nodejs npm zopfli "${mpi_packages[@]}"
                "${hdf5_packages[@]}" python3-h5py
                pybind11-dev python3-dev jupyter-nbconvert python3-ipykernel mypy
                python3-venv python3-sphinx furo python3-myst-parser libjs-katex pkg-config dpkg-dev lintian
