@@ -179,7 +179,7 @@ Vector3 SpaceAccumulation::lever(const Tail& tail) const {
 }
 
 void Rattling::touch(int corner) {
-  const auto at = std::ranges::lower_bound(touched_, corner);
+  const auto at = std::lower_bound(touched_.begin(), touched_.end(), corner);
   if (at == touched_.end() || *at != corner) touched_.insert(at, corner);
 }
 
@@ -251,7 +251,7 @@ std::optional<Tail> Rattling::extrapolate(const Drop& drop, const Tolerance& tol
     all.insert(all.end(), some.begin(), some.end());
   }
   std::ranges::sort(all);
-  all.erase(std::ranges::unique(all).begin(), all.end());
+  all.erase(std::unique(all.begin(), all.end()), all.end());
   tail.corners = all;
   if (all.size() < 3) return tail;
   tail.velocity_after.z() = 0;  // a face rests

@@ -18,7 +18,7 @@ namespace {
 constexpr int stages = RadauRule::points;
 using Stages = Eigen::Matrix<double, 9, stages>;
 
-const RadauRule& rule() {
+const RadauRule& radau_rule() {
   static const RadauRule the_rule;
   return the_rule;
 }
@@ -37,7 +37,7 @@ class Collocation {
   [[nodiscard]] double least_speed() const { return speed_.topRows(corners()).minCoeff(); }
   [[nodiscard]] double stiffness() const;
   [[nodiscard]] GroundMotion end() const { return states_.col(stages - 1); }
-  [[nodiscard]] GroundMotion error() const { return length_ * rates_ * rule().highest; }
+  [[nodiscard]] GroundMotion error() const { return length_ * rates_ * radau_rule().highest; }
   [[nodiscard]] std::vector<GroundPoint> directed(int stage) const;
 
  private:
@@ -49,7 +49,7 @@ class Collocation {
     return of[turning_[static_cast<std::size_t>(k)]];
   }
   [[nodiscard]] Stages reached(const Stages& rates) const {
-    return from_.replicate<1, stages>() + length_ * rates * rule().weight.transpose();
+    return from_.replicate<1, stages>() + length_ * rates * radau_rule().weight.transpose();
   }
   [[nodiscard]] GroundMotion rate(const GroundMotion& y, const std::vector<GroundPoint>& points) const {
     return rate_of(y, points, law_.forces(state_of(y, points), points));
@@ -90,7 +90,7 @@ bool Collocation::begin(const std::vector<GroundPoint>& given) {
   const auto beginning = turning_points(given);
   const GroundMotion first = rate(from_, points_);
   for (int l = 0; l < stages; ++l) {
-    const GroundMotion at = from_ + rule().at[l] * length_ * first;
+    const GroundMotion at = from_ + radau_rule().at[l] * length_ * first;
     const SlipAngles none = SlipAngles::Zero(static_cast<Eigen::Index>(beginning.size()));
     const SlipAngles angles = slip_angles(law_, state_of(at, points_), given, none);
     if (!angles.allFinite()) return false;
@@ -141,7 +141,7 @@ void Collocation::set_equations(const Stages& next, Equations& equations, Number
       for (int m = 0; m < stages; ++m) {
         for (int j = 0; j < corners(); ++j) {
           const double turned = by_state.dot(by_angle_[static_cast<std::size_t>(j)].col(m));
-          equations(row, corners() * m + j) = length_ * rule().weight(l, m) * turned;
+          equations(row, corners() * m + j) = length_ * radau_rule().weight(l, m) * turned;
         }
       }
       speed_(k, l) = along.dot(v);
@@ -166,7 +166,7 @@ double Collocation::improve(const MotionScale& scale) {
       turning.col(l) += angle * by_angle_[static_cast<std::size_t>(k)].col(l);
     }
   }
-  next += length_ * turning * rule().weight.transpose();
+  next += length_ * turning * radau_rule().weight.transpose();
   double change = 0;
   for (int l = 0; l < stages; ++l) change = std::fmax(change, scale.largest(next.col(l) - states_.col(l)));
   states_ = next;

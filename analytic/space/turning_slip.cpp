@@ -25,11 +25,11 @@ constexpr double resolution = 1e-14;
 using Nodes = GaussRule<node_count>::Array;
 
 /// Gauss–Legendre rule on [−1, 1] with integrals from −1 to each node and the last two Legendre coefficients.
-struct Rule : GaussRule<node_count> {
+struct PanelRule : GaussRule<node_count> {
   Nodes last, before_last;
   Eigen::Array<double, node_count, node_count> integral;
 
-  Rule() {
+  PanelRule() {
     Eigen::Array<double, node_count, node_count + 1> legendre;  // P_k at the nodes
     legendre.col(0) = 1, legendre.col(1) = nodes;
     for (int k = 1; k < node_count; ++k) {
@@ -56,8 +56,8 @@ struct Rule : GaussRule<node_count> {
   }
 };
 
-const Rule& rule() {
-  static const Rule the_rule;
+const PanelRule& panel_rule() {
+  static const PanelRule the_rule;
   return the_rule;
 }
 
@@ -207,7 +207,7 @@ typename TurningPath<Number>::Place TurningPath<Number>::place(double y) const {
 
 template <class Number>
 Panel TurningPath<Number>::panel(double length) const {
-  const Rule& r = rule();
+  const PanelRule& r = panel_rule();
   const double half = length / 2, friction = field_.friction();
   Panel p;
   p.from = point_.y, p.length = length;
@@ -238,7 +238,7 @@ Panel TurningPath<Number>::panel(double length) const {
 
 template <class Number>
 bool TurningPath<Number>::is_resolved(const Panel& p) const {
-  const Rule& r = rule();
+  const PanelRule& r = panel_rule();
   const double noise = node_count * p.noise;
   const double growth = p.slip_growth.abs().maxCoeff();
   if (!(r.tail(p.slip_growth) <= resolution * (1 + growth) + noise * growth)) return false;
@@ -272,7 +272,7 @@ Measure<> TurningPath<Number>::measure(const Panel& p, int node) const {
 template <class Number>
 double TurningPath<Number>::node_y(const Panel& p, int node) const {
   if (node < 0) return 0;
-  return node >= node_count ? p.length : p.length / 2 * (1 + rule().nodes[node]);
+  return node >= node_count ? p.length : p.length / 2 * (1 + panel_rule().nodes[node]);
 }
 
 template <class Number>
@@ -361,7 +361,7 @@ typename TurningPath<Number>::NodeChanges TurningPath<Number>::changes(const Arc
 /// Adds what the variable k does to the integrals of a panel of fixed length.
 template <class Number>
 void TurningPath<Number>::add_slopes(const Panel& p, std::size_t k) {
-  const Rule& r = rule();
+  const PanelRule& r = panel_rule();
   const Nodes &cosine = p.places.cosine, &sine = p.places.sine;
   const NodeChanges c = changes(p.places, k);
   const Nodes slowing = -c.factor / p.places.factor - c.stretch;  // of dτ/dy, relative

@@ -158,6 +158,6 @@ std::string answer(const std::string& path, const std::string& body) {
 /// The text lasts until the next call.
 extern "C" EMSCRIPTEN_KEEPALIVE const char* clatter_answer(const char* path, const char* body) {
   static std::string text;
-  text = clatter::validation::demo::answer(path, body);
+  text = clatter::validation::answer(path, body);
   return text.c_str();
 }

@@ -19,7 +19,7 @@ void take(const Arguments& rows, const NamedTexts& given) {
   std::map<std::string, const Argument*> by_name;
   for (const Argument& row : rows) {
     std::string name = row.is_option() ? row.name.substr(2) : row.name;
-    std::ranges::replace(name, '-', '_');
+    std::replace(name.begin(), name.end(), '-', '_');
     by_name.emplace(std::move(name), &row);
   }
   for (const auto& [name, text] : given) {
