@@ -14,9 +14,9 @@
 #include "validation/plan/cost_table.hpp"
 #include "validation/plan/symmetry.hpp"
 #include "validation/plan/tolerance_search.hpp"
-#include "validation/record/motion_numbers.hpp"
-#include "validation/record/names.hpp"
-#include "validation/scene/shortfall.hpp"
+#include "validation/run/motion_numbers.hpp"
+#include "validation/run/shortfall.hpp"
+#include "validation/scene/names.hpp"
 
 namespace clatter::validation {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "validation/record/motion_numbers.hpp"
+#include "validation/run/motion_numbers.hpp"
 #include "validation/scene/scene.hpp"
 
 namespace clatter::validation {

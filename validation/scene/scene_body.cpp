@@ -10,8 +10,8 @@
 #include "numeric/motion/free_flight.hpp"
 #include "validation/output/bad_input.hpp"
 #include "validation/output/number.hpp"
-#include "validation/record/names.hpp"
 #include "validation/scene/body_properties.hpp"
+#include "validation/scene/names.hpp"
 #include "validation/scene/scene.hpp"
 
 namespace clatter::validation {

@@ -9,8 +9,8 @@
 
 #include "analytic/plane/summed_sequence.hpp"
 #include "validation/plan/planned_run.hpp"
+#include "validation/run/shortfall.hpp"
 #include "validation/scene/failure.hpp"
-#include "validation/scene/shortfall.hpp"
 #include "validation/shock/discrete_shock.hpp"
 
 namespace clatter::validation {

@@ -10,8 +10,8 @@
 
 #include "tests/validation/plan/planned_scene.hpp"
 #include "validation/plan/cost_table.hpp"
+#include "validation/plan/plan_report.hpp"
 #include "validation/plan/planned_run.hpp"
-#include "validation/reports/plan_report.hpp"
 
 using namespace clatter;
 using namespace clatter::validation;
