@@ -167,7 +167,7 @@ void add_regions(const ExtremesMap& map, Report& report) {
   add_notes(map, reasons, oracles, report);
 }
 
-constexpr double left_margin = 150, strip = 780, right_margin = 20, row_height = 15, axis_gap = 36, top = 118;
+constexpr double left_margin = 150, strip = 780, right_margin = 20, row_height = 15, axis_gap = 36, top_margin = 118;
 
 /// Viridis in eight steps, dark for few digits: told apart by every kind of colour vision, and by lightness alone.
 const char* colour_of(double digits) {
@@ -314,7 +314,7 @@ Report extremes_report(const ExtremesMap& map) {
 
 std::string extremes_picture(const ExtremesMap& map) {
   std::string body;
-  double y = top;
+  double y = top_margin;
   for (const MapAxis& axis : map_axes()) {
     if (axis.name == "long") continue;
     std::vector<const ExtremeCell*> last;
