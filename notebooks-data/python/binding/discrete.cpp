@@ -15,10 +15,10 @@
 #include "validation/explain/explanation_report.hpp"
 #include "validation/gradient/gradient_report.hpp"
 #include "validation/output/bad_input.hpp"
-#include "validation/run/discrete_run.hpp"
-#include "validation/run/discrete_scene.hpp"
 #include "validation/rod/angles_report.hpp"
 #include "validation/rod/regimes_report.hpp"
+#include "validation/run/discrete_run.hpp"
+#include "validation/run/discrete_scene.hpp"
 #include "validation/sequence/sequence_report.hpp"
 
 namespace clatter::python {

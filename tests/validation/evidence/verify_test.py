@@ -137,7 +137,7 @@ class Faults(unittest.TestCase):
         def tables(*path):
             with open(os.path.join(ROOT, *path), "rb") as file:
                 return tomllib.load(file)
-        checks = {check["id"] for check in tables("validation", "verify", "checks.toml")["check"]}
+        checks = {check["id"] for check in tables("validation", "evidence", "checks.toml")["check"]}
         faults = tables("tests", "seeded_faults", "faults.toml").values()
         self.assertEqual({check for fault in faults for check in fault.get("turns_red", "").split()}, checks)
 

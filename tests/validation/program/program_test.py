@@ -352,7 +352,7 @@ class Manners(unittest.TestCase):
             self.skipTest("no groff or no help2man here")
         with tempfile.TemporaryDirectory() as folder:
             pages = os.path.join(folder, "man")
-            script = os.path.join(ROOT, "validation", "cli", "man_pages")
+            script = os.path.join(ROOT, "validation", "program", "man_pages")
             subprocess.run(["sh", script, PROGRAM, pages], check=True)
             commands = re.findall(r"^  (\w+) ", run("--help").stdout.split("Subcommands:")[1].split("\n\n")[0], re.M)
             self.assertEqual(sorted(os.listdir(pages)),
