@@ -123,14 +123,8 @@ ContactLoad SmoothContact::load(const GroundView& view, LoadRates* rates, std::v
     add_end(end, depth, shared, sums);
   }
   if (shape_.straight > 0 && sums.load.deepest > 0) add_mantle(depths, shared, sums);
-  const double k = ground_.stiffness, c = ground_.damping;
-  const LoadIntegrals& all = sums.pressing;
-  sums.load.force = k * all.depth + c * all.depth_rate;
-  sums.load.first_moment = k * all.depth_position + c * all.depth_rate_position;
-  sums.load.energy *= k / 2;
-  sums.load.damping_power = c * all.depth_rate_squared;
-  sums.load.release_power *= -k;
-  if (rates) rates->load = all;
+  take_ground(ground_, sums.pressing, sums.load);
+  if (rates) rates->load = sums.pressing;
   return sums.load;
 }
 
@@ -177,7 +171,7 @@ void SmoothContact::add_end(int end, double depth, const Shared& shared, Sums& s
     if (!(beyond.value > -varies)) return;
     if (!(beyond.value > varies)) piece.parts.add(beyond);
   }
-  add_piece(piece, shared, sums);
+  add_piece(piece, sums);
 }
 
 void SmoothContact::add_mantle(const std::array<double, 2>& depths, const Shared& shared, Sums& sums) {
@@ -199,7 +193,7 @@ void SmoothContact::add_mantle(const std::array<double, 2>& depths, const Shared
   Matrix3 normal_change = turn;
   normal_change.col(0).setZero();
   complete(piece, down, normal_change, shared);
-  add_piece(piece, shared, sums);
+  add_piece(piece, sums);
 }
 
 /// As fine as the square root of the measure asks for: it is analytic where |Im ψ| and |Im φ| < arsinh(κ/ρ), κ the
@@ -258,7 +252,7 @@ void SmoothContact::over_part_of_mantle(const Piece& piece, const HalfSpaces& pa
   Slices(piece.mantle.length, all).visit(visit);
 }
 
-void SmoothContact::add_piece(Piece& piece, const Shared& shared, Sums& sums) {
+void SmoothContact::add_piece(Piece& piece, Sums& sums) {
   const double k = ground_.stiffness, c = ground_.damping;
   const bool projected = ground_.area == AreaMeasure::projected;
   const SpaceLinear pressure{k + c * piece.rate.value, c * piece.rate.slope};
@@ -297,7 +291,6 @@ void SmoothContact::add_piece(Piece& piece, const Shared& shared, Sums& sums) {
                      place(local.depth, local.depth_place), place(local.depth_rate, local.depth_rate_place)},
                     1);
   if (ground_.has_friction()) pieces_[static_cast<std::size_t>(count_++)] = piece;
-  static_cast<void>(shared);
   if (!sums.rates) return;
   const Vector3 moved = piece.axes * local.depth_place;
   const Matrix3 mixed = piece.origin * moved.transpose();

@@ -63,7 +63,7 @@ class SmoothContact final : public ContactSurface {
   struct Shared;
   void add_end(int end, double depth, const Shared& shared, Sums& sums);
   void add_mantle(const std::array<double, 2>& depths, const Shared& shared, Sums& sums);
-  void add_piece(Piece& piece, const Shared& shared, Sums& sums);
+  void add_piece(Piece& piece, Sums& sums);
   void complete(Piece& piece, const Vector3& normal_at_origin, const Matrix3& normal_change,
                 const Shared& shared) const;
   [[nodiscard]] CapRule rule_for(double height) const;
