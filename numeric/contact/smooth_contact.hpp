@@ -16,10 +16,10 @@ struct DirectionSums {
   Vector3 east_place = Vector3::Zero(), north_place = Vector3::Zero();
 
   void add(const Vector3& p, double load, const SlipVector& direction) {
-    east += load * direction.east;
-    north += load * direction.north;
-    east_place += load * direction.east * p;
-    north_place += load * direction.north * p;
+    const double e = load * direction.east, n = load * direction.north;
+    east += e;
+    north += n;
+    for (int i = 0; i < 3; ++i) east_place[i] += e * p[i], north_place[i] += n * p[i];
   }
 };
 
