@@ -284,6 +284,13 @@ bool ContactMotion::digs_in() const {
   return push > without_bound * drop_.body.mass * speed_scale() * speed_scale() / reach_;
 }
 
+/// An edge that sticks is a hinge: what the errors of steps have turned it off its axis would be slip at the next
+/// impact, which friction would rub against however little it is.
+void ContactMotion::keep_hinge() {
+  const bool is_hinge = points_.size() == 2 && std::ranges::all_of(points_, &GroundPoint::sticks);
+  if (is_hinge) take(state());
+}
+
 /// One step, or part of one up to the first event in it.
 void ContactMotion::step() {
   const Motion from = motion_;
@@ -388,6 +395,7 @@ std::optional<SustainedContact> ContactMotion::pass_event() {
 /// Steps on; whether what friction does thereafter is known.
 bool ContactMotion::go_on() {
   step();
+  keep_hinge();
   return law_.friction() == 0 || event_ != Event::none || stop_slips();
 }
 

@@ -87,6 +87,7 @@ class ContactMotion {
   [[nodiscard]] State levelled(State s) const;
   void take(State s);
   void hold(const State& s);
+  void keep_hinge();
   void stick_where_slow();
   void leave(std::size_t number);
   [[nodiscard]] std::optional<SustainedContact> pass_event();

@@ -6,7 +6,6 @@
 #include "validation/command/options.hpp"
 #include "validation/gradient/gradient_report.hpp"
 #include "validation/output/bad_input.hpp"
-#include "validation/scene/failure.hpp"
 
 namespace clatter::validation {
 namespace {
@@ -21,9 +20,8 @@ int run_gradient(const GradientInput& input) {
   check_files(input.output);
   const GradientReport made = gradient_report(prepared);
   write_report(input.output, made.report);
-  if (made.shortfall.empty()) return 0;
-  say(made.shortfall);
-  return exit_status(FailureKind::not_computed);
+  if (!made.shortfall.empty()) say(made.shortfall);
+  return made.status;
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include "validation/gradient/drop_gradient.hpp"
 #include "validation/output/number.hpp"
 #include "validation/run/scene_value.hpp"
+#include "validation/run/shortfall.hpp"
 
 namespace clatter::validation {
 namespace {
@@ -128,7 +129,8 @@ GradientReport gradient_report(const PreparedScene& prepared) {
   if (scene.falls()) take_height(prepared, gradient);
   const Run run = named_run(scene, gradient.sequence, prepared.centre);
   const double approach = first_approach_speed(prepared.drop);
-  GradientReport made{.report = begun_report("gradient", "derivatives of the impact sequence"), .shortfall = {}};
+  GradientReport made{
+      .report = begun_report("gradient", "derivatives of the impact sequence"), .shortfall = {}, .status = 0};
   Report& report = made.report;
   report.head = scene_head(scene, Model::discrete, approach);
   report.fields["model"] = "discrete";
@@ -140,7 +142,9 @@ GradientReport gradient_report(const PreparedScene& prepared) {
     if (is_of_friction && law_of(prepared.drop).friction != analytic::FrictionKind::none) column.shown = true;
   }
   add_rows(parameters, gradient, run, report);
-  made.shortfall = add_refusals(parameters, gradient, run.impacts.size(), report);
+  const std::string refused = add_refusals(parameters, gradient, run.impacts.size(), report);
+  made.shortfall = run.is_cut_short ? shortfall(scene, run) : refused;
+  if (!made.shortfall.empty()) made.status = shortfall_status(run);
   report.fields["outcome"] = run.outcome;
   report.fields["shortfall"] = text_or_nothing(made.shortfall);
   return made;

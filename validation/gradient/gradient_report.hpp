@@ -12,10 +12,11 @@ namespace clatter::validation {
 
 [[nodiscard]] std::vector<Column> gradient_columns(bool in_space);
 
-/// A report, and why it lacks derivatives that were asked for.
+/// A report, and why it lacks impacts or derivatives that were asked for.
 struct GradientReport {
   Report report;
   std::string shortfall;  ///< in one line; empty: it lacks none
+  int status = 0;         ///< exit status
 };
 
 /// A row for each impact and each number of the drop.  Of a drop from a height or clearance that takes the speed's

@@ -231,7 +231,13 @@ void require_worst_attitudes(const ReportInput& input, const Scene& scene) {
   refuse("--threads", input.threads, false);
 }
 
-std::string page_of(const ReportInput& input, const CooperativeInterrupt& interrupt) {
+/// The page, and the exit status of the run that it is about.
+struct ReportPage {
+  std::string html;
+  int status = 0;
+};
+
+ReportPage page_of(const ReportInput& input, const CooperativeInterrupt& interrupt) {
   const Scene scene = shock_scene(input);
   const Model model = model_of(input);
   const std::vector<Probe> probes = probes_of(input);
@@ -263,8 +269,9 @@ std::string page_of(const ReportInput& input, const CooperativeInterrupt& interr
   parts.push_back({"Accuracy", accuracy_html(scene, run)});
   parts.push_back({"What the model leaves out", handout_list(left_out())});
   parts.push_back({"Commands that give these numbers again", handout_commands(commands)});
-  return handout_page(headline("report", input.scene.source.empty() ? "a drop" : input.scene.source),
-                      scene.summary(model), parts);
+  return {handout_page(headline("report", input.scene.source.empty() ? "a drop" : input.scene.source),
+                       scene.summary(model), parts),
+          interrupt.requested() ? interrupted_status : status_of(scene, run)};
 }
 
 int run_report(const ReportInput& input) {
@@ -273,11 +280,11 @@ int run_report(const ReportInput& input) {
   require_gnuplot("report");
   Sink sink(input.output);
   const CooperativeInterrupt interrupt;
-  const std::string page = page_of(input, interrupt);
+  const ReportPage page = page_of(input, interrupt);
   if (interrupt.requested()) return interrupted_status;
-  sink.write(page);
+  sink.write(page.html);
   sink.commit();
-  return 0;
+  return page.status;
 }
 
 }  // namespace

@@ -6,8 +6,6 @@
 #include "validation/command/command.hpp"
 #include "validation/output/bad_input.hpp"
 #include "validation/output/interrupt.hpp"
-#include "validation/run/shortfall.hpp"
-#include "validation/scene/failure.hpp"
 #include "validation/shock/shock_options.hpp"
 #include "validation/shock/shock_report.hpp"
 
@@ -20,15 +18,6 @@ struct ShockCommandInput : ShockInput {
   OutputChoice output;
   PlotChoice plot;
 };
-
-/// As that of simulate, or of sequence.
-int status_of(const Scene& scene, const ShockRun& run) {
-  const std::string why =
-      run.continuous ? shortfall(scene, run.continuous->planned) : shortfall(scene, *run.discrete_run);
-  if (why.empty()) return 0;
-  say(why);
-  return run.continuous ? exit_status(FailureKind::not_computed) : shortfall_status(*run.discrete_run);
-}
 
 int run_shock_command(const ShockCommandInput& input) {
   const Scene scene = shock_scene(input);

@@ -7,6 +7,8 @@
 #include <sstream>
 
 #include "validation/output/bad_input.hpp"
+#include "validation/run/shortfall.hpp"
+#include "validation/scene/failure.hpp"
 
 namespace clatter::validation {
 namespace {
@@ -113,6 +115,14 @@ void add_shock_options(Command& command, ShockInput& input) {
   command.add(read_argument("--part", input.part, read_part, "HZ:G",
                             "natural frequency and fragility of a part: its damage boundary, ASTM D3332", "Shock"));
   command.add_flag("--no-sensitivity", input.no_sensitivity, "leave out the four runs that it takes", "Shock");
+}
+
+int status_of(const Scene& scene, const ShockRun& run) {
+  const std::string why =
+      run.continuous ? shortfall(scene, run.continuous->planned) : shortfall(scene, *run.discrete_run);
+  if (why.empty()) return 0;
+  say(why);
+  return run.continuous ? exit_status(FailureKind::not_computed) : shortfall_status(*run.discrete_run);
 }
 
 }  // namespace clatter::validation

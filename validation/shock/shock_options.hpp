@@ -37,5 +37,7 @@ void add_shock_options(Command& command, ShockInput& input);
 [[nodiscard]] std::vector<Probe> probes_of(const ShockInput& input);
 [[nodiscard]] ShockRequest request_of(const ShockInput& input);
 [[nodiscard]] ShockView view_of(const ShockInput& input);
+/// Exit status of a run, as that of simulate or of sequence; says why it is not 0.
+[[nodiscard]] int status_of(const Scene& scene, const ShockRun& run);
 
 }  // namespace clatter::validation

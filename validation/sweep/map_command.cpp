@@ -12,6 +12,7 @@
 #include "validation/output/gnuplot.hpp"
 #include "validation/output/interrupt.hpp"
 #include "validation/output/sink.hpp"
+#include "validation/scene/failure.hpp"
 #include "validation/sweep/map_picture.hpp"
 #include "validation/sweep/processes.hpp"
 #include "validation/sweep/sweep_file.hpp"
@@ -36,12 +37,14 @@ MapFile file_kind(const std::string& path) {
   throw BadInput(fmt::format("--output {}: must end in .png, .npy or .csv", path));
 }
 
-/// Tells whether all pixels of a map have one value: then its keys, its class or run.impacts hide what it should show.
-class OneValue {
+/// Tells whether all pixels of a map have one value: then its keys, its class or run.impacts hide what it should show;
+/// and whether some have none.
+class PixelValues {
  public:
   void add(const std::string& value) {
     if (count_++ == 0) value_ = value;
     is_one_ = is_one_ && value == value_;
+    if (value == end_words(analytic::BatchEnd::not_computed)) ++not_computed_;
   }
   /// Empty where they differ.
   /// @param all  the value of pixels all of whose samples are of the class
@@ -53,9 +56,16 @@ class OneValue {
     return plan.counts() ? "" : fmt::format("all pixels have the same {}: {}", plan.quantity->name, value_);
   }
 
+  /// Of pixels that are one drop: 3 if a number of one could not be had, else 0; says so.
+  [[nodiscard]] int status() const {
+    if (not_computed_ == 0) return 0;
+    say(fmt::format("{} of {} pixels could not be computed", not_computed_, count_));
+    return exit_status(FailureKind::not_computed);
+  }
+
  private:
   std::string value_;
-  long long count_ = 0;
+  long long count_ = 0, not_computed_ = 0;
   bool is_one_ = true;
 };
 
@@ -76,9 +86,11 @@ class MapOutput {
     keep_all(rows.text);
   }
 
+  [[nodiscard]] int status() const { return values_.status(); }
+
   /// The part goes last: a picture that fails to be drawn or written needs it again.
   void commit() {
-    if (const std::string words = value_.words(plan_, is_csv() ? "1" : std::to_string(plan_.samples)); !words.empty())
+    if (const std::string words = values_.words(plan_, is_csv() ? "1" : std::to_string(plan_.samples)); !words.empty())
       say(words);
     if (is_csv()) return file_.commit();
     const std::string made = kind_ == MapFile::png ? map_picture(plan_, image_) : map_array(plan_, image_);
@@ -101,10 +113,10 @@ class MapOutput {
     for (; !rows.empty(); rows.remove_prefix(rows.find('\n') + 1)) {
       const std::vector<MapPixel> row = read_map_row(std::string(rows.substr(0, rows.find('\n') + 1)));
       if (is_csv()) {
-        value_.add(row[2].value);  // after the two keys
+        values_.add(row[2].value);  // after the two keys
         continue;
       }
-      for (const MapPixel& pixel : row) value_.add(pixel.value);
+      for (const MapPixel& pixel : row) values_.add(pixel.value);
       image_.rows.push_back(row);
     }
   }
@@ -112,7 +124,7 @@ class MapOutput {
   const MapPlan& plan_;
   std::string path_;
   MapFile kind_;
-  OneValue value_;
+  PixelValues values_;
   MapImage image_;
   SweepFile file_;
 };
@@ -143,7 +155,7 @@ int write_map(const MapInput& input, const MapPlan& plan, int threads, const Mak
   compute_ranges(queue, threads, make, hooks, ranks);
   if (queue.is_complete()) {
     output.commit();
-    return 0;
+    return output.status();
   }
   output.leave();
   say(fmt::format("interrupted after {} of {} rows; the same command goes on", queue.taken(), plan.rows));
