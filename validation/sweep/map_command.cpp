@@ -56,7 +56,7 @@ class PixelValues {
     return plan.counts() ? "" : fmt::format("all pixels have the same {}: {}", plan.quantity->name, value_);
   }
 
-  /// Of pixels that are one drop: 3 if a number of one could not be had, else 0; says so.
+  /// The exit status: 3 if a pixel that is one drop could not be computed, which is said, else 0.
   [[nodiscard]] int status() const {
     if (not_computed_ == 0) return 0;
     say(fmt::format("{} of {} pixels could not be computed", not_computed_, count_));
