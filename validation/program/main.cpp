@@ -7,5 +7,5 @@ int main(int argc, char** argv) {
   clatter::validation::hand_over(argv);
   clatter::validation::occupy_closed_streams();
   clatter::validation::handle_signals();
-  return clatter::validation::run_program({argv + 1, argv + argc});
+  return clatter::validation::run_program(clatter::validation::all_commands(), {argv + 1, argv + argc});
 }

@@ -3,15 +3,14 @@
 
 #include "validation/output/bad_input.hpp"
 #include "validation/output/sink.hpp"
-#include "validation/program/commands.hpp"
 #include "validation/program/parser.hpp"
 #include "validation/scene/failure.hpp"
 
 namespace clatter::validation {
 namespace {
 
-int parse_and_run(const std::vector<std::string>& given) {
-  const ParsedLine line = parse_line(all_commands(), given);
+int parse_and_run(const std::vector<Command>& commands, const std::vector<std::string>& given) {
+  const ParsedLine line = parse_line(commands, given);
   if (line.command && !line.command->run)
     throw BadInput(line.command->name + ": is a command of the whole program, which this one comes before");
   if (line.command) return line.command->run();
@@ -35,9 +34,9 @@ int guarded(const std::function<int()>& run) {
   }
 }
 
-int run_program(const std::vector<std::string>& arguments) {
+int run_program(const std::vector<Command>& commands, const std::vector<std::string>& arguments) {
   const NotedFiles noted;
-  return guarded([&] { return parse_and_run(arguments); });
+  return guarded([&] { return parse_and_run(commands, arguments); });
 }
 
 }  // namespace clatter::validation

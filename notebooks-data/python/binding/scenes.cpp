@@ -210,7 +210,10 @@ std::string swept_rows(const validation::SweepPlan& plan, const Watch& watch) {
 /// (report, how many scenes fall short and why the first, or "")
 py::tuple sweep(const std::string& name, const std::optional<std::string>& text, const std::vector<std::string>& sets,
                 const NamedTexts& options, const py::object& progress) {
-  validation::SweepRequest request{.file = name, .text = text, .sets = sets};
+  validation::SweepRequest request;
+  request.file = name;
+  request.text = text;
+  request.sets = sets;
   take(sweep_arguments(request), options);
   const auto work = [request](const Watch& watch) {
     const validation::SweepPlan plan = validation::read_sweep_plan(request);
