@@ -100,8 +100,7 @@ Value simulate(NamedTexts texts) {
   const numeric::MotionState start = scene.start(body);
   HistoryColumns history;
   if (with_history && scene.height) record_fall(history, start, body.mass(), scene.world.gravity, 20);
-  const PlannedRun planned = run_to_digits(body, scene.world, start, scene.request, scene.accuracy,
-                                           {.history = with_history ? &history : nullptr});
+  const PlannedRun planned = run_to_digits(scene, body, {.history = with_history ? &history : nullptr});
   Value fields = simulation_report(scene, planned).fields;
   if (with_history) fields["history"] = history.fields();
   return fields;

@@ -69,8 +69,7 @@ Measured bars_of_the_simulator(CaseRuns& case_runs) {
     scene.request.impacts = 2;
     scene.accuracy.evaluation_limit = 300'000;  // soft grounds may hold a body for thousands of oscillations
     const numeric::Body body = scene.make_body();
-    const numeric::Simulation run =
-        run_to_digits(body, scene.world, scene.start(body), scene.request, scene.accuracy).run;
+    const numeric::Simulation run = run_to_digits(scene, body).run;
     const numeric::Simulation truth = truth_of(scene, body);
     if (run.impacts.empty()) continue;
     const MotionNumbers sizes = motion_sizes(run, run.impacts.size(), body);

@@ -135,8 +135,7 @@ std::string discrete_html(const ReportInput& input) {
 std::string continuous_html(const Scene& scene, const ShockRun& run) {
   const numeric::Body body = scene.make_body();
   PictureHistory history(body);
-  const PlannedRun planned =
-      run_to_digits(body, scene.world, scene.start(body), scene.request, scene.accuracy, {.history = &history});
+  const PlannedRun planned = run_to_digits(scene, body, {.history = &history});
   std::string html = handout_table(simulation_report(scene, run.continuous->planned));
   if (!planned.run.impacts.empty()) {
     html += handout_picture(simulation_picture(scene, history, TimeWindow{}),

@@ -54,7 +54,7 @@ PlannedRun run_scene(const Scene& scene, const numeric::Body& body, const Cooper
   };
   const numeric::MotionState start = scene.start(body);
   if (history && scene.height) record_fall(*history, start, body.mass(), scene.world.gravity, 20);
-  return run_to_digits(body, scene.world, start, scene.request, scene.accuracy, observer);
+  return run_to_digits(scene, body, observer);
 }
 
 void warn(const std::vector<std::string>& warnings) {

@@ -95,7 +95,7 @@ PlannedRun run_scene(const Scene& scene, const std::function<bool(int)>& seen, n
   const numeric::Observer observer{.history = history, .progress = [&](int impacts, long) { return seen(impacts); }};
   const numeric::MotionState start = scene.start(body);
   if (history && scene.height) validation::record_fall(*history, start, body.mass(), scene.world.gravity, 20);
-  return validation::run_to_digits(body, scene.world, start, scene.request, scene.accuracy, observer);
+  return validation::run_to_digits(scene, body, observer);
 }
 
 Report single_report(const Scene& scene, const Watch& watch, numeric::HistoryRecorder* history) {

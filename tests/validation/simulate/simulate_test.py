@@ -465,6 +465,8 @@ class Claims(Folder):
 class Facets(Folder):
     """A mesh in place of a round body against the round one, or one of facets that are 250 times as close to it."""
 
+    FINE = "sectors = 1024, layers = 1, rings = 1"
+
     def of(self, angle, body, mesh, ground):
         scene = self.write("body.toml", f"[body]\n{body}\n" + (f"mesh = {{ {mesh} }}\n" if mesh else ""))
         return self.json(scene, "--mass", "1", "--angle", str(angle), "--speed", "1", "--impacts", "1", *ground)
@@ -473,7 +475,7 @@ class Facets(Folder):
         rod, ball = 'shape = "rod"\nlength = 0.3\nradius = 0.03', 'shape = "sphere"\nradius = 0.1'
         grounds = (["--stiffness", "1e9", "--area", "projected"],
                    ["--stiffness", "1e10", "--damping", "2e9", "--static-friction", "0.3", "--sliding-friction", "0.3"])
-        for body, mesh, fine in ((rod, "sectors = 64", "sectors = 1024, layers = 1, rings = 1"), (ball, "sectors = 32, rings = 8", "")):
+        for body, mesh, fine in ((rod, "sectors = 64", self.FINE), (ball, "sectors = 32, rings = 8", "")):
             for angle in (0.5, 20, 70):
                 for ground in grounds:
                     meshed, true = self.of(angle, body, mesh, ground), self.of(angle, body, fine, ground)
@@ -487,6 +489,25 @@ class Facets(Folder):
                     self.assertEqual(len(true["warnings"]), 1 if fine else 0)
         for command in ("simulate", "compare"):
             self.assertIn("facets: up to 0.0002 m inside", run(command, "rod-45", "--impacts", "1").stdout)
+
+    def test_error_estimates_hold_what_the_facets_of_the_program_s_own_mesh_leave(self):
+        rod, coin, slim = ('shape = "rod"\nlength = %s\nradius = %s' % size for size in ((0.3, 0.03), (0.004, 0.01), (0.5, 0.018)))
+        grounds = (["--stiffness", "1e9", "--area", "projected"], ["--stiffness", "1e9", "--sliding-friction", "0.3"])
+        for body in (rod, coin, slim):
+            for angle in (2, 13.5, 45, 71):
+                for ground in grounds:
+                    meshed, true = (self.of(angle, body, mesh, ground)["impacts"][0] for mesh in ("", self.FINE))
+                    for number in ("duration", "impulse_normal", "peak_force", "indentation", "velocity_after",
+                                   "angular_velocity_after"):
+                        one, other, bar = (v if isinstance(v, list) else [v] for v in
+                                           (meshed[number], true[number], meshed["error_estimate"][number]))
+                        for x, y, allowed in zip(one, other, bar):
+                            self.assertLessEqual(abs(x - y), allowed, (body, angle, ground, number))
+                    self.assertLess(meshed["error_estimate"]["peak_force"], 0.5 * meshed["peak_force"])
+                    if body == rod:  # the scene's own mesh is the body
+                        given = self.of(angle, body, "sectors = 64, rings = 4, layers = 30", ground)["impacts"][0]
+                        self.assertEqual(given["peak_force"], meshed["peak_force"])
+                        self.assertLess(given["error_estimate"]["peak_force"], 1e-6 * given["peak_force"])
 
 
 class Friction(Folder):
