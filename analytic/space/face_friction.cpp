@@ -62,7 +62,9 @@ class FacePath final : SlipMotion {
   [[nodiscard]] bool solve(const Vector2& slip, double spin) {
     return solve(turning_.point, slip + spin * Vector2(-pushed_.centre().y(), pushed_.centre().x()), spin);
   }
-  [[nodiscard]] bool solve(const Vector2& point, const Vector2& u, std::optional<double> spin);
+  [[nodiscard]] bool solve(const Vector2& point, const Vector2& u, std::optional<double> spin,
+                           const Vector2& slack = Vector2::Zero());
+  [[nodiscard]] bool solve_from_even_pressure(const Vector2& slip, double spin);
   void go_on_to(const Vector3& direction);
 
   const SlidingFace& face_;
@@ -83,11 +85,12 @@ class FacePath final : SlipMotion {
 
 /// Finds a, b, c and with them F, K for the slip u at the centre: linear equations on the area that is pushed, which is
 /// that of the solution.  Without a spin: a, b, c that have `point` for their pressure point.
-bool FacePath::solve(const Vector2& point, const Vector2& u, std::optional<double> spin) {
+/// @param slack  that the pressure's centre, in units of pushed_, may have beside what the equations ask for
+bool FacePath::solve(const Vector2& point, const Vector2& u, std::optional<double> spin, const Vector2& slack) {
   constexpr int most_turns = 40;
   constexpr double settled = 1e-7;  // where the error of Newton's method is its square
   const Vector2& centre = pushed_.centre();
-  const Vector3 wanted = (Vector3() << 1, (point - centre) / pushed_.unit()).finished();
+  const Vector3 wanted = (Vector3() << 1, (point - centre) / pushed_.unit() + slack).finished();
   Vector3 before = pressure_;
   double least = std::numeric_limits<double>::infinity();
   for (int i = 0; i < most_turns; ++i) {
@@ -120,6 +123,32 @@ bool FacePath::solve(const Vector2& point, const Vector2& u, std::optional<doubl
   return false;
 }
 
+/// From even pressure, with the slack that its friction needs, to a pressure without slack, in steps as long as
+/// Newton's method allows: where it fails at once, a pressure may still exist.
+bool FacePath::solve_from_even_pressure(const Vector2& slip, double spin) {
+  constexpr double shortest = 1.0 / 1024;
+  const Vector2& centre = pushed_.centre();
+  const Vector2 u = slip + spin * Vector2(-centre.y(), centre.x());
+  pressure_ << 1 / whole_moments_(0, 0), 0, 0;
+  pushed_.press(pressure_);
+  const Vector3 friction = rubbing_ * (pushed_.slip_moments(u, spin * pushed_.unit()) * pressure_);
+  const Vector3 moments = whole_moments_ * pressure_;
+  const Vector2 slack = moments.tail<2>() - (turning_.point + shift_ * friction - centre) / pushed_.unit();
+  for (double done = 0, step = 1; done < 1;) {
+    const Vector3 before = pressure_;
+    const double next = std::fmin(done + step, 1);
+    if (solve(turning_.point, u, spin, (1 - next) * slack)) {
+      done = next;
+      step *= 2;
+      continue;
+    }
+    pressure_ = before;
+    step /= 4;
+    if (step < shortest) return false;
+  }
+  return true;
+}
+
 /// Lets the pressure change as it did between the last two directions of slip, to begin near the solution.
 void FacePath::go_on_to(const Vector3& direction) {
   const Vector3 way = last_.direction - one_before_.direction;
@@ -132,10 +161,8 @@ FacePath::Values FacePath::rate(const Values& y) {
   const double spin = y[2] / root_inertia_;
   const Vector3 direction = y.head<3>().normalized();
   go_on_to(direction);
-  if (const bool afresh = pressure_.tail<2>() != Vector2::Zero(); !solve(slip, spin)) {
-    pressure_ << 1 / whole_moments_(0, 0), 0, 0;
-    if (!afresh || !solve(slip, spin)) return Vector3::Constant(std::numeric_limits<double>::quiet_NaN());
-  }
+  if (!solve(slip, spin) && !solve_from_even_pressure(slip, spin))
+    return Vector3::Constant(std::numeric_limits<double>::quiet_NaN());
   one_before_ = last_;
   last_ = {direction, pressure_};
   return load_ + Vector3(force_.x() / root_mass_, force_.y() / root_mass_, force_.z() / root_inertia_);

@@ -77,6 +77,7 @@ class StrikingGroup {
 
   /// Strikes with these points as a whole; false, and nothing done, if pushes alone cannot do it.
   bool strike(const Points& group);
+  void leave_open() { struck_.leave_open(); }
   void strike_corner(const Point& p) { struck_.strike_at(p.place, {p.index}); }
   [[nodiscard]] bool converges(StrikeSeries& series) { return series.converges(struck_); }
   [[nodiscard]] GroupImpact result() const { return struck_.result(); }
@@ -164,7 +165,9 @@ GroupImpact strike_together(const Body& body, const State& before, std::span<con
   for (auto fastest = group.fastest(); !fastest.empty(); fastest = group.fastest()) {
     check_number_of_strikes(group.strikes());
     if (group.converges(series)) continue;
-    if (!group.strike(fastest)) group.strike_corner(fastest.front());
+    if (group.strike(fastest)) continue;
+    if (fastest.size() > 1 && law.law.rubs()) group.leave_open();
+    group.strike_corner(fastest.front());
   }
   return group.result();
 }
@@ -179,6 +182,7 @@ GroupImpact strike_beside(const Body& body, const State& before, std::span<const
   touching.insert(touching.end(), held.begin(), held.end());
   const GroupImpact then = strike_together(body, between, touching, law);
   all.is_whole = false;
+  all.is_open = all.is_open || then.is_open;
   if (then.order.empty()) return all;
   all.impulse += then.impulse;
   all.moment += then.moment;

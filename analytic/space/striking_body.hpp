@@ -20,6 +20,7 @@ struct GroupImpact {
   double approach_speed = 0;                         ///< largest of the corners [m/s]
   double energy_loss = 0;                            ///< −[P·(V + V′) + M·(ω + ω′)]/2 [J]
   bool is_whole = false;                             ///< the body rebounds as a whole, in one strike
+  bool is_open = false;  ///< of corners that are equally fast an index decided which strikes first
   /// Indices (Corner::index) of the corners of each strike, in order.
   std::vector<std::vector<int>> order;
   PathKind path = PathKind::frictionless;  ///< of the first strike
@@ -88,6 +89,7 @@ class StrikingBody {
   void take(const StrikingBody& other);
   void push(const FaceRebound& face, const std::vector<int>& points);
 
+  void leave_open() { impact_.is_open = true; }
   /// Adds an impulse to the last strike.
   void add(const Vector3& impulse, const Vector3& moment);
   [[nodiscard]] const GroupImpact& impact() const { return impact_; }

@@ -12,11 +12,11 @@
 #include "numeric/drop/error_estimates.hpp"
 #include "validation/output/number.hpp"
 #include "validation/plan/cost_table.hpp"
-#include "validation/plan/facet_words.hpp"
 #include "validation/plan/symmetry.hpp"
 #include "validation/plan/tolerance_search.hpp"
 #include "validation/run/motion_numbers.hpp"
 #include "validation/run/shortfall.hpp"
+#include "validation/scene/facet_words.hpp"
 #include "validation/scene/names.hpp"
 
 namespace clatter::validation {

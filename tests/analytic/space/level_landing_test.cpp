@@ -271,6 +271,24 @@ BOOST_AUTO_TEST_CASE(a_level_landing_mirrored_or_with_its_corners_in_another_ord
   }
 }
 
+BOOST_AUTO_TEST_CASE(a_landing_of_which_an_index_decides_the_first_corner_has_no_error_bars) {
+  Drop drop;
+  drop.body = box(1, {.size = {0.1, 0.1, 0.4}});
+  drop.velocity = {0.1, 0.05, -1};
+  drop.angular_velocity = {0, 0, 1e-6};
+  drop.law.law.restitution = 0.66;
+  drop.law.law.friction = FrictionKind::coulomb;
+  drop.law.law.friction_value = 0.1;
+  const ImpactRow flat = impact_sequence(drop, {.impacts = 1}).rows.at(0);
+  BOOST_TEST(flat.group.value().is_whole);
+  BOOST_TEST(!flat.group->is_open);
+  BOOST_TEST(flat.error.predictable);
+  drop.law.law.friction_value = 0.4;
+  const ImpactRow tipped = impact_sequence(drop, {.impacts = 1}).rows.at(0);
+  BOOST_TEST(tipped.group.value().is_open);
+  BOOST_TEST(!tipped.error.predictable);
+}
+
 namespace {
 
 constexpr double half_angle = std::numbers::pi / 8;  ///< between a spoke of the wheel and the middle of two
