@@ -13,9 +13,8 @@ namespace clatter::validation {
 [[nodiscard]] double facet_depth(const BodyScene& body);
 
 /// Adds to the error estimates of a run what facets may add where the mesh of a rod has the sectors that the program
-/// chooses, said or not: in an impact
-/// that goes D deep s/D of its time, force, depth, energies and changes of velocity, all of them where D < s
-/// (facet_words()).  What impacts before have left grows with the row's amplification, and is not known without.  A
+/// chooses, said or not: in an impact that goes D deep s/D of its time, force, depth, energies and changes of velocity,
+/// all of them where D < s (facet_words()).  What impacts before have left grows with the row's amplification, and is not known without.  A
 /// mesh of other sectors that the scene gives, and that of a rod no thicker than a thin one is taken for, the paper's,
 /// count as the body. The turn about its axis that a facet gives a level rod is not in s/D.
 void add_facet_errors(const Scene& scene, numeric::Simulation& run);
