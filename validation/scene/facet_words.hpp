@@ -14,9 +14,9 @@ namespace clatter::validation {
 
 /// Adds to the error estimates of a run what facets may add where the mesh of a rod has the sectors that the program
 /// chooses, said or not: in an impact that goes D deep s/D of its time, force, depth, energies and changes of velocity,
-/// all of them where D < s (facet_words()).  What impacts before have left grows with the row's amplification, and is not known without.  A
-/// mesh of other sectors that the scene gives, and that of a rod no thicker than a thin one is taken for, the paper's,
-/// count as the body. The turn about its axis that a facet gives a level rod is not in s/D.
+/// all of them where D < s (facet_words()).  What impacts before have left grows with the row's amplification, and is
+/// not known without.  A mesh of other sectors that the scene gives, and that of a rod no thicker than a thin one is
+/// taken for, the paper's, count as the body. The turn about its axis that a facet gives a level rod is not in s/D.
 void add_facet_errors(const Scene& scene, numeric::Simulation& run);
 
 /// How far the impacts of a meshed body may be off those of the round one; empty: facet_depth() is 0.
