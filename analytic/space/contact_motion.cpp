@@ -59,8 +59,8 @@ void ContactMotion::take(State s) {
   const Vector3 u = slip_of(s, points_[0]);
   motion_ << s.attitude.w(), s.attitude.vec(), s.angular_velocity, u.head<2>();
   if (points_[0].sticks) motion_.tail<2>().setZero();
-  if (points_.size() != 2 || !std::ranges::all_of(points_, &GroundPoint::sticks)) return;
-  const Vector3 edge = (s.attitude * (points_[1].place - points_[0].place)).normalized();  // a hinge
+  if (!is_hinge()) return;
+  const Vector3 edge = (s.attitude * (points_[1].place - points_[0].place)).normalized();
   motion_.segment<3>(4) = s.angular_velocity.dot(edge) * edge;
 }
 
@@ -287,8 +287,7 @@ bool ContactMotion::digs_in() const {
 /// An edge that sticks is a hinge: what the errors of steps have turned it off its axis would be slip at the next
 /// impact, which friction would rub against however little it is.
 void ContactMotion::keep_hinge() {
-  const bool is_hinge = points_.size() == 2 && std::ranges::all_of(points_, &GroundPoint::sticks);
-  if (is_hinge) take(state());
+  if (is_hinge()) take(state());
 }
 
 /// One step, or part of one up to the first event in it.

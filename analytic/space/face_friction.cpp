@@ -43,7 +43,7 @@ class FacePath final : SlipMotion {
     only_friction_ = load_ == Vector3::Zero();
     y_ << root_mass_ * face.slip, root_inertia_ * face.spin;
     whole_moments_ = pushed_.moments();
-    pressure_ << 1 / whole_moments_(0, 0), 0, 0;
+    press_evenly();
     const Vector2& centre = pushed_.centre();
     rubbing_ << 1, 0, 0, 0, 1, 0, -centre.y(), centre.x(), pushed_.unit();
     rubbing_ *= -face.friction;
@@ -65,6 +65,7 @@ class FacePath final : SlipMotion {
   [[nodiscard]] bool solve(const Vector2& point, const Vector2& u, std::optional<double> spin,
                            const Vector2& slack = Vector2::Zero());
   [[nodiscard]] bool solve_from_even_pressure(const Vector2& slip, double spin);
+  void press_evenly() { pressure_ << 1 / whole_moments_(0, 0), 0, 0; }
   void go_on_to(const Vector3& direction);
 
   const SlidingFace& face_;
@@ -129,7 +130,7 @@ bool FacePath::solve_from_even_pressure(const Vector2& slip, double spin) {
   constexpr double shortest = 1.0 / 1024;
   const Vector2& centre = pushed_.centre();
   const Vector2 u = slip + spin * Vector2(-centre.y(), centre.x());
-  pressure_ << 1 / whole_moments_(0, 0), 0, 0;
+  press_evenly();
   pushed_.press(pressure_);
   const Vector3 friction = rubbing_ * (pushed_.slip_moments(u, spin * pushed_.unit()) * pressure_);
   const Vector3 moments = whole_moments_ * pressure_;
@@ -175,7 +176,7 @@ std::optional<bool> FacePath::is_held(Vector3& direction) {
   const Vector2 point = turning_.point + shift_ * Vector3(force.x(), force.y(), couple);
   if (!area_.contains(point)) return {};
   if (load_ == Vector3::Zero()) return true;
-  pressure_ << 1 / whole_moments_(0, 0), 0, 0;
+  press_evenly();
   if (!solve(point, Vector2::Zero(), {})) return {};
   pushed_.press(pressure_);
   SlipLetGo slip(load_, [&](const Vector3& y) -> Vector3 {

@@ -77,8 +77,7 @@ SweepRequest sweep_of(const ReportInput& input, const Attitudes& attitudes) {
 }
 
 std::string sweep_command_of(const SweepRequest& request) {
-  std::string words = "clatter sweep " + shell_word(request.file) + " --model " +
-                      (*request.model == Model::discrete ? "discrete" : "continuous");
+  std::string words = "clatter sweep " + shell_word(request.file) + " --model " + name_of(*request.model);
   for (const std::string& set : request.sets) words += " --set " + shell_word(set);
   for (const std::string& probe : request.probes) words += " --probe " + shell_word(probe);
   return words + fmt::format(" --random {} --scatter {} --no-errors --summary", *request.random, *request.scatter);

@@ -83,9 +83,7 @@ double facet_depth(const BodyScene& body) {
 
 void add_facet_errors(const Scene& scene, numeric::Simulation& run) {
   const BodyScene& body = scene.body;
-  BodyScene unmeshed = body;
-  unmeshed.sectors = 0;
-  const bool is_chosen = body.shape == BodyScene::Shape::rod && body.meshed_sectors() == unmeshed.meshed_sectors();
+  const bool is_chosen = body.shape == BodyScene::Shape::rod && body.meshed_sectors() == body.own_sectors();
   if (!is_chosen || !(body.radius > thin_part * body.length)) return;
   const double inside = facet_depth(body);
   double error = 0, amplification = 1;

@@ -28,10 +28,7 @@ bool BodyScene::is_stl() const {
   return extension == ".stl";
 }
 
-int BodyScene::meshed_sectors() const {
-  if (sectors > 0) return sectors;
-  return shape == Shape::rod && meshed_radius() > length / 20 ? 64 : 16;
-}
+int BodyScene::own_sectors() const { return shape == Shape::rod && meshed_radius() > length / 20 ? 64 : 16; }
 
 numeric::Vector3 BodyScene::extents(double of_radius) const {
   if (has_size()) return size;

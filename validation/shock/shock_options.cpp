@@ -97,8 +97,7 @@ void add_shock_options(Command& command, ShockInput& input) {
                .group = "Shock",
                .repeats = true});
   ShockRequest& request = input.request;
-  command.add(choice_argument("--model", input.model, {"discrete", "continuous"},
-                              "(continuous if the scene has a ground)", "Shock"));
+  command.add(choice_argument("--model", input.model, model_names, "(continuous if the scene has a ground)", "Shock"));
   command.add(choice_argument("--axis", request.axis, {"x", "y", "z"},
                               "of the body, for spectra (that with the largest change of velocity)", "Shock"));
   command.add(read_argument("--quality", request.quality, read_quality, "Q",

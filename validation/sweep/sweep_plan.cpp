@@ -51,7 +51,6 @@ const Key* find_number_key(const std::string& name) {
   return nullptr;
 }
 
-const std::vector<std::string> model_names{"discrete", "continuous"};
 const std::vector<std::string> row_names{"scene", "impact"};
 
 /// One --set KEY=TEXT.
@@ -222,10 +221,9 @@ void require_effects(const std::vector<Setting>& settings, Model model) {
     const bool has_effect =
         model == Model::continuous ? !setting.key.starts_with("impact.") : setting.number->is_for(model);
     if (has_effect) continue;
-    throw BadInput(fmt::format(
-        "--set {}={}: changes nothing in the {} model; give --model {}", setting.key, setting.text,
-        model_names[static_cast<std::size_t>(model)],
-        model_names[static_cast<std::size_t>(model == Model::continuous ? Model::discrete : Model::continuous)]));
+    throw BadInput(fmt::format("--set {}={}: changes nothing in the {} model; give --model {}", setting.key,
+                               setting.text, name_of(model),
+                               name_of(model == Model::continuous ? Model::discrete : Model::continuous)));
   }
 }
 
@@ -445,7 +443,7 @@ SweepPlan read_sweep_plan(const SweepRequest& request) {
   if (drawing.scatter) name_own_attitude(request, values, sets);
   std::vector<Setting> settings = read_settings(sets, drawing);
   read_scene(request, settings, values, plan);
-  plan.fixed_words = shell_word(request.file) + " --model " + model_names[static_cast<std::size_t>(plan.layout.model)];
+  plan.fixed_words = shell_word(request.file) + " --model " + name_of(plan.layout.model);
   for (const Setting& setting : settings) {
     plan.words.push_back(fmt::format("set: {} = {}", setting.key, setting.text));
     if (!setting.axis) plan.fixed_words += " --set " + shell_word(setting.key + "=" + setting.text);
@@ -490,7 +488,7 @@ std::string SweepPlan::attitude_name(long long place) const {
 
 Report SweepPlan::report() const {
   const Model model = layout.model;
-  const std::string& name = model_names[static_cast<std::size_t>(model)];
+  const std::string& name = name_of(model);
   Report report = begun_report(
       "sweep", fmt::format("{} model, one row per {}", name, row_names[static_cast<std::size_t>(layout.rows)]));
   report.head = scene_head(scene, model, {}, unsettled);
