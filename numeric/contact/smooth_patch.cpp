@@ -56,8 +56,10 @@ SphereRay::SphereRay(const Vector3& from, const Vector3& end, const Vector3& rat
     area_ = way_.x() * rate.y() - way_.y() * rate.x();
     return;
   }
-  half_ = std::asin(std::min(way_.norm() / 2, 1.0));
-  const double sine = std::sin(2 * half_);
+  sine_ = std::min(way_.norm() / 2, 1.0);
+  cosine_ = std::sqrt((1 - sine_) * (1 + sine_));
+  half_ = std::asin(sine_);
+  const double sine = 2 * sine_ * cosine_;
   inverse_sine_ = sine > 0 ? 1 / sine : 0;
   area_ = -(from - Vector3::UnitZ()).dot(way_.cross(rate)) * (sine > 0 ? 2 * half_ * inverse_sine_ : 1);
 }
@@ -75,9 +77,12 @@ SurfacePoint SphereRay::at(double part) const {
     const double root = std::sqrt(1 - square);
     return {{x, y, square / (1 + root)}, area_ * part / root};
   }
-  const double forward = towards_end(part);
-  SurfacePoint point{towards_end(1 - part) * from_ + forward * end_, area_ * forward};
-  point.place.z() -= 2 * std::sin(part * half_) * std::sin((1 - part) * half_) / std::cos(half_);
+  if (!(inverse_sine_ > 0)) return {(1 - part) * from_ + part * end_, area_ * part};
+  const double sine = std::sin(part * half_), cosine = std::cos(part * half_);
+  const double sine_left = sine_ * cosine - cosine_ * sine, cosine_left = cosine_ * cosine + sine_ * sine;
+  const double forward = 2 * sine * cosine * inverse_sine_, back = 2 * sine_left * cosine_left * inverse_sine_;
+  SurfacePoint point{back * from_ + forward * end_, area_ * forward};
+  point.place.z() -= 2 * sine * sine_left / cosine_;
   return point;
 }
 
@@ -122,14 +127,9 @@ SphereBoundary::SphereBoundary(const HalfSpaces& half_spaces) {
   }
 }
 
-double Mantle::Strip::share(double t) const {
-  const double change = narrow - wide, scale = sinc(change / 2) * std::sin((wide + narrow) / 2);
-  return t * sinc(t * change / 2) * std::sin(wide + t * change / 2) / scale;
-}
-
-double Mantle::Strip::rate(double t) const {
-  const double change = narrow - wide;
-  return (x2 - x1) * std::sin(half_width(t)) / (sinc(change / 2) * std::sin((wide + narrow) / 2));
+double Mantle::Strip::x(double t) const {
+  const double half_change = t * (narrow - wide) / 2;
+  return x1 + per_cosine * t * sinc(half_change) * std::sin(wide + half_change);
 }
 
 double Mantle::end() const {
@@ -149,11 +149,11 @@ double Mantle::half_width(double x) const {
 
 Mantle::Strip Mantle::strip() const {
   const double x1 = full_end(), x2 = end();
-  if (!(x2 > x1) || !(drop > 0)) return {0, 0, 0, 0};
+  if (!(x2 > x1) || !(drop > 0)) return {};
   const double narrow = slope < 0 && x2 < length ? 0 : half_width(x2);
   const double wide = x1 > 0 ? std::numbers::pi : half_width(x1);
-  if (!(wide > 0)) return {0, 0, 0, 0};
-  return {x1, x2, wide, narrow};
+  if (!(wide > 0)) return {};
+  return {x1, x2, wide, narrow, (x2 - x1) / (sinc((narrow - wide) / 2) * std::sin((wide + narrow) / 2))};
 }
 
 Slices::Slices(double length, const HalfSpaces& half_spaces)

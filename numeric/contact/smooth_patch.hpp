@@ -2,6 +2,7 @@
 // Quadrature over the parts of a unit ball and of a unit cylinder that lie below the ground.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -79,12 +80,11 @@ class SphereRay {
   [[nodiscard]] SurfacePoint at(double part) const;
 
  private:
-  [[nodiscard]] double towards_end(double part) const {
-    return inverse_sine_ > 0 ? std::sin(2 * part * half_) * inverse_sine_ : part;
-  }
   Vector3 from_, end_, way_;
   bool is_low_;
-  double half_ = 0, inverse_sine_ = 0, area_ = 0;  ///< half_: half the angle [rad]
+  double area_ = 0;
+  double half_ = 0, sine_ = 0, cosine_ = 1;  ///< half the angle [rad], its sine and cosine
+  double inverse_sine_ = 0;                  ///< of the angle; 0: the ray has no length
 };
 
 /// Gauss nodes over a ray that give 10^−digits of what is smooth on the sphere.
@@ -127,7 +127,9 @@ void over_zone(const Zone& zone, const CapRule& rule, Visit&& visit) {
 /// Gauss nodes that integrate products of some sines and cosines, whose arguments change by 2 × half_angle, to
 /// rounding.
 [[nodiscard]] inline int trigonometric_order(double half_angle) {
-  return half_angle < 0.05 ? 5 : half_angle < 0.2 ? 7 : half_angle < 0.6 ? 10 : half_angle < 1.2 ? 14 : 20;
+  constexpr std::array<double, 13> below{0.02, 0.05, 0.1, 0.2, 0.3, 0.4, 0.6, 0.7, 0.8, 1.0, 1.2, 1.4, 1.6};
+  const auto next = std::upper_bound(below.begin(), below.end(), half_angle);
+  return next == below.end() ? 20 : 4 + static_cast<int>(next - below.begin());
 }
 
 /// The same over the part of the sphere in half-spaces: the fans between its lowest point and the arcs of the boundary,
@@ -135,13 +137,13 @@ void over_zone(const Zone& zone, const CapRule& rule, Visit&& visit) {
 /// degree.
 template <class Visit>
 void over_part(const HalfSpaces& half_spaces, Visit&& visit) {
-  constexpr double piece = std::numbers::pi, small_piece = 1;
+  constexpr double piece = std::numbers::pi;
   const SphereBoundary boundary(half_spaces);
   for (int i = 0; i < boundary.count; ++i) {
     const SphereArc& arc = boundary.arcs[static_cast<std::size_t>(i)];
     const int pieces = std::max(1, static_cast<int>(std::ceil((arc.to - arc.from) / piece)));
-    const int around = arc.to - arc.from < small_piece ? 10 : 16;
     const double half = (arc.to - arc.from) / (2 * pieces);
+    const int around = trigonometric_order(half);
     const double highest = std::min(arc.middle.z() + std::hypot(arc.a.z(), arc.b.z()), 2.0);
     const int order = ray_order(highest, highest < 1 ? std::sqrt(highest * (2 - highest)) : 1, 15);
     for (int j = 0; j < pieces; ++j) {
@@ -169,13 +171,11 @@ struct Mantle {
   /// everything is smooth in t, however the strip ends.
   struct Strip {
     double x1, x2, wide, narrow;  ///< x₁, x₂, φ₁, φ₂
+    double per_cosine;            ///< (x₂ − x₁)(φ₂ − φ₁)/(cos φ₁ − cos φ₂)
     [[nodiscard]] bool empty() const { return !(x2 > x1); }
     [[nodiscard]] double half_width(double t) const { return wide + t * (narrow - wide); }
-    [[nodiscard]] double x(double t) const { return x1 + (x2 - x1) * share(t); }
-    [[nodiscard]] double rate(double t) const;
-
-   private:
-    [[nodiscard]] double share(double t) const;
+    [[nodiscard]] double x(double t) const;
+    [[nodiscard]] double rate(double t) const { return per_cosine * std::sin(half_width(t)); }
   };
 
   [[nodiscard]] double end() const;       ///< where the depth is no more positive, or the length
