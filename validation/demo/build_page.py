@@ -35,6 +35,8 @@ LEFT_OUT = {"numeric/files/read_gmsh.cpp"}
 # The page has no command line.
 COMMAND = re.compile(r"_commands?\.cpp$")
 FLAGS = ["-O2", "-fexceptions"]
+# What surrounds the models is loaded by everybody and takes no time to speak of.
+SMALL = ["-Os"]
 CXX_FLAGS = ["-std=c++20", "-DNDEBUG", "-ffp-contract=off", "-DFMT_HEADER_ONLY", "-DTOML_HEADER_ONLY=1"]
 LINK_FLAGS = ["-sSINGLE_FILE=1", "-sALLOW_MEMORY_GROWTH=1", "-sMODULARIZE=1", "-sEXPORT_NAME=clatterModule",
               "-sENVIRONMENT=web,worker,node", "-sFILESYSTEM=0", "-sTOTAL_STACK=4194304",
@@ -179,13 +181,16 @@ def ninja(folder):
     folders = [f"-I{ROOT}", f"-I{folder / 'generated'}", f"-isystem{include}", "-isystem/usr/include/eigen3"]
     # The files of one folder in one go: emcc takes longer to start than to compile one of them.
     lines = ["rule c", f"  command = mkdir -p $place && cd $place && emcc $flags {' '.join(FLAGS)} -w -c $in",
-             "rule cxx", f"  command = em++ {' '.join(FLAGS + CXX_FLAGS + folders)} -include {HERE}/library.hpp -MD -MF $out.d -c $in -o $out",
+             "rule cxx",
+             f"  command = em++ {' '.join(FLAGS + CXX_FLAGS + folders)} $small -include {HERE}/library.hpp -MD -MF $out.d -c $in -o $out",
              "  depfile = $out.d", "  deps = gcc",
              "rule link", f"  command = em++ {' '.join(FLAGS + LINK_FLAGS)} $in -o $out"]
     objects = []
     for number, unit in enumerate(units(folder)):
         objects.append(f"objects/{number:03d}-{unit.stem}.o")
         lines.append(f"build {objects[-1]}: cxx {unit}")
+        if unit.stem.startswith("validation"):
+            lines.append(f"  small = {' '.join(SMALL)}")
     for name in sorted({file.split("/")[0] for file in GSL_FILES}):
         files = [file for file in GSL_FILES if file.startswith(name + "/")]
         made = [f"objects/gsl/{file}.o" for file in files]
@@ -228,7 +233,7 @@ def digest_of_models(module):
     """Of all that the compiled models follow from, the versions of Debian's packages included."""
     files = [name for name in needed() if (ROOT / name).exists()]
     made = sorted(path for path in (module / "generated").rglob("*") if path.is_file())
-    options = repr([FLAGS, CXX_FLAGS, LINK_FLAGS, HEADERS, GSL_FILES, GSL_CONFIG, QHULL_FILES])
+    options = repr([FLAGS, SMALL, CXX_FLAGS, LINK_FLAGS, HEADERS, GSL_FILES, GSL_CONFIG, QHULL_FILES])
     return digest([*((name, (ROOT / name).read_bytes()) for name in [*files, "validation/demo/library.hpp"]),
                    *((str(path.relative_to(module)), path.read_bytes()) for path in made), ("options", options.encode()),
                    ("versions", notices().encode())])

@@ -67,7 +67,7 @@ class Lane {
 
   private start(): Worker {
     const worker = new Worker(workerAddress());
-    compiled ??= unpacked().then((code) => WebAssembly.compile(code));
+    compiled ??= unpacked("module-code").arrayBuffer().then((code) => WebAssembly.compile(code));
     void compiled.then((code) => worker.postMessage(code));
     worker.onmessage = ({ data }: MessageEvent<string>) => this.answer(JSON.parse(data) as { error?: string });
     worker.onerror = (event) => {
@@ -97,11 +97,8 @@ const textWithin = (id: string): string => document.getElementById(id)?.textCont
 
 /** Compiled once for all workers. */
 let compiled: Promise<WebAssembly.Module> | null = null;
-/** The models, which the page holds as base64 of gzip. */
-function unpacked(): Promise<ArrayBuffer> {
-  const bytes = Uint8Array.from(atob(textWithin("module-code")), (letter) => letter.charCodeAt(0));
-  return new Response(new Blob([bytes]).stream().pipeThrough(new DecompressionStream("gzip"))).arrayBuffer();
-}
+/** Of index.html. */
+declare const unpacked: (id: string) => Response;
 
 let address = "";
 /** Of the worker's program, a text within the page. */

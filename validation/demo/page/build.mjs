@@ -91,8 +91,8 @@ const template = await readFile(path.join(here, "index.html"), "utf8");
 const { loader, code } = await unwrapped();
 if (loader.includes("</script")) throw new Error("the module's text would end its element");
 const parts = {
-  "/*STYLE*/": await style(), "/*SCRIPT*/": await script(), "/*MODULE*/": loader, "/*CODE*/": code, "<!--NOTICES-->": await notices(),
-  "<!--STORY-->": await storyHtml(await models()), "<!--VERSION-->": version,
+  "/*STYLE*/": await style(), "/*SCRIPT*/": packed(await script()).toString("base64"), "/*MODULE*/": loader, "/*CODE*/": code,
+  "<!--NOTICES-->": await notices(), "<!--STORY-->": await storyHtml(await models()), "<!--VERSION-->": version,
   "<!--MODELS-->": modelsDigest, "<!--PAGE-->": pageDigest,
 };
 let page = template;
