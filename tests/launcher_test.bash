@@ -45,7 +45,7 @@ case $* in
     echo "$PWD" >build/release/configured ;;
   --build*)
     made=clatter
-    [[ $* != *"--target clatter-first"* ]] || made=clatter-first
+    [[ ! $* =~ "--target "(clatter-[a-z]+) ]] || made=${BASH_REMATCH[1]}
     cp "$SETTINGS/program" "build/release/validation/$made"
     [[ ! -e $SETTINGS/save_while_building ]] || touch -d "now + 1 minute" analytic/a.cpp
     [[ ! -e $SETTINGS/build_waits ]] || cat "$SETTINGS/build_waits"
@@ -137,7 +137,7 @@ build_first() {
 age_tree() {
   find "$tree" -path "$tree/build" -prune -o -exec touch -d "2 hours ago" {} +
   local stamp
-  for stamp in built first_built; do
+  for stamp in built first_built plane_built; do
     [[ ! -e $tree/build/release/$stamp ]] || touch -d "1 hour ago" "$tree/build/release/$stamp"
   done
 }
@@ -170,6 +170,8 @@ remove_package() {
 
 remove_tool() { mv "$bin/$1" "$settings/uninstalled/"; }
 
+leave_in_the_plane() { printf '#!/bin/bash\nexit 75\n' >"$tree/build/release/validation/clatter-plane"; }
+
 become_user() { echo 1000 >"$settings/uid"; }
 
 add_sudo() {
@@ -190,14 +192,40 @@ test_first_launch_builds_and_runs() {
     "$(<"$settings/err")"
 }
 
-test_first_table_takes_the_first_program() {
+test_first_table_takes_the_program_in_the_plane() {
   launch sequence
   expect "exit status" 0 "$status"
-  expect_calls 1 "cmake --build --preset release --target clatter-first"
+  expect_calls 1 "cmake --build --preset release --target clatter-plane"
   expect "standard error" "clatter: building (first run, a few minutes) ..." "$(<"$settings/err")"
   age_tree
   launch explain
   expect "calls" "" "$(<"$settings/calls")"
+}
+
+test_what_the_program_in_the_plane_leaves_takes_the_first_program() {
+  launch sequence
+  age_tree
+  leave_in_the_plane
+  launch sequence "a b"
+  expect "exit status" 0 "$status"
+  expect_calls 1 "cmake --build --preset release --target clatter-first"
+  expect "standard error" "clatter: building (models in space, a few minutes) ..." "$(<"$settings/err")"
+  expect "arguments" "<sequence> <a b>" "$(grep '^<' "$settings/out" | paste -sd ' ')"
+  age_tree
+  launch explain
+  expect "calls" "" "$(<"$settings/calls")"
+  expect "standard error" "" "$(<"$settings/err")"
+}
+
+test_what_can_be_read_once_takes_the_first_program() {
+  launch sequence /dev/null
+  expect_calls 1 "cmake --build --preset release --target clatter-first"
+}
+
+test_status_of_the_program_in_the_plane_is_the_launchers() {
+  echo 4 >"$settings/exit_status"
+  launch sequence
+  expect "exit status" 4 "$status"
 }
 
 test_other_commands_build_the_whole_program_which_then_serves_all() {
@@ -218,7 +246,7 @@ test_first_program_is_built_anew_where_a_source_is_newer_than_both() {
   age_tree
   touch "$tree/analytic/a.cpp"
   launch sequence
-  expect_calls 1 "cmake --build --preset release --target clatter-first"
+  expect_calls 1 "cmake --build --preset release --target clatter-plane"
 }
 
 test_nothing_is_called_when_nothing_changed() {

@@ -27,6 +27,8 @@ int guarded(const std::function<int()>& run) {
     return run();
   } catch (const ReaderGone&) {
     return 0;
+  } catch (const LeftToNextProgram&) {
+    return 75;
   } catch (...) {
     const Failure failure = current_failure();
     say(failure.message);

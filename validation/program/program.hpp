@@ -10,9 +10,12 @@
 
 namespace clatter::validation {
 
+/// Thrown, before anything is written, by a program that comes before the whole one and lacks what a scene needs.
+struct LeftToNextProgram {};
+
 /// Runs the program that has these commands with the arguments after its name; returns the exit status: 0 done, 1 a
 /// check failed, 2 bad input, 3 a number could not be computed, 4 outside the model's range, 70 a defect of the
-/// program, 130 interrupted.
+/// program, 75 left to the next program, which the launcher then builds, 130 interrupted.
 [[nodiscard]] int run_program(const std::vector<Command>& commands, const std::vector<std::string>& arguments);
 
 /// The status of `run`; an exception becomes one line on stderr and the status of its kind.

@@ -319,9 +319,9 @@ std::string reason_in_space(const Scene& scene) {
     return fmt::format("{} = {}", key, compact_json(key_named(key).get(scene)));
   };
   if (scene.body.is_round()) return given("body.shape") + " has no corners in a plane";
-  const Eigen::Quaterniond turn = scene.touch_attitude();
-  if (scene.attitude.empty() && scene.tilt_deg != 0) return "drop.tilt_deg turns it out of its plane";
-  if (!scene.attitude.empty() && !vanish({turn.x(), turn.z()}, 1)) {
+  if (scene.attitude.empty()) {
+    if (scene.tilt_deg != 0) return "drop.tilt_deg turns it out of its plane";
+  } else if (const Eigen::Quaterniond turn = scene.touch_attitude(); !vanish({turn.x(), turn.z()}, 1)) {
     return given("drop.attitude") + " is more than an inclination, (q0, 0, q2, 0)";
   }
   const Vector3 velocity = scene.touch_velocity(), rate = scene.touch_angular_velocity();

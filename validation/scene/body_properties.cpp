@@ -42,7 +42,13 @@ Matrix3 symmetric(const std::vector<double>& i) {
 Vector3 principal(const Matrix3& matrix) {
   const double size = matrix.cwiseAbs().maxCoeff();
   if (!(size > 0) || !std::isfinite(size)) return Vector3::Constant(size);
-  const auto [least, middle, largest] = analytic::space::PrincipalAxes(matrix / size).moments;
+  const Matrix3 scaled = matrix / size;
+  if (scaled.isDiagonal(0)) {  // the moments are its entries, for which no model in space has to be there
+    Vector3 moments = scaled.diagonal();
+    std::sort(moments.begin(), moments.end());
+    return size * moments;
+  }
+  const auto [least, middle, largest] = analytic::space::PrincipalAxes(scaled).moments;
   return size * Vector3(static_cast<double>(least), static_cast<double>(middle), static_cast<double>(largest));
 }
 

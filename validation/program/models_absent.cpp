@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Stands in for the models in space, meshes and their explanations in clatter-plane, which leaves scenes that need one
+// of them to the program after it.
+#include "analytic/space/point_height.hpp"
+#include "analytic/space/sequence.hpp"
+#include "analytic/space/slip_field.hpp"
+#include "analytic/space/sustained_contact.hpp"
+#include "analytic/space/tilted_outcomes.hpp"
+#include "numeric/body/body.hpp"
+#include "numeric/files/import.hpp"
+#include "numeric/mesh/generators.hpp"
+#include "numeric/motion/free_flight.hpp"
+#include "numeric/motion/start.hpp"
+#include "validation/explain/steps.hpp"
+#include "validation/program/program.hpp"
+
+namespace clatter {
+namespace {
+
+/// Nothing has been written yet: a scene is refused here as soon as its body is made.
+[[noreturn]] void leave() { throw validation::LeftToNextProgram(); }
+
+}  // namespace
+
+namespace analytic::space {
+
+PrincipalAxes::PrincipalAxes(const Matrix3&) { leave(); }
+FreeRotation::FreeRotation(const PrincipalAxes&, const Quaternion&, const Vector3&) { leave(); }
+Body polyhedron(const std::vector<Vector3>&, const MassProperties&) { leave(); }
+Body box(double, const Box&) { leave(); }
+Body cylinder(double, const Cylinder&) { leave(); }
+Body capsule(double, const Cylinder&) { leave(); }
+Body ellipsoid(double, const Vector3&) { leave(); }
+double Body::reach() const { leave(); }
+State FreeFlight::at(double) const { leave(); }
+double Impact::restitution() const { leave(); }
+Corner touching_corner(const Body&, const Quaternion&, int) { leave(); }
+Sequence impact_sequence(const Drop&, const SequenceOptions&) { leave(); }
+std::optional<SustainedContact> contact_after(const Drop&, const Sequence&) { leave(); }
+OutcomeSet tilted_outcomes(const Body&, const State&, std::span<const Corner>, const Law&, const TiltEffort&) {
+  leave();
+}
+
+}  // namespace analytic::space
+
+namespace numeric {
+
+Mesh box_mesh(const BoxMesh&) { leave(); }
+Mesh rod_mesh(const RodMesh&) { leave(); }
+Mesh round_mesh(const RoundMesh&) { leave(); }
+Mesh read_gmsh(const std::string&, double, double) { leave(); }
+Surface read_stl(const std::string&, double) { leave(); }
+Surface boundary_surface(const Mesh&) { leave(); }
+MassProperties mass_properties(const Mesh&) { leave(); }
+MassProperties mass_properties(const Surface&, double) { leave(); }
+Body::Body(const MassProperties&, const Surface&, bool, const std::optional<SmoothShape>&) { leave(); }
+Eigen::Quaterniond attitude_of(const Drop&) { leave(); }
+MotionState on_ground(const Body&, MotionState) { leave(); }
+FirstTouch first_touch(const Body&, const MotionState&) { leave(); }
+
+}  // namespace numeric
+
+namespace validation {
+
+std::vector<Step> impact_steps(const Scene&, const analytic::space::Drop&, const analytic::space::Sequence&, int) {
+  leave();
+}
+
+}  // namespace validation
+}  // namespace clatter
