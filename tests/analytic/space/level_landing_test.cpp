@@ -24,7 +24,7 @@ using clatter::oracle::Random;
 using namespace clatter::analytic::space;
 namespace plane = clatter::analytic;
 
-constexpr int landings = 1000;
+constexpr int landings = CLATTER_TEST_SLOW_BUILD ? 100 : 1000;
 /// Some hundred roundings of a landing's speed.
 constexpr double tolerance = 1e-13;
 
