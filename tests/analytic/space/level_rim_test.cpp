@@ -13,7 +13,7 @@
 
 namespace {
 
-constexpr int scale = CLATTER_TEST_SLOW_BUILD ? 1 : 20;
+constexpr int scale = CLATTER_TEST_SLOW_BUILD ? 1 : 12;
 
 using clatter::analytic::FrictionKind;
 using clatter::analytic::Outcome;
