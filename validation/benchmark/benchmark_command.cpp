@@ -2,8 +2,6 @@
 // `clatter benchmark list|show|truth|score`: problems with certified answers, and others' answers to them.
 #include <fmt/format.h>
 
-#include <memory>
-
 #include "validation/benchmark/benchmark_report.hpp"
 #include "validation/benchmark/score_report.hpp"
 #include "validation/command/command.hpp"
@@ -96,35 +94,36 @@ int run_benchmark(const BenchmarkInput& input) {
 }  // namespace
 
 Command benchmark_command() {
-  auto input = std::make_shared<BenchmarkInput>();
-  Command command;
-  command.add({.name = "ACTION",
-               .target = &input->action,
-               .type = "list|show|truth|score",
-               .help = "name the problems, state one, its truth, or score files",
-               .required = true});
-  command.add({.name = "NAME", .target = &input->names, .type = "FILE", .help = "ID of a problem, or files to score"});
-  command.add(read_argument("--law", input->law, read_law, "LAW",
-                            "of truth: newton|poisson|stronge, then routh|moreau (newton routh)"));
-  command.add(read_argument("--columns", input->columns, read_column_names, "NAME=COLUMN,...",
-                            "what the files to score call their columns"));
-  command.add_text("--problem", input->problem, "ID", "of the files to score, in place of their lines # problem:");
-  command.add(read_argument("--require", input->require, read_requirement, "CLASS",
-                            "exact|sharp|good|coarse|incomplete, or a largest error of complete answers: exit status "
-                            "1 where a file does worse"));
-  add_output_options(command, input->output);
-  add_plot_options(command, input->plot);
-  command.footer =
-      "Example: clatter benchmark score rod-10.csv --require good\n"
-      "Files are CSV, t,x,z,phi,vx,vz,omega of the centre of mass (floor z = 0, phi and omega counter-clockwise), "
-      "in space t,x,y,z,q0,q1,q2,q3,vx,vy,vz,wx,wy,wz, or impacts t,place,Pn,Pt,V,Omega, in space "
-      "t,place,Px,Py,Pz,Vx,Vy,Vz,Wx,Wy,Wz (velocities after each, as clatter benchmark truth has them), after lines "
-      "# problem: ID, and as they apply # engine:, # version:, # step:, # settings:, # law:, "
-      "# Omega: clockwise|counter-clockwise (of lists), # ended: nothing approaches, # energy: J.\n"
-      "A list may have derivatives, too: dV/dangle, dt/drestitution and the like, per radian, of the angle, speed, "
-      "restitution, friction, in space the tilt; none where there is none, as at a fold.";
-  command.run = [input] { return run_benchmark(*input); };
-  return command;
+  return command_of<BenchmarkInput>(run_benchmark, [](Command& command, BenchmarkInput& input) {
+    command.add({.name = "ACTION",
+                 .target = &input.action,
+                 .type = "list|show|truth|score",
+                 .help = "name the problems, state one, its truth, or score files",
+                 .required = true});
+    command.add({.name = "NAME", .target = &input.names, .type = "FILE", .help = "ID of a problem, or files to score"});
+    command.add(read_argument("--law", input.law, read_law, "LAW",
+                              "of truth: newton|poisson|stronge, then routh|moreau (newton routh)"));
+    command.add(read_argument("--columns", input.columns, read_column_names, "NAME=COLUMN,...",
+                              "what the files to score call their columns"));
+    command.add_text("--problem", input.problem, "ID", "of the files to score, in place of their lines # problem:");
+    command.add(read_argument("--require", input.require, read_requirement, "CLASS",
+                              "exact|sharp|good|coarse|incomplete, or a largest error of complete answers: exit status "
+                              "1 where a file does worse"));
+    add_output_options(command, input.output);
+    add_plot_options(command, input.plot);
+    command.footer =
+        "Example: clatter benchmark score rod-10.csv --require good\n"
+        "Files are CSV, t,x,z,phi,vx,vz,omega of the centre of mass (floor z = 0, phi and omega counter-clockwise), "
+        "in space t,x,y,z,q0,q1,q2,q3,vx,vy,vz,wx,wy,wz, or impacts t,place,Pn,Pt,V,Omega, in space "
+        "t,place,Px,Py,Pz,Vx,Vy,Vz,Wx,Wy,Wz (velocities after each, as clatter benchmark truth has them), after lines "
+        "# problem: ID, and as they apply # engine:, # version:, # step:, # settings:, # law:, "
+        "# Omega: clockwise|counter-clockwise (of lists), # ended: nothing approaches, # energy: J.\n"
+        "A list may have derivatives, too: dV/dangle, dt/drestitution and the like, per radian, of the angle, speed, "
+        "restitution, friction, in space the tilt; none where there is none, as at a fold.";
+    command.columns = {{"benchmark-list", benchmark_list_columns},
+                       {"benchmark-truth", benchmark_truth_columns},
+                       {"benchmark-score", score_columns}};
+  });
 }
 
 }  // namespace clatter::validation

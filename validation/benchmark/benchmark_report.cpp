@@ -11,7 +11,6 @@
 #include "validation/benchmark/reference.hpp"
 #include "validation/output/number.hpp"
 #include "validation/run/scene_value.hpp"
-#include "validation/scene/body_properties.hpp"
 
 namespace clatter::validation {
 namespace {
@@ -306,9 +305,8 @@ Report benchmark_statement(const Problem& problem) {
   Report report = begun_report("benchmark", problem.id + ", " + problem.title);
   report.head = {fmt::format("problem: {}", problem.id), fmt::format("version: {}", problem.version),
                  "motivation: " + problem.motivation, "separates: " + problem.separates};
-  for (const std::vector<std::string>& lines : {data_lines(problem), sign_lines(problem), slope_lines(problem)}) {
+  for (const std::vector<std::string>& lines : {data_lines(problem), sign_lines(problem), slope_lines(problem)})
     report.head.insert(report.head.end(), lines.begin(), lines.end());
-  }
   for (const std::string& line :
        {law_words(problem), asked_words(problem), error_words(problem), "acceptance: " + problem.acceptance,
         "results: as text, t,x,z,phi,vx,vz,omega of the centre of mass (in space "
@@ -354,9 +352,7 @@ std::vector<std::string> ending_lines(const Problem& problem) {
   std::vector<std::string> lines;
   if (reference.is_planar) lines.emplace_back("Omega: clockwise");
   if (problem.until && !problem.energy_alone) lines.emplace_back("ended: nothing approaches");
-  if (problem.energy_alone) {
-    lines.push_back("energy: " + shortest(reference.last_energy(reference.sequences.front())));
-  }
+  if (problem.energy_alone) lines.push_back("energy: " + shortest(reference.last_energy(reference.sequences.front())));
   return lines;
 }
 

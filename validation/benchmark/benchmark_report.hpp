@@ -3,7 +3,7 @@
 #pragma once
 
 #include "analytic/space/body.hpp"
-#include "validation/benchmark/problem.hpp"
+#include "validation/benchmark/reference.hpp"
 #include "validation/output/report.hpp"
 
 namespace clatter::validation {

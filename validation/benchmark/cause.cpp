@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "validation/benchmark/cause.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "validation/output/number.hpp"
 
@@ -10,5 +14,361 @@ namespace clatter::validation {
 std::string three_digits(double value) { return significant(value, 3); }
 
 std::string misfit_words(double misfit) { return "to " + significant(std::fmax(misfit, 1e-16), 1); }
+
+namespace {
+
+namespace space = analytic::space;
+using space::State;
+using space::Vector3;
+
+constexpr double well_explained = 3;   ///< times the least misfit, within which another hypothesis is told as well
+constexpr double least_misfit = 1e-9;  ///< below it misfits do not decide between hypotheses
+
+/// The slope of b over a through the origin, by least squares, and the largest residual.
+Fitted slope_of(const std::vector<std::pair<double, double>>& points) {
+  double aa = 0, ab = 0;
+  for (const auto& [a, b] : points) aa += a * a, ab += a * b;
+  Fitted fit{ab / aa, 0};
+  for (const auto& [a, b] : points) fit.misfit = worse(fit.misfit, std::fabs(b - fit.value * a));
+  return fit;
+}
+
+/// A run that is right as far as it goes, and ends before the next impact.
+void add_cut_off(const Motion& motion, const ReferenceSequence& sequence, const Reference& reference,
+                 const Score& score, std::vector<Cause>& causes) {
+  if (!(score.found < score.expected)) return;
+  for (std::size_t i = 0; i < score.found; ++i) {
+    if (score.impacts[i].place != sequence.truth[i].place) return;
+  }
+  double left = worse(score.flight_error, score.start_error);
+  if (score.found > 0) left = worse(left, worse(score.law_error, score.motion_error()));
+  const std::size_t last = motion.size() - 1;
+  const double end = motion.time(last) - motion.first_touch(), next = sequence.truth[score.found].time;
+  if (!(left <= reference.tolerances[1]) || !(end <= next + motion.time(last) - motion.time(last - 1))) return;
+  causes.push_back({"cut-off", end, left,
+                    fmt::format("the run ends {} s after the first touch, before impact {} ({} s): what there is is "
+                                "right {}",
+                                significant(end, 3), score.found + 1, significant(next, 3), misfit_words(left))});
+}
+
+/// How high above the ground each impact is, and how late it is, if its point falls freely.
+struct Misses {
+  std::vector<double> heights, delays;
+
+  Misses(const Reference& reference, std::span<const FoundImpact> impacts) {
+    for (const FoundImpact& impact : impacts) {
+      if (impact.points.empty()) continue;
+      const Vector3 arm = reference.arms(impact.before.attitude)[static_cast<std::size_t>(impact.points.front())];
+      heights.push_back(impact.before.position.z() + arm.z());
+      const double speed = -(impact.before.velocity + impact.before.angular_velocity.cross(arm)).z();
+      const double square = speed * speed + 2 * reference.gravity * heights.back();  // at the ground
+      delays.push_back(-2 * heights.back() / (speed + std::sqrt(std::fmax(square, 0))));
+    }
+  }
+
+  /// Difference of the extremes over the larger of them.
+  static double spread(const std::vector<double>& values) {
+    const auto [low, high] = std::minmax_element(values.begin(), values.end());
+    return (*high - *low) / std::fmax(std::fabs(*high), std::fabs(*low));
+  }
+};
+
+/// Height of the lowest point where an impact is.
+double height_of(const Reference& reference, const FoundImpact& impact) {
+  const std::vector<Vector3> arms = reference.arms(impact.before.attitude);
+  return impact.before.position.z() + arms[lowest_of(arms)].z();
+}
+
+/// All of the motion above or below its place by one height: the rows less that height are right.
+void add_margin(const Answer& answer, const Reference& reference, const Score& score,
+                const std::vector<FoundImpact>& impacts, const Misses& misses, std::vector<Cause>& causes) {
+  if (impacts.empty() || reference.is_compliant) return;
+  // So high above the ground that no point explains the jump.
+  const bool is_far = impacts.front().points.empty();
+  const double height = is_far ? height_of(reference, impacts.front()) : misses.heights.front();
+  if (!(std::fabs(height) > 1e-5 * reference.reach())) return;
+  if (!is_far && !(Misses::spread(misses.heights) <= explained)) return;
+  const std::size_t z = answer.table.column("z").value();
+  const NumericTable lower = answer.table.changed([&](std::span<double> row) { row[z] -= height; });
+  const std::string law = score.law == "any" ? "" : score.law;
+  const double left = score_motion(Motion(lower, reference), reference, law, answer.ending).error();
+  if (!(left <= explained * std::fmin(score.error(), 1))) return;
+  causes.push_back({"margin", height, left,
+                    fmt::format("the body strikes {} m {} the ground: less that height all is right {}",
+                                three_digits(std::fabs(height)), height > 0 ? "above" : "below", misfit_words(left))});
+}
+
+/// Whether the velocities change over several steps, from the touch on, and the middle is so late; half of the time
+/// that contacts take.
+bool contacts_last(const Motion& motion, std::span<const FoundImpact> impacts, double delay) {
+  return std::all_of(impacts.begin(), impacts.end(), [&](const FoundImpact& impact) {
+    const double lasts = motion.time(impact.last_row) - motion.time(impact.first_row);
+    const auto steps = static_cast<double>(impact.last_row - impact.first_row);
+    return steps >= 2 && std::fabs(lasts - 2 * delay) <= 2 * lasts / steps;
+  });
+}
+
+/// Impacts that come late by one time.
+void add_delay(const Motion& motion, const Reference& reference, std::span<const FoundImpact> impacts,
+               const Misses& misses, std::vector<Cause>& causes) {
+  const std::vector<double>& delays = misses.delays;
+  if (delays.size() < 2 || !(std::fabs(misses.heights.front()) > 1e-5 * reference.reach())) return;
+  const double left = Misses::spread(delays);
+  if (!(left <= explained) || !(delays.front() > 0)) return;
+  if (contacts_last(motion, impacts, delays.front())) {
+    causes.push_back({"contact-time", 2 * delays.front(), left,
+                      fmt::format("its contacts take {} s: an impact counts in the middle, {} s after the touch, {}",
+                                  three_digits(2 * delays.front()), three_digits(delays.front()), misfit_words(left))});
+    return;
+  }
+  causes.push_back({"delay", delays.front(), left,
+                    fmt::format("each impact comes {} s late, {}", three_digits(delays.front()), misfit_words(left))});
+}
+
+/// Impacts at the touch that follow the law with the step's gravity added before them, or after.
+void add_booked_gravity(const Motion& motion, const Reference& reference, double left, std::vector<Cause>& causes) {
+  const double gravity = motion.step() * reference.pull().norm();
+  if (!(gravity > reference.tolerances[1] * reference.speed())) return;
+  causes.push_back({"time-step", motion.step(), left,
+                    fmt::format("impacts follow the law {} if the step's gravity, g·step = {} m/s, is added before "
+                                "or after them, in steps of {} s: the step explains the rest",
+                                misfit_words(left), three_digits(gravity), three_digits(motion.step()))});
+}
+
+/// Impacts that follow the law at the run's own poses, as a step of time has them: near the touch, not at it.
+/// @param flight_left the flight error, without what the step explains of it
+void add_time_step(const Motion& motion, const Reference& reference, const Score& score, double flight_left,
+                   const std::vector<FoundImpact>& impacts, std::vector<Cause>& causes) {
+  const double left = worse(score.law_error, flight_left);
+  const double most = std::fmin(explained * score.motion_error(), reference.tolerances[2]);
+  if (reference.is_compliant || !score.order_is_right || impacts.empty() || !(left <= most)) return;
+  double latest = 0, longest = 0;
+  for (const FoundImpact& impact : impacts) {
+    const Vector3 arm = reference.arms(impact.before.attitude)[static_cast<std::size_t>(impact.points.front())];
+    const double approach = -(impact.before.velocity + impact.before.angular_velocity.cross(arm)).z();
+    const double step = motion.time(impact.last_row) - motion.time(impact.first_row);
+    const double delay = std::fabs((impact.before.position.z() + arm.z()) / approach);
+    if (!(delay <= 2 * step)) return;
+    latest = std::fmax(latest, delay), longest = std::fmax(longest, step);
+  }
+  if (!(latest > 1e-3 * longest)) {
+    add_booked_gravity(motion, reference, left, causes);
+    return;
+  }
+  causes.push_back(
+      {"time-step", latest, left,
+       fmt::format("impacts follow the law {} at the steps' own poses, up to {} s from the touch, in steps "
+                   "of {} s: the step explains the rest",
+                   misfit_words(left), three_digits(latest), three_digits(longest))});
+}
+
+/// Rows beside a motion that is right without them.
+std::vector<Cause> stray_rows_of(const Answer& answer, const Motion& motion, const Reference& reference,
+                                 const Score& score) {
+  constexpr std::size_t few_rows = 6;
+  if (!score.stray) return {};
+  const Stray& stray = *score.stray;
+  const std::string law = score.law == "any" ? "" : score.law;
+  for (const auto& [from, to] : stray.alone) {
+    const std::size_t first = motion.table_row(from), last = motion.table_row(to);
+    if (motion.size() < few_rows + last - first) continue;
+    const Motion rest(answer.table.without(first, last), reference);
+    const double left = score_motion(rest, reference, law, answer.ending).error();
+    if (!(left <= explained * std::fmin(score.error(), 1))) continue;
+    const std::size_t line = answer.table.line(first), end = answer.table.line(last);
+    const std::string words =
+        first == last ? fmt::format("line {}: {} off the flight between its neighbours, without it", line, stray.size)
+                      : fmt::format("lines {} to {}: {} off the flight between their neighbours, without them", line,
+                                    end, stray.size);
+    return {{"stray-rows", {}, left, fmt::format("{} all is right {}", words, misfit_words(left))}};
+  }
+  return {};
+}
+
+/// Impulses of a list that are those of another mass than its velocities.
+void add_mass(const Reference& reference, const std::vector<FoundImpact>& impacts, std::vector<Cause>& causes) {
+  std::vector<std::pair<double, double>> points;
+  double error = 0, largest = 0;
+  for (const FoundImpact& impact : impacts) {
+    const double change = reference.body.mass * (impact.after.velocity.z() - impact.before.velocity.z());
+    points.emplace_back(change, impact.impulse.z());
+    error = worse(error, std::fabs(impact.impulse.z() - change));
+    largest = std::fmax(largest, std::fabs(change));
+  }
+  if (points.empty() || !(error > reference.tolerances[1] * largest)) return;
+  const Fitted fit = slope_of(points);
+  if (!(fit.misfit <= explained * error)) return;
+  causes.push_back({"mass", fit.value * reference.body.mass, fit.misfit / largest,
+                    fmt::format("a mass of {} kg ({} kg is asked) explains the impulses beside the velocities {}",
+                                three_digits(fit.value * reference.body.mass), shortest(reference.body.mass),
+                                misfit_words(fit.misfit / largest))});
+}
+
+/// The best, and another that is as good.
+std::vector<Cause> chosen(std::vector<Cause> causes) {
+  std::stable_sort(causes.begin(), causes.end(), [](const Cause& a, const Cause& b) {
+    return std::fmax(a.misfit, least_misfit) < std::fmax(b.misfit, least_misfit);
+  });
+  if (causes.empty()) return causes;
+  const double most = well_explained * std::fmax(causes.front().misfit, least_misfit);
+  std::erase_if(causes, [&](const Cause& cause) { return !(cause.misfit <= most); });
+  if (causes.size() > 2) causes.resize(2);
+  return causes;
+}
+
+/// Whether a code resolves the instants of its impacts: most of those that do not begin in a row, where nobody knows.
+bool resolves_instants(const std::vector<FoundImpact>& impacts) {
+  std::ptrdiff_t balance = 0;
+  for (const FoundImpact& impact : impacts) {
+    if (!impact.begins_in_a_row) balance += impact.is_resolved ? 1 : -1;
+  }
+  return balance > 0;
+}
+
+/// Beside what is wrong; before the step, which then explains the rest.
+void add_first_order(const Cause& first_order, std::vector<Cause>& causes) {
+  const bool is_first = causes.empty() || causes.front().name == "time-step";
+  causes.insert(is_first ? causes.begin() : causes.end(), first_order);
+  if (causes.size() > 1) causes.back().is_more = true;
+}
+
+/// What the columns of a run mean in place of what they should.
+std::vector<Cause> readings_of(const Answer& answer, const Motion& motion, const Reference& reference,
+                               const Score& score) {
+  constexpr std::size_t most_rows = 100'000;
+  std::vector<Cause> causes;
+  const bool is_strange =
+      score.start_error > 1e-2 || score.flight_error > 1e-2 || score.law_error > 2e-2 || !(score.motion_error() <= 0.5);
+  if (answer.table.rows() <= most_rows) {
+    if (is_strange) causes = misreadings_of(answer, reference, score);
+    if (causes.empty()) causes = late_velocities_of(answer, reference, score);
+  }
+  const auto is_sharp = [&](const Cause& cause) { return cause.misfit <= reference.tolerances[1]; };
+  // A reading that leaves much may be right by chance, in a run that hardly moves.
+  if (std::none_of(causes.begin(), causes.end(), is_sharp)) {
+    if (auto scale = velocity_scale_of(motion, reference)) causes.push_back(std::move(*scale));
+  }
+  return causes;
+}
+
+std::vector<Cause> causes_of_list(const Answer& answer, const Reference& reference, const ReferenceSequence& sequence,
+                                  const Score& score) {
+  std::vector<Cause> causes = misreadings_of(answer, reference, score);
+  if (!causes.empty()) return chosen(std::move(causes));
+  const std::vector<FoundImpact> impacts = listed_impacts(answer.table, reference, answer.is_counter_clockwise);
+  causes = impact_causes_of(reference, sequence.law, impacts, 0);
+  add_mass(reference, impacts, causes);
+  return chosen(std::move(causes));
+}
+
+/// What a motion is diagnosed by.
+struct Diagnosed {
+  const Answer& answer;
+  const Motion& motion;
+  const Reference& reference;
+  const ReferenceSequence& sequence;
+  const Score& score;
+  std::vector<FoundImpact> impacts;    ///< of the problem
+  std::optional<Cause> first_order{};  ///< the step that makes the flight error
+  double flight_left = 0;              ///< flight error without that
+
+  Diagnosed(const Answer& rows, const Motion& moved, const Reference& asked, const ReferenceSequence& by,
+            const Score& scored)
+      : answer(rows), motion(moved), reference(asked), sequence(by), score(scored), impacts(impacts_of(moved, asked)),
+        first_order(first_order_step_of(moved, asked, by, impacts, scored.flight_error)),
+        flight_left(first_order ? first_order->misfit : scored.flight_error) {
+    if (asked.stays()) impacts.resize(std::min(impacts.size(), by.truth.size()));  // the rest is not asked for
+  }
+
+  /// The impacts that the problem asks for.
+  [[nodiscard]] std::span<const FoundImpact> asked() const {
+    return std::span(impacts).first(std::min(impacts.size(), sequence.truth.size()));
+  }
+
+  /// g × step of a code that does not resolve the instants of its impacts, otherwise 0 [m/s].
+  [[nodiscard]] double gravity_of_step() const {
+    const bool is_exact = !first_order && resolves_instants(impacts);
+    return is_exact ? 0 : motion.step() * reference.pull().norm();
+  }
+
+  /// The largest law error that the step does not make.
+  [[nodiscard]] double law_left() const {
+    double left = 0;
+    for (const FoundImpact& impact : impacts) {
+      const double error = law_error(reference, sequence.law, impact);
+      if (!(error <= 2 * law_error_of_speed(reference, impact, gravity_of_step()))) left = worse(left, error);
+    }
+    return left;
+  }
+};
+
+/// Another start, where the rest follows from it.
+std::vector<Cause> causes_at_start(const Diagnosed& run) {
+  if (run.impacts.empty()) return {};
+  return start_causes_of(run.motion, run.reference, worse(run.flight_left, run.law_left()));
+}
+
+/// Another place, size or start of the body, or rows that end too early.
+std::vector<Cause> causes_of_scene(const Diagnosed& run, const Misses& misses) {
+  std::vector<Cause> causes;
+  add_margin(run.answer, run.reference, run.score, run.impacts, misses, causes);
+  if (causes.empty() && !run.impacts.empty())
+    causes = size_causes_of(run.motion, run.reference, run.sequence.law, run.impacts.front(), run.law_left());
+  if (!causes.empty()) return chosen(std::move(causes));
+  causes = causes_at_start(run);
+  if (causes.empty()) add_cut_off(run.motion, run.sequence, run.reference, run.score, causes);
+  return causes;
+}
+
+/// Another law, body or delay of the impacts, or the steps of the code.
+std::vector<Cause> causes_of_impacts(const Diagnosed& run, const Misses& misses) {
+  constexpr double free_flight = 1e-2;  // beyond, states before impacts are not those of the run
+  const auto& impacts = run.impacts;
+  std::vector<Cause> causes;
+  if (run.flight_left <= free_flight)
+    causes = impact_causes_of(run.reference, run.sequence.law, impacts, run.gravity_of_step());
+  if (causes.empty() && !impacts.empty() && impacts.front().points.empty())
+    causes = far_body_causes_of(run.answer, run.reference, run.sequence.law, impacts);
+  if (causes.empty()) add_delay(run.motion, run.reference, run.asked(), misses, causes);
+  if (causes.empty()) add_time_step(run.motion, run.reference, run.score, run.flight_left, impacts, causes);
+  causes = chosen(std::move(causes));
+  const bool is_alone = causes.empty();  // then it must be able to be all that is wrong
+  const double most = run.reference.tolerances[2];
+  if (run.first_order && (!is_alone || (run.law_left() <= most && run.score.start_error <= most)))
+    add_first_order(*run.first_order, causes);
+  return causes;
+}
+
+}  // namespace
+
+std::vector<Cause> causes_of(const Answer& answer, const Reference& reference, const Score& score) {
+  const auto sequence = std::find_if(reference.sequences.begin(), reference.sequences.end(),
+                                     [&](const ReferenceSequence& one) { return one.law.name == score.law; });
+  if (sequence == reference.sequences.end()) return {};
+  if (answer.is_list) return causes_of_list(answer, reference, *sequence, score);
+  const Motion motion(answer.table, reference);
+  std::vector<Cause> causes = stray_rows_of(answer, motion, reference, score);
+  if (!causes.empty()) {
+    // About a single impact a row with the velocities of the one before is beside the flights, too.
+    for (Cause& late : late_velocities_of(answer, reference, score)) causes.push_back(std::move(late));
+    return chosen(std::move(causes));
+  }
+  causes = chosen(readings_of(answer, motion, reference, score));
+  const auto is_mirrored = [](const Cause& one) { return one.name == "phi-sign" || one.name == "left-right"; };
+  if (!causes.empty() && !std::any_of(causes.begin(), causes.end(), is_mirrored)) return causes;
+  const Diagnosed run(answer, motion, reference, *sequence, score);
+  if (!causes.empty()) {  // a body that starts with phi of the other sign is its own mirror image
+    for (Cause& cause : causes_at_start(run)) {
+      if (cause.name == "start-angle") causes.push_back(std::move(cause));
+    }
+    return causes;
+  }
+  // After one impact alone a wrong start and a wrong impact look alike.
+  if (motion.begins_after_touch() && sequence->truth.size() == 1) return {};
+  const Misses misses(reference, run.asked());
+  causes = causes_of_scene(run, misses);
+  if (causes.empty()) causes = chosen(flight_causes_of(motion, reference));
+  return !causes.empty() ? causes : causes_of_impacts(run, misses);
+}
 
 }  // namespace clatter::validation

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "validation/benchmark/motion.hpp"
 #include "validation/benchmark/score.hpp"
 
 namespace clatter::validation {
@@ -40,5 +41,79 @@ struct Fitted {
 
 /// "to 2e-16": the misfit of a hypothesis, for its words.
 [[nodiscard]] std::string misfit_words(double misfit);
+
+// What explains a run that starts, or is built, in another way than the problem says.
+
+/// Which part of the state at the start is another one: angle, spin or speed, or an angle in degrees.
+/// @param left_after what flights and impacts after it leave
+[[nodiscard]] std::vector<Cause> start_causes_of(const Motion& motion, const Reference& reference, double left_after);
+
+/// Another length, thickness or radius of a planar body whose centre lies in its middle, by the height of its centre at
+/// the first impact, if a step does not explain that; the moment of inertia is that of this size or the one asked for.
+/// @param law_left law error of the impacts by the body asked for, which the size must explain
+[[nodiscard]] std::vector<Cause> size_causes_of(const Motion& motion, const Reference& reference,
+                                                const DeclaredLaw& law, const FoundImpact& first, double law_left);
+
+// What the steps of a foreign run say of the forces that act in flight.
+
+/// Velocities k times those with which the places change, if one k explains at least three quarters of the run's steps:
+///     Δx = v Δt / k                                                                                  (1)
+/// where v is the mean over the step.  Nothing for |1 − 1/k| ≤ 0.01.
+[[nodiscard]] std::optional<Cause> velocity_scale_of(const Motion& motion, const Reference& reference);
+
+/// Whether places and attitudes change as velocities and spin say, (1), for most of the steps.
+[[nodiscard]] bool moves_by_its_velocities(const Motion& motion, const Reference& reference);
+
+/// Another gravity, or damping of the velocity, of the spin or of both, if one of them explains at least three quarters
+/// of the run's steps.  From the step of Δt between two rows, with the means v and L of velocity and angular momentum:
+///     g = −ΔV_z/Δt,     c v Δt = −(ΔV + g Δt z),     d L Δt = −ΔL                                    (2)
+/// each by the median over the steps, so that those with an impact do not count.  In space also an angular velocity
+/// that stays constant, as of codes without the gyroscopic term.  Where an impact lasts many rows the body lies, rocks
+/// or slides on the ground, and these say nothing of flight.
+[[nodiscard]] std::vector<Cause> flight_causes_of(const Motion& motion, const Reference& reference);
+
+/// A step of first order Δt, by whose velocities the places run ahead of free flight's or fall behind by
+///     ±g Δt/2                                                                                        (3)
+/// after each impact anew: + of the velocities at the step's end (semi-implicit Euler), − at its begin.  Its misfit is
+/// the flight error that is left.
+/// @param impacts all of the motion
+[[nodiscard]] std::optional<Cause> first_order_step_of(const Motion& motion, const Reference& reference,
+                                                       const ReferenceSequence& sequence,
+                                                       const std::vector<FoundImpact>& impacts, double flight_error);
+
+// Rows of a foreign run that are right when read otherwise.
+
+/// The ways to read an answer's rows by which all of it is right: other signs, axes, units and frames, and of a list
+/// other ends.
+[[nodiscard]] std::vector<Cause> misreadings_of(const Answer& answer, const Reference& reference, const Score& score);
+/// Velocities that are those of the row before, if all is right with those of the next.
+[[nodiscard]] std::vector<Cause> late_velocities_of(const Answer& answer, const Reference& reference,
+                                                    const Score& score);
+
+// What explains impacts that do not follow the law: hypotheses with one number each, fitted to all of them.
+
+/// Restitution, friction, another law, inertia, levers, a restitution that is left out for slow contacts or acts at the
+/// centre of mass, each by the exact map at the run's own state before an impact (Score::law).
+/// @param gravity_of_step g × step of a code that does not resolve the instants, otherwise 0 [m/s]: errors that it
+/// makes
+///        are no evidence
+[[nodiscard]] std::vector<Cause> impact_causes_of(const Reference& reference, const DeclaredLaw& law,
+                                                  const std::vector<FoundImpact>& impacts, double gravity_of_step);
+
+/// An inertia or levers so far off that no point of the body explains the jumps.
+/// @pre the first of the impacts has no points
+[[nodiscard]] std::vector<Cause> far_body_causes_of(const Answer& answer, const Reference& reference,
+                                                    const DeclaredLaw& law, const std::vector<FoundImpact>& impacts);
+
+// What may have gone wrong in a foreign run: hypotheses with one number each, fitted to the run's own impacts and
+// flights, or to the rows as they were written.
+
+/// The one or two hypotheses that explain a run that fails; none where all leave more than a twentieth of the error.
+///
+/// Each impact is judged by the exact map at the run's own state before it (Score::law): restitution, friction,
+/// inertia, lever and a restitution that is left out for slow contacts.  The flights tell gravity and damping; the
+/// first touch angle, spin and speed; the pose at impacts a margin above the ground and a delay; the rows signs, axes,
+/// units and frames; lists mass, ends and the sense of Omega.
+[[nodiscard]] std::vector<Cause> causes_of(const Answer& answer, const Reference& reference, const Score& score);
 
 }  // namespace clatter::validation

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "validation/benchmark/flight_cause.hpp"
+#include "validation/benchmark/cause.hpp"
 
 #include <fmt/format.h>
 

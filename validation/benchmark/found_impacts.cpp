@@ -224,9 +224,7 @@ class Step {
 
   [[nodiscard]] std::vector<StepImpulse> both(const Two& two) const {
     const double level = height_between(two.first);
-    if (std::fabs(level - height_between(two.second)) <= together * reference_.reach()) {
-      return {whole(at_level(level))};
-    }
+    if (std::fabs(level - height_between(two.second)) <= together * reference_.reach()) return {whole(at_level(level))};
     const State before = flight_.at(two.first_time);
     const Vector3 first = two.share * jump_.impulse, second = jump_.impulse - first;
     const State after = reference_.struck(before, two.first, first);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "validation/benchmark/impact_cause.hpp"
+#include "validation/benchmark/cause.hpp"
 
 #include <fmt/format.h>
 
@@ -236,9 +236,8 @@ class ImpactCauses {
     const Fitted fit = least_of(0, 2, [&](double value) { return misfit(coulomb, value, broken_); });
     const std::string words = fit.value <= 1e-6 ? "no friction" : fmt::format("friction {}", three_digits(fit.value));
     const std::size_t before = causes_.size();
-    if (broken_.size() == impacts_.size() || !(misfit(coulomb, fit.value, all()) > explained * worst_)) {
+    if (broken_.size() == impacts_.size() || !(misfit(coulomb, fit.value, all()) > explained * worst_))
       keep("friction", fit, fmt::format("{} ({} is asked) explains {}", words, shortest(asked), which()));
-    }
     if (causes_.size() > before || add_friction_that_pushes(asked) || !reference_.is_planar) return;
     const Change ratio = [](Reference&, DeclaredLaw& law, double value) {
       law.is_moreau = false;

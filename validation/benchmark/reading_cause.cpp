@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "validation/benchmark/reading_cause.hpp"
+#include "validation/benchmark/cause.hpp"
 
 #include <fmt/format.h>
 
@@ -11,8 +11,6 @@
 #include <span>
 #include <stdexcept>
 #include <utility>
-
-#include "validation/benchmark/flight_cause.hpp"
 
 namespace clatter::validation {
 namespace {
@@ -49,9 +47,8 @@ void scalar_first(const NumericTable& table, std::span<double> row) {
 }
 
 void exchange_axes(const NumericTable& table, std::span<double> row) {
-  for (const auto& [x, z] : {std::pair{"x", "z"}, std::pair{"vx", "vz"}}) {
+  for (const auto& [x, z] : {std::pair{"x", "z"}, std::pair{"vx", "vz"}})
     std::swap(row[table.column(x).value()], row[table.column(z).value()]);
-  }
 }
 
 void from_y_up(const NumericTable& table, std::span<double> row) {
@@ -152,9 +149,8 @@ class ReadingCauses {
         error_(score.error()) {}
 
   void of_motion() {
-    for (const Reading& reading : table_.column("q0") ? space_readings() : planar_readings()) {
+    for (const Reading& reading : table_.column("q0") ? space_readings() : planar_readings())
       add(reading, [&] { return score_as(reading); });
-    }
     if (causes_.empty()) of_other_points();
   }
 
@@ -174,9 +170,8 @@ class ReadingCauses {
   }
 
   void of_list() {
-    for (const Reading& reading : list_readings()) {
+    for (const Reading& reading : list_readings())
       add(reading, [&] { return score_list(impacts(changed(reading)), reference_, law_, answer_.ending); });
-    }
     of_velocities_before();
     if (!reference_.is_planar || reference_.points.size() != 2) return;
     add({"ends-exchanged", "the ends are exchanged", {}}, [&] {

@@ -13,10 +13,149 @@
 #include "analytic/space/point_height.hpp"
 #include "analytic/space/sequence.hpp"
 #include "analytic/space/simultaneous.hpp"
+#include "validation/embedded/embedded.hpp"
 #include "validation/output/bad_input.hpp"
 #include "validation/output/number.hpp"
+#include "validation/output/numeric_table.hpp"
+#include "validation/scene/keys.hpp"
 
 namespace clatter::validation {
+namespace {
+
+const std::string folder = "validation/benchmark/problems/";
+const std::vector<std::string> texts{"id", "title", "class", "motivation", "separates", "acceptance"};
+const std::vector<std::string> numbers{"t",  "Px", "Py", "Pz", "Vx",       "Vy",
+                                       "Vz", "Wx", "Wy", "Wz", "duration", "uncertainty"};
+
+std::vector<std::string> known_keys() {
+  std::vector<std::string> keys = scene_keys();
+  for (const std::string& text : texts) keys.push_back("problem." + text);
+  for (const char* key : {"version", "gaps", "until", "tolerances", "energy_alone", "at_rest", "end_energy",
+                          "ground_end", "laws_agree"}) {
+    keys.push_back(std::string("problem.") + key);
+  }
+  return keys;
+}
+
+Problem read_problem(const EmbeddedFile& file) {
+  constexpr Range positive{0, 1e9, false, "at least 0"};
+  const std::string path(file.name);
+  const SceneValues values(path, file.text, known_keys());
+  Problem problem;
+  problem.id = values.text("problem.id");
+  problem.version = static_cast<int>(values.integer("problem.version", 1, 1, 1000));
+  problem.title = values.text("problem.title");
+  problem.motivation = values.text("problem.motivation");
+  problem.separates = values.text("problem.separates");
+  problem.acceptance = values.text("problem.acceptance");
+  problem.is_compliant = values.text("problem.class") == "compliant";
+  problem.energy_alone = values.truth("problem.energy_alone", false);
+  problem.at_rest = values.truth("problem.at_rest", false);
+  constexpr Range finite{-1e9, 1e9, false, "finite"};
+  if (values.has("problem.end_energy")) problem.end_energy = values.number("problem.end_energy", 0, finite);
+  if (values.has("problem.ground_end")) problem.ground_end = values.number("problem.ground_end", 0, finite);
+  problem.gaps = values.numbers("problem.gaps", {1, 2, 3, 4, 5, 6, 7, 8}, positive, "heights in m");
+  problem.tolerances = values.numbers("problem.tolerances", {4}, positive, "four errors");
+  if (values.has("problem.until")) problem.until = values.number("problem.until", 0, positive);
+  problem.scene = read_discrete_scene(values, {}).scene;
+  problem.scene_text = file.text.substr(file.text.find("[drop]"));
+  return problem;
+}
+
+const NumericTable& truth_table() {
+  static const NumericTable table = NumericTable::parse(
+      "validation/benchmark/truth.csv", std::string(embedded_text("validation/benchmark/truth.csv")),
+      {.required = numbers, .optional = {"n"}, .words = {"problem", "law", "place"}, .names = {}});
+  return table;
+}
+
+std::vector<std::size_t> rows_of(const Problem& problem, const std::string& law) {
+  std::vector<std::size_t> rows;
+  for (std::size_t i = 0; i < truth_table().rows(); ++i) {
+    if (truth_table().word(i, "problem") == problem.id && truth_table().word(i, "law") == law) rows.push_back(i);
+  }
+  return rows;
+}
+
+}  // namespace
+
+const std::vector<Problem>& benchmark_problems() {
+  static const std::vector<Problem> problems = [] {
+    std::vector<Problem> all;
+    for (const EmbeddedFile& file : embedded_files()) {
+      if (file.name.starts_with(folder)) all.push_back(read_problem(file));
+    }
+    std::sort(all.begin(), all.end(), [](const Problem& a, const Problem& b) { return a.id < b.id; });
+    return all;
+  }();
+  return problems;
+}
+
+const Problem& problem_named(const std::string& where, const std::string& id) {
+  std::vector<std::string> ids;
+  for (const Problem& problem : benchmark_problems()) {
+    if (problem.id == id) return problem;
+    ids.push_back(problem.id);
+  }
+  std::string printable = id.substr(0, 40);
+  for (char& c : printable) c = c < ' ' || c > '~' ? '?' : c;
+  throw BadInput(fmt::format("{}: no problem {}; did you mean {}?", where, printable.empty() ? "(empty)" : printable,
+                             nearest_name(id, ids)));
+}
+
+std::vector<std::string> truth_laws(const Problem& problem) {
+  std::vector<std::string> laws;
+  for (std::size_t i = 0; i < truth_table().rows(); ++i) {
+    const std::string& law = truth_table().word(i, "law");
+    if (truth_table().word(i, "problem") != problem.id) continue;
+    if (std::find(laws.begin(), laws.end(), law) == laws.end()) laws.push_back(law);
+  }
+  return laws;
+}
+
+std::vector<TruthRow> truth_of(const Problem& problem, const std::string& law) {
+  std::vector<TruthRow> rows;
+  const NumericTable& table = truth_table();
+  const auto number = [&](std::size_t row, const char* name) { return table.at(row, table.column(name).value()); };
+  for (const std::size_t i : rows_of(problem, law)) {
+    rows.push_back({.place = table.word(i, "place"),
+                    .time = number(i, "t"),
+                    .duration = number(i, "duration"),
+                    .impulse = {number(i, "Px"), number(i, "Py"), number(i, "Pz")},
+                    .velocity = {number(i, "Vx"), number(i, "Vy"), number(i, "Vz")},
+                    .angular_velocity = {number(i, "Wx"), number(i, "Wy"), number(i, "Wz")},
+                    .uncertainty = number(i, "uncertainty")});
+  }
+  return rows;
+}
+
+std::vector<std::vector<std::string>> truth_digits(const Problem& problem, const std::string& law) {
+  std::vector<std::vector<std::string>> all;
+  const NumericTable& table = truth_table();
+  for (const std::size_t i : rows_of(problem, law)) {
+    std::vector<std::string>& row = all.emplace_back();
+    for (std::size_t k = 0; k + 1 < numbers.size(); ++k) row.push_back(table.field(i, numbers[k]));
+  }
+  return all;
+}
+
+std::string oracle_of(const Problem& problem) {
+  if (problem.is_compliant)
+    return "50-digit arithmetic: exact integrals of the pressure, Taylor series in time; second route: the simulator";
+  if (problem.scene.body.is_round())
+    return "50-digit arithmetic: closed forms of a ball's impact and flight; second route: the discrete model in space";
+  if (truth_of(problem, truth_laws(problem).front()).front().place.find(' ') != std::string::npos) {
+    return "50-digit arithmetic: closed forms of a level landing that friction stops; second route: the discrete model "
+           "in space";
+  }
+  if (problem.scene.has_vectors()) {
+    return "50-digit arithmetic: impulses from the 3 x 3 inverse contact inertia, Taylor series of flights and slip; "
+           "second route: closed forms of the discrete model";
+  }
+  return "50-digit arithmetic: Eq. 8 piece by piece, roots of the height with a bound on its curvature; second route: "
+         "the discrete model";
+}
+
 namespace {
 
 namespace space = analytic::space;
@@ -51,9 +190,8 @@ space::Body in_space(const analytic::PlanarBody& planar) {
 void set_planar(Reference& reference, const analytic::Drop& drop) {
   reference.body = in_space(drop.body);
   reference.principal = space::PrincipalAxes(reference.body.inertia);
-  for (int i = 0; i < drop.body.vertex_count; ++i) {
+  for (int i = 0; i < drop.body.vertex_count; ++i)
     reference.points.push_back(analytic::PlanarBody::vertex_set_name(static_cast<analytic::VertexSet>(1 << i)));
-  }
   const double half = drop.inclination.radians / 2;
   reference.start.attitude = space::Quaternion(std::cos(half), 0, -std::sin(half), 0);
   reference.start.velocity = {drop.velocity.tangential, 0, drop.velocity.normal};
@@ -66,9 +204,8 @@ void set_space(Reference& reference, const Scene& scene, const space::Drop& drop
   reference.is_planar = false;
   reference.body = drop.body;
   reference.principal = space::PrincipalAxes(drop.body.inertia);
-  for (std::size_t i = 0; i < drop.body.vertices.size(); ++i) {
+  for (std::size_t i = 0; i < drop.body.vertices.size(); ++i)
     reference.points.push_back(corner_name(scene, {static_cast<int>(i), drop.body.vertices[i]}));
-  }
   for (const space::Rim& rim : drop.body.rims) reference.points.push_back(corner_name(scene, {0, rim.centre}));
   for (const auto& [centre, axes] : drop.body.ellipsoids) reference.points.push_back(corner_name(scene, {0, centre}));
   reference.start.attitude = drop.attitude.normalized();
@@ -169,9 +306,8 @@ Vector3 moreau_impulse(const Matrix3& w, const Vector3& v, const analytic::Impac
   // In the plane the direction is exactly 0 or π.
   for (const double angle : {0.0, std::numbers::pi}) {
     const Slip slip = slip_along(angle, w, v, law);
-    if (std::fabs(slip.across) <= 1e-15 * v.norm() && goes_along(slip, angle)) {
+    if (std::fabs(slip.across) <= 1e-15 * v.norm() && goes_along(slip, angle))
       return {slip.impulse.x(), 0, slip.impulse.z()};
-    }
   }
   for (int i = 0; i < parts; ++i) {
     double low = i * part, high = (i + 1) * part;
@@ -275,9 +411,8 @@ std::optional<std::vector<int>> Reference::place_named(const std::string& place)
 
 space::Corner Reference::corner(const space::Quaternion& attitude, int point) const {
   const auto rim = static_cast<std::size_t>(point) - body.vertices.size();
-  if (rim < body.rims.size() && steepness(body, attitude, point) <= level_slope) {
+  if (rim < body.rims.size() && steepness(body, attitude, point) <= level_slope)
     return {.index = point, .place = body.rims[rim].centre, .radius = body.rims[rim].radius};
-  }
   return touching_corner(body, attitude, point);
 }
 
@@ -291,9 +426,8 @@ std::vector<Vector3> Reference::arms(const space::Quaternion& attitude) const {
   std::vector<Vector3> arms;
   arms.reserve(points.size());
   for (const Vector3& vertex : body.vertices) arms.emplace_back(turned * vertex);
-  for (int i = static_cast<int>(arms.size()); i < body.points(); ++i) {
+  for (int i = static_cast<int>(arms.size()); i < body.points(); ++i)
     arms.emplace_back(turned * corner(attitude, i).place);
-  }
   return arms;
 }
 
@@ -314,9 +448,8 @@ Reference::Release Reference::release(double gap) const {
   };
   double low = 0, high = gap / speed();
   for (int i = 0; i < 60 && height(high) < gap; ++i) high *= 1.25;
-  if (!(height(high) >= gap)) {
+  if (!(height(high) >= gap))
     throw BadInput(fmt::format("gap {}: the drop does not come from so high above the ground", shortest(gap)));
-  }
   for (int i = 0; i < 200 && low < high; ++i) {
     const double middle = low + (high - low) / 2;
     if (middle <= low || middle >= high) break;
@@ -332,13 +465,9 @@ Reference reference_of(const Problem& problem) {
                       .at_rest = problem.at_rest,
                       .end_energy = problem.end_energy,
                       .ground_ends = problem.ground_end.has_value(),
-                      .body = {},
-                      .points = {},
-                      .start = {},
                       .tolerances = problem.tolerances,
                       .gaps = problem.gaps,
-                      .until = problem.until,
-                      .sequences = {}};
+                      .until = problem.until};
   reference.drop = discrete_drop(problem.scene);
   if (auto* planar = std::get_if<analytic::Drop>(&reference.drop)) {
     if (problem.ground_end) planar->body.vertices[1].x = *problem.ground_end;  // in place of b, which is over none
@@ -356,12 +485,7 @@ Reference reference_of(const Problem& problem) {
 }
 
 Reference reference_of(const Scene& scene) {
-  Reference reference{.name = scene.path.empty() ? "the scene" : scene.path,
-                      .body = {},
-                      .points = {},
-                      .start = {},
-                      .until = {},
-                      .sequences = {}};
+  Reference reference{.name = scene.path.empty() ? "the scene" : scene.path};
   const int impacts = scene.request.impacts;
   ReferenceSequence sequence;
   reference.drop = discrete_drop(scene);
@@ -393,9 +517,8 @@ State exact_map(const Reference& reference, const DeclaredLaw& law, const State&
   const std::vector<Vector3> arms = reference.arms(before.attitude);
   std::vector<space::Corner> corners;
   for (const int point : points) corners.push_back(reference.corner(before.attitude, point));
-  if (law.is_moreau && points.size() == 1) {
+  if (law.is_moreau && points.size() == 1)
     return moreau_map(reference, law.law.law, before, arms[static_cast<std::size_t>(points.front())]);
-  }
   if (reference.is_planar && points.size() == 2) {
     const auto arm = [&](int point) { return arms[static_cast<std::size_t>(point)]; };
     if (const auto flat = flat_map(reference, law.law.law, before, arm(points[0]), arm(points[1]))) return *flat;

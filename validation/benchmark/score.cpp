@@ -7,8 +7,8 @@
 #include <cmath>
 #include <exception>
 
+#include "validation/benchmark/motion.hpp"
 #include "validation/benchmark/reference.hpp"
-#include "validation/benchmark/start.hpp"
 #include "validation/output/number.hpp"
 
 namespace clatter::validation {
@@ -95,9 +95,8 @@ Score score_impacts(const std::vector<FoundImpact>& impacts, const Reference& re
   Score score{.law = sequence.law.name, .expected = sequence.truth.size()};
   const Sizes sizes = sizes_of(reference, sequence);
   std::size_t kept = score.expected;
-  if (impacts.size() > kept && reference.until && !reference.energy_alone && impacts[kept].time < *reference.until) {
+  if (impacts.size() > kept && reference.until && !reference.energy_alone && impacts[kept].time < *reference.until)
     ++kept;
-  }
   for (std::size_t i = 0; i < std::min(kept, impacts.size()); ++i) {
     score.impacts.push_back(impact_score(reference, sequence, impacts[i], i));
     const ImpactScore& one = score.impacts.back();
@@ -212,9 +211,8 @@ ImpactSearch search_for(const Reference& reference) {
       .rounding = (reference.is_compliant ? 1e-3 : 1.0) * float_rounding * reference.body.mass * reference.speed(),
       .most = reference.sequences.front().truth.size() + 1};
   for (const ReferenceSequence& sequence : reference.sequences) {
-    for (const TruthRow& row : sequence.truth) {
+    for (const TruthRow& row : sequence.truth)
       search.least_impulse = std::fmin(search.least_impulse, least_share * row.impulse.norm());
-    }
   }
   return search;
 }
@@ -232,9 +230,8 @@ std::string difference_words(const Reference& reference, const State& a, const S
   const Vector3 way = (a.position - b.position).cwiseAbs();
   int axis = 0;
   const double largest = way.maxCoeff(&axis);
-  if (!(way_of_turn(reference, a.attitude, b.attitude) > largest)) {
+  if (!(way_of_turn(reference, a.attitude, b.attitude) > largest))
     return fmt::format("{} is {} m", "xyz"[axis], significant(largest, 2));
-  }
   const space::Quaternion turn = a.attitude.conjugate() * b.attitude;
   return fmt::format("{} is {} rad", reference.is_planar ? "phi" : "the attitude",
                      significant(2 * std::atan2(turn.vec().norm(), std::fabs(turn.w())), 2));
@@ -294,9 +291,8 @@ class Flights {
   void follow(std::size_t from, std::size_t to, Score& score, std::size_t n) const {
     const double start = motion_.energy(from);
     double drift = 0;
-    for (std::size_t row = from; row <= to; ++row) {
+    for (std::size_t row = from; row <= to; ++row)
       drift = worse(drift, std::fabs(motion_.energy(row) - start) / energy_);
-    }
     note_drift(score, drift, n);
     follow_rows(from, to, score, n);
   }

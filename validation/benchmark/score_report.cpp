@@ -201,14 +201,11 @@ Report score_report(const std::string& command, const std::vector<Submission>& s
     worst = std::max(worst, one.verdict);
     const std::string name = std::filesystem::path(one.path).filename().string();
     const bool says_why = !one.score.order_is_right || one.verdict == Verdict::incomplete;  // in a finding
-    if (one.verdict != Verdict::exact && !says_why) {
-      report.notes.push_back(name + ": " + class_words(one));
-    }
+    if (one.verdict != Verdict::exact && !says_why) report.notes.push_back(name + ": " + class_words(one));
     for (const std::string& words : cause_words(one.causes)) report.notes.push_back(name + ": " + words);
     for (const std::string& finding : one.score.findings) report.notes.push_back(name + ": " + finding);
-    if (!one.score.law_is_declared && one.score.law != "any") {
+    if (!one.score.law_is_declared && one.score.law != "any")
       report.notes.push_back(name + ": declares no law; judged by the one that fits best, " + one.score.law);
-    }
   }
   for (const SubmissionGroup& group : group_submissions(submissions)) {
     problems.push_back(group_value(group));
@@ -275,7 +272,6 @@ Picture score_picture(const std::vector<Submission>& submissions) {
   PicturePanel panel{.columns = {{"curve", "1", "number of the file; below 0 of a class of tolerance"},
                                  {"impact", "1", "number of the impact"},
                                  {"error", "1", "the largest of all errors of the impact and the flight after it"}},
-                     .rows = {},
                      .plot = {.x_label = "number of the impact",
                               .y_label = "largest error, relative",
                               .y = {3e-18, 10},

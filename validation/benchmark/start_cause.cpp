@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "validation/benchmark/start_cause.hpp"
+#include "validation/benchmark/cause.hpp"
 
 #include <fmt/format.h>
 
@@ -8,7 +8,7 @@
 #include <numbers>
 
 #include "analytic/base/angle.hpp"
-#include "validation/benchmark/start.hpp"
+#include "validation/benchmark/motion.hpp"
 #include "validation/output/number.hpp"
 
 namespace clatter::validation {
@@ -124,9 +124,8 @@ double size_misfit(const NumericTable& table, const Reference& other, const Decl
     const Vector3 arm = other.arms(impact.before.attitude)[static_cast<std::size_t>(impact.points.front())];
     const double approach = (impact.before.velocity + impact.before.angular_velocity.cross(arm)).norm();
     const double least = other.tolerances[1] * other.reach();
-    if (!(std::fabs(impact.before.position.z() + arm.z()) <= least + 2 * motion.step() * approach)) {
+    if (!(std::fabs(impact.before.position.z() + arm.z()) <= least + 2 * motion.step() * approach))
       return Score::unknown;
-    }
   }
   return left;
 }
@@ -157,9 +156,8 @@ std::vector<Cause> start_causes_of(const Motion& motion, const Reference& refere
 
 std::vector<Cause> size_causes_of(const Motion& motion, const Reference& reference, const DeclaredLaw& law,
                                   const FoundImpact& first, double law_left) {
-  if (!reference.is_planar || reference.is_compliant || reference.ground_ends || !is_symmetric(reference.body)) {
+  if (!reference.is_planar || reference.is_compliant || reference.ground_ends || !is_symmetric(reference.body))
     return {};
-  }
   if (is_at_ground(reference, first.before, motion.step())) return {};
   const Vector3 half = half_size(reference.body);
   const Vector3 up = first.before.attitude.conjugate() * Vector3::UnitZ();  // in the body's axes

@@ -6,16 +6,179 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numbers>
 #include <sstream>
 #include <tuple>
+#include <utility>
+#include <variant>
 
-#include "validation/benchmark/gradient_score.hpp"
+#include "validation/gradient/gradient_report.hpp"
 #include "validation/output/bad_input.hpp"
 #include "validation/output/number.hpp"
 #include "validation/output/numeric_table.hpp"
 
 namespace clatter::validation {
 namespace {
+
+/// A column of derivatives of a list: of a number with respect to one of the drop, the angle, in space the
+/// tilt (both per radian), the speed at the first touch, restitution or friction.
+struct GradientColumn {
+  std::string name;  ///< in the header: "dV/dangle", "dPz/dtilt", …
+  std::string number, parameter;
+  std::size_t index = 0;  ///< of the number in gradient_numbers()
+};
+
+constexpr double degree = std::numbers::pi / 180;
+constexpr double close = 1e-3;  ///< of a mistake that explains a derivative, relative
+
+/// "dV/dangle" cut in two; nothing for another name.
+std::optional<GradientColumn> read_gradient_column(const std::string& name, bool in_space) {
+  const std::size_t slash = name.find("/d");
+  if (!name.starts_with('d') || slash == std::string::npos) return {};
+  const std::string number = name.substr(1, slash - 1), parameter = name.substr(slash + 2);
+  const auto known = gradient_numbers(in_space);
+  const auto found = std::find_if(known.begin(), known.end(), [&](const GradientNumber& one) {
+    return one.in_lists != nullptr && number == one.in_lists;
+  });
+  std::vector<std::string> parameters{"angle", "speed", "restitution", "friction"};
+  if (in_space) parameters.emplace_back("tilt");
+  const bool is_known = std::find(parameters.begin(), parameters.end(), parameter) != parameters.end();
+  if (found == known.end() || !is_known) return {};
+  return GradientColumn{name, number, parameter, static_cast<std::size_t>(found - known.begin())};
+}
+
+/// The derivatives of one column, impact by impact; none where there are none.
+struct Wanted {
+  std::vector<std::optional<double>> values;
+  std::string reason;  ///< why there are none from some impact on
+  double size = 0;     ///< that errors are relative to
+};
+
+/// The size of a number of the drop's impacts.
+double size_of(const std::string& number, const ReferenceSequence& sequence) {
+  double size = 0;
+  for (const TruthRow& row : sequence.truth) {
+    const double one = number == "t"           ? row.time
+                       : number == "Omega"     ? row.angular_velocity.norm()
+                       : number.front() == 'W' ? row.angular_velocity.norm()
+                       : number.front() == 'P' ? row.impulse.norm()
+                                               : row.velocity.norm();
+    size = std::fmax(size, one);
+  }
+  return size;
+}
+
+Wanted wanted_of(const GradientColumn& column, const DropGradient& gradient, const ReferenceSequence& sequence) {
+  const auto parameter = std::find_if(gradient.parameters.begin(), gradient.parameters.end(),
+                                      [&](const ParameterGradient& one) { return one.name == column.parameter; });
+  Wanted wanted{.values = {}, .reason = parameter->refused.reason, .size = size_of(column.number, sequence)};
+  if (wanted.reason.empty()) wanted.reason = "it grazes, or another may come first";
+  for (std::size_t n = 0; n < sequence.truth.size(); ++n) {
+    const Derivatives* const of = parameter->of(n);
+    wanted.values.push_back(of != nullptr ? std::optional(of->value[column.index]) : std::nullopt);
+    if (of != nullptr) wanted.size = std::fmax(wanted.size, std::fabs(of->value[column.index]));
+  }
+  return wanted;
+}
+
+/// A mistake that gives this number in place of the right one; empty: none of those known.
+std::string mistake(const GradientColumn& column, double given, double right) {
+  if (right == 0) return "";
+  const double ratio = given / right;
+  const auto is = [&](double other) { return std::fabs(ratio / other - 1) <= close; };
+  const bool is_turn = column.parameter == "angle" || column.parameter == "tilt";
+  if (given == 0) return ": it is left out";
+  if (is(-1)) return ": the other sign";
+  if (is_turn && is(degree)) return ": per degree, not per radian";
+  if (is_turn && is(-degree)) return ": per degree, and the other sign";
+  return "";
+}
+
+/// The cell of a row: a number, or nothing for "none".
+std::optional<double> read_cell(const NumericTable& table, std::size_t row, const std::string& column) {
+  const std::string& text = table.word(row, column);
+  if (text == "none") return {};
+  double value = 0;
+  if (!read_number(text, value)) table.refuse(row, column, "a number, or none");
+  return value;
+}
+
+class GradientJudge {
+ public:
+  GradientJudge(const Answer& answer, Score& score) : answer_(answer), score_(score) {}
+
+  void judge(const GradientColumn& column, const Wanted& wanted) {
+    double worst = -1;
+    std::string finding;
+    const double sign = column.number == "Omega" && answer_.is_counter_clockwise ? -1 : 1;
+    for (std::size_t n = 0; n < std::min(answer_.table.rows(), wanted.values.size()); ++n) {
+      const auto given = read_cell(answer_.table, n, column.name);
+      const auto& right = wanted.values[n];
+      double error = 0;
+      std::string words;
+      if (given && right) {
+        error = std::fabs(sign * *given - *right) / wanted.size;
+        words = fmt::format("is {}, must be {}{}", shortest(*given), significant(sign * *right, 6),
+                            mistake(column, sign * *given, *right));
+      } else if (given || right) {
+        error = Score::unknown;
+        words = given ? "is " + shortest(*given) + ", and there is none: " + wanted.reason
+                      : "is none, must be " + significant(sign * *right, 6);
+      }
+      score_.gradient_error = worse(score_.gradient_error, error);
+      if (!(error <= tolerance_) && !(error <= worst)) {
+        worst = error;
+        finding = fmt::format("{} of impact {} {}", column.name, n + 1, words);
+      }
+    }
+    if (!finding.empty()) score_.findings.push_back(finding);
+  }
+
+ private:
+  static constexpr double tolerance_ = 1e-6;
+  const Answer& answer_;
+  Score& score_;
+};
+
+const ReferenceSequence& sequence_of(const Reference& reference, const std::string& law) {
+  const auto found = std::find_if(reference.sequences.begin(), reference.sequences.end(),
+                                  [&](const ReferenceSequence& one) { return one.law.is_named(law); });
+  return found != reference.sequences.end() ? *found : reference.sequences.front();
+}
+
+/// The columns of a header that are such.
+std::vector<GradientColumn> gradient_columns_of(const std::vector<std::string>& header, bool in_space) {
+  std::vector<GradientColumn> columns;
+  for (const std::string& name : header) {
+    if (auto column = read_gradient_column(name, in_space)) columns.push_back(std::move(*column));
+  }
+  return columns;
+}
+
+/// Judges the columns of derivatives of a list whose impacts are scored: a cell is a number, or "none" where there is
+/// no derivative, as at a fold.  Sets Score::gradient_error, of a derivative over the largest of its column, at least
+/// the size of its number; unknown for a number where there is none and the other way round.
+/// @param columns  as gradient_columns_of(), read as words
+/// @throws BadInput for a cell that is neither
+void score_gradients(const Answer& answer, const std::vector<GradientColumn>& columns, const Reference& reference,
+                     Score& score) {
+  if (columns.empty()) return;
+  const ReferenceSequence& sequence = sequence_of(reference, score.law);
+  if (reference.is_compliant || sequence.law.is_moreau || reference.ground_ends) {
+    score.findings.emplace_back(
+        fmt::format("derivatives are not judged: none are known of this {}", reference.ground_ends ? "ground" : "law"));
+    return;
+  }
+  DiscreteDrop drop = reference.drop;
+  const auto set_law = [&](auto& one) {
+    if constexpr (requires { one.law.law.restitution; }) one.law.law = sequence.law.law.law;
+    else one.law = sequence.law.law.law;
+  };
+  std::visit(set_law, drop);
+  const DropGradient gradient = drop_gradient(drop, static_cast<int>(sequence.truth.size()));
+  GradientJudge judge(answer, score);
+  for (const GradientColumn& column : columns) judge.judge(column, wanted_of(column, gradient, sequence));
+}
 
 /// A file's text as a table of the kind that its header says.
 struct ReadFile {
@@ -67,9 +230,8 @@ Ending ending_of(const NumericTable& table) {
   Ending ending{.nothing_approaches = chosen_comment(table, "ended", {"nothing approaches"}).has_value(), .energy = {}};
   const auto energy = table.comment("energy");
   double value = 0;
-  if (energy && !read_number(trimmed(*energy), value)) {
+  if (energy && !read_number(trimmed(*energy), value))
     throw BadInput(fmt::format("{} = {}: must be a number of joules", place_of(table, "energy"), shown_field(*energy)));
-  }
   if (energy) ending.energy = value;
   return ending;
 }
@@ -99,9 +261,8 @@ Submission judge(const ReadFile& file, const SubmissionHead& head, const Referen
                                   : score_motion(Motion(file.table, reference), reference, head.law, answer.ending);
   score_gradients(answer, file.gradients, reference, submission.score);
   submission.verdict = verdict_of(submission.score, reference.tolerances);
-  if (!(submission.score.impacts_error() <= reference.tolerances[1])) {
+  if (!(submission.score.impacts_error() <= reference.tolerances[1]))
     submission.causes = causes_of(answer, reference, submission.score);
-  }
   return submission;
 }
 
@@ -149,9 +310,7 @@ Submission judge_file(const std::string& path, const std::string& problem, const
   SubmissionHead head = head_of(file.table);
   std::string where = place_of(file.table, "problem");
   if (!problem.empty()) head.problem = problem, where = "--problem";
-  if (head.problem.empty()) {
-    throw BadInput(path + ": no line \"# problem: ID\" above the header; --problem names one");
-  }
+  if (head.problem.empty()) throw BadInput(path + ": no line \"# problem: ID\" above the header; --problem names one");
   const Problem& named = problem_named(where, head.problem);
   static std::map<std::string, Reference> references;  // many files have the same problem
   const auto found = references.find(named.id);

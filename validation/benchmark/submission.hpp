@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "validation/benchmark/diagnosis.hpp"
+#include "validation/benchmark/cause.hpp"
 
 namespace clatter::validation {
 

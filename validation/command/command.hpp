@@ -3,19 +3,28 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "validation/output/report.hpp"
 #include "validation/scene/argument.hpp"
 
 namespace clatter::validation {
+
+/// The columns of a table that a command writes, under the name that `clatter columns` has for it.
+struct NamedColumns {
+  const char* name;
+  std::vector<Column> (*columns)();
+};
 
 struct Command {
   std::string name{};    ///< this and `help` are set by the list of commands (program/commands.cpp)
   std::string help{};    ///< one line
   std::string footer{};  ///< an example, and what else to know
   std::vector<Argument> arguments{};
+  std::vector<NamedColumns> columns{};
   std::function<int()> run{};  ///< after parsing; returns the exit status
 
   void add(Argument argument) { arguments.push_back(std::move(argument)); }
@@ -35,8 +44,24 @@ struct Command {
     add({.name = option, .target = &list, .type = type, .help = words});
   }
   /// Names of the options, --help first.
-  [[nodiscard]] std::vector<std::string> option_names() const;
+  [[nodiscard]] std::vector<std::string> option_names() const {
+    std::vector<std::string> names{"--help"};
+    for (const Argument& argument : arguments) {
+      if (argument.is_option()) names.push_back(argument.name);
+    }
+    return names;
+  }
 };
+
+/// A command whose arguments, which `describe` adds, are read into an input of its own, on which it runs.
+template <class Input>
+[[nodiscard]] Command command_of(int (*run)(const Input&), void (*describe)(Command&, Input&)) {
+  const auto input = std::make_shared<Input>();
+  Command command;
+  describe(command, *input);
+  command.run = [input, run] { return run(*input); };
+  return command;
+}
 
 // The commands, each made where its subject is.
 

@@ -3,15 +3,14 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+#include <cstdio>
 #include <filesystem>
 
 #include "validation/output/bad_input.hpp"
-#include "validation/output/colours.hpp"
 #include "validation/output/gnuplot.hpp"
-#include "validation/output/number.hpp"
-#include "validation/output/sink.hpp"
+#include "validation/output/interrupt.hpp"
 #include "validation/output/symbols.hpp"
-#include "validation/run/discrete_scene.hpp"
 #include "validation/run/scene_value.hpp"
 #include "validation/scene/keys.hpp"
 
@@ -69,9 +68,8 @@ std::vector<SceneOverride> overrides_of(const SceneFlags& given) {
     const auto text = given.texts.find(flag);
     const auto truth = given.truths.find(flag);
     if (text != given.texts.end() && !text->second.empty()) overrides.push_back({key->name, flag, text->second});
-    if (truth != given.truths.end() && truth->second) {
+    if (truth != given.truths.end() && truth->second)
       overrides.push_back({key->name, flag, flag.starts_with("--no-") ? "false" : "true"});
-    }
   }
   return overrides;
 }
@@ -174,6 +172,34 @@ void PlotFile::write(const Picture& picture, const std::vector<std::string>& hea
 
 void PlotFile::leave_out(const std::string& reason) const {
   if (picture_) say(fmt::format("--plot {}: no picture: {}", path_, reason));
+}
+
+void Progress::show(const std::string& text) {
+  if (!shows_progress()) return;
+  shown_ = true;
+  std::fputs(fmt::format("\r\033[Kclatter: {}", text).c_str(), stderr);
+}
+
+Progress::~Progress() {
+  if (shown_) std::fputs("\r\033[K", stderr);
+}
+
+std::string Progress::time_left(std::size_t done, std::size_t of) const {
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
+  if (done == 0 || seconds < 2) return "";
+  return ", " + validation::time_left(seconds * static_cast<double>(of - done) / static_cast<double>(done));
+}
+
+std::string time_left(double seconds) {
+  if (seconds < 100) return fmt::format("{:.0f} s left", std::ceil(seconds));
+  if (seconds < 6000) return fmt::format("{:.0f} min left", std::ceil(seconds / 60));
+  return fmt::format("{:.0f} h left", std::ceil(seconds / 3600));
+}
+
+std::string progress_bar(std::size_t done, std::size_t of) {
+  constexpr std::size_t width = 30;
+  const std::size_t filled = of > 0 ? width * done / of : 0;
+  return std::string(filled, '#') + std::string(width - filled, '.') + fmt::format(" {} of {}", done, of);
 }
 
 }  // namespace clatter::validation

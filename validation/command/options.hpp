@@ -2,6 +2,7 @@
 // Options that several commands share: output, scenes and pictures.
 #pragma once
 
+#include <chrono>
 #include <map>
 #include <optional>
 #include <string>
@@ -12,7 +13,7 @@
 #include "validation/output/report.hpp"
 #include "validation/output/sink.hpp"
 #include "validation/run/discrete_scene.hpp"
-#include "validation/run/time_window.hpp"
+#include "validation/run/history_file.hpp"
 #include "validation/scene/scene.hpp"
 
 namespace clatter::validation {
@@ -97,5 +98,29 @@ class PlotFile {
 /// Head of a script: version, command, what it computes, and the whole scene.
 [[nodiscard]] std::vector<std::string> run_words(const std::string& command, const std::string& what,
                                                  const Scene& scene, Model model = Model::continuous);
+
+// Progress on stderr.
+
+/// A line on stderr that renews itself, for runs that last; nothing where progress is not shown.
+class Progress {
+ public:
+  void show(const std::string& text);
+  /// ", 40 s left" by the pace so far; empty in the first two seconds, in which nothing is known of it.
+  [[nodiscard]] std::string time_left(std::size_t done, std::size_t of) const;
+  Progress() = default;
+  Progress(const Progress&) = delete;
+  Progress& operator=(const Progress&) = delete;
+  ~Progress();
+
+ private:
+  bool shown_ = false;
+  std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
+};
+
+/// "#####......... 5 of 14".
+[[nodiscard]] std::string progress_bar(std::size_t done, std::size_t of);
+
+/// "40 s left".
+[[nodiscard]] std::string time_left(double seconds);
 
 }  // namespace clatter::validation

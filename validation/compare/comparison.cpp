@@ -9,7 +9,7 @@
 #include <set>
 
 #include "analytic/law/viscoelastic.hpp"
-#include "validation/compare/stiff_runs.hpp"
+#include "validation/compare/stiff_limit.hpp"
 #include "validation/output/number.hpp"
 #include "validation/run/shortfall.hpp"
 #include "validation/scene/names.hpp"
@@ -76,13 +76,11 @@ std::string reason_against(const Comparison& comparison, const Scene& scene, con
   if (!impact.predictable) return "beyond the predictable: an error of the start has grown too far";
   if (impact.jams) return "jamming: friction beyond Painlevé's limit drives the contact into the ground";
   if (const std::string reason = other_blow(side, impact, record, body); !reason.empty()) return reason;
-  if (sticks_in_one_model(scene.world.ground, impact, record.mode)) {
+  if (sticks_in_one_model(scene.world.ground, impact, record.mode))
     return "static and sliding friction differ; the discrete model has one coefficient";
-  }
   const MotionNumbers size = comparison.impacts[i].predicted.total();
-  if (!std::isfinite(size[0] + size[1] + size[normal_impulse_place])) {
+  if (!std::isfinite(size[0] + size[1] + size[normal_impulse_place]))
     return "the contacts last too long: within what they leave open another sequence follows";
-  }
   return "";
 }
 
@@ -90,9 +88,8 @@ std::string reason_against(const Comparison& comparison, const Scene& scene, con
 MotionNumbers allowance(const LimitRow& limit, const SequenceImpact& impact, const MotionNumbers& scales) {
   MotionNumbers sum{};
   const double growth = std::isfinite(impact.amplification) ? impact.amplification : 1;
-  for (std::size_t q = 0; q < motion_number_count; ++q) {
+  for (std::size_t q = 0; q < motion_number_count; ++q)
     sum[q] = bars_apart * limit.error[q] + 8 * epsilon * (1 + growth) * scales[q] + impact.tipping[q];
-  }
   return sum;
 }
 
@@ -167,9 +164,8 @@ std::string limit_miss_words(const ComparedImpact& impact, const SequenceImpact&
   if (!impact.lands()) return "its limit misses the discrete value: the models differ here";
   const double bars = impact.bars_off();
   if (bars <= 1) return "";
-  if (discrete.tipping != MotionNumbers{}) {
+  if (discrete.tipping != MotionNumbers{})
     return "friction, below the centre of mass, tips the body on an even bed: the limit is off by less than its size";
-  }
   return fmt::format("off by up to {} of its error bars: the numbers approach it more slowly than the bar assumes",
                      significant(bars, 2));
 }
@@ -181,27 +177,22 @@ std::string explanation_of(const Comparison& comparison, const Scene& scene, con
   if (impact.has_landing()) return limit_miss_words(impact, side.impacts[i]);
   if (i >= side.impacts.size()) return "the discrete sequence has ended: " + side.message;
   const SequenceImpact& discrete = side.impacts[i];
-  if (const std::string reason = reason_in_principle(discrete); !reason.empty()) {
+  if (const std::string reason = reason_in_principle(discrete); !reason.empty())
     return impact.has_limit() ? bed_words(impact, side) + reason : reason;
-  }
-  if (!discrete.predictable) {
+  if (!discrete.predictable)
     return "beyond the predictable: rounding, grown by the impacts before, decides what follows";
-  }
   const auto& limits = comparison.limit.rows;
   if (i >= limits.size()) return comparison.limit.ended.empty() ? "not asked for" : comparison.limit.ended;
   if (!same_contact(discrete, limits[i].end, limits[i].place, body)) {
     return contacts_differ(side, discrete.end, contact_name(side, limits[i].end, limits[i].place, body)) +
            ", however stiff the ground";
   }
-  if (sticks_in_one_model(scene.world.ground, discrete, limits[i].mode)) {
+  if (sticks_in_one_model(scene.world.ground, discrete, limits[i].mode))
     return "static and sliding friction differ; the discrete model has one coefficient";
-  }
-  if (only_spins(discrete, limits[i].mode)) {
+  if (only_spins(discrete, limits[i].mode))
     return "the face spins about its pressure centre, which the ground's friction holds alone and lets spin";
-  }
-  if (stops_in_one_model(discrete, limits[i].mode)) {
+  if (stops_in_one_model(discrete, limits[i].mode))
     return "slip nearly stops, and stops in one model alone: stiffer ground than doubles resolve would tell";
-  }
   return "follows an impact that is not the same in both models";
 }
 
@@ -336,9 +327,8 @@ Comparison compare_models(const Scene& scene, const numeric::Body& body) {
     if (first_reason.empty()) first_reason = impact.reason;
   }
   drop_unlike_limits(comparison, scene);
-  for (std::size_t i = 0; side.in_space && i < count; ++i) {
+  for (std::size_t i = 0; side.in_space && i < count; ++i)
     comparison.impacts[i].explanation = explanation_of(comparison, scene, body, i);
-  }
   comparison.parted = parted_blows(side, comparison.run.impacts, body);
   comparison.shortfall = shortfall_of(comparison, scene);
   comparison.other_law = other_law_words(scene, comparison.approach_speed);

@@ -8,7 +8,6 @@
 
 #include "numeric/simulate.hpp"
 #include "validation/compare/discrete_side.hpp"
-#include "validation/compare/same_blow.hpp"
 #include "validation/compare/stiff_limit.hpp"
 #include "validation/run/motion_numbers.hpp"
 #include "validation/scene/scene.hpp"

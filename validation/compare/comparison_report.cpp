@@ -154,9 +154,8 @@ std::string verdict_words(const Comparison& comparison) {
            (comparison.other_law.empty() ? "."
                                          : "; the law of [impact] is not the ground's: " + comparison.other_law + ".");
   }
-  if (landed == 0) {
+  if (landed == 0)
     return comparison.has_content() ? "No limit is to be the discrete value." : "Nothing could be compared.";
-  }
   const bool tips = std::any_of(comparison.impacts.begin(), comparison.impacts.end(), [](const ComparedImpact& impact) {
     return impact.has_landing() && impact.predicted.tipping != MotionNumbers{};
   });

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
-#include <memory>
 
 #include "validation/command/command.hpp"
 #include "validation/command/options.hpp"
@@ -124,16 +123,14 @@ int run_demo(const DemoInput& input) {
 }  // namespace
 
 Command demo_command() {
-  auto input = std::make_shared<DemoInput>();
-  Command command;
-  command.add_text("--export", input->file, "FILE",
-                   "write the page there, with the scene in it (HTML), and open nothing");
-  add_scene_flags(command, input->scene);
-  command.footer =
-      "Example: clatter demo phone-damped\nOpens the page, one file in which both models run, with the scene or the "
-      "page's own, and prints its address.\nIt needs no program and no network: copy it to whoever is to have it.";
-  command.run = [input] { return run_demo(*input); };
-  return command;
+  return command_of<DemoInput>(run_demo, [](Command& command, DemoInput& input) {
+    command.add_text("--export", input.file, "FILE",
+                     "write the page there, with the scene in it (HTML), and open nothing");
+    add_scene_flags(command, input.scene);
+    command.footer =
+        "Example: clatter demo phone-damped\nOpens the page, one file in which both models run, with the scene or the "
+        "page's own, and prints its address.\nIt needs no program and no network: copy it to whoever is to have it.";
+  });
 }
 
 }  // namespace clatter::validation

@@ -2,7 +2,7 @@
 #include "validation/demo/scene_exchange.hpp"
 
 #include "validation/output/bad_input.hpp"
-#include "validation/scene/scene_text.hpp"
+#include "validation/scene/keys.hpp"
 
 namespace clatter::validation {
 

@@ -5,14 +5,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <stdexcept>
 
 #include "analytic/base/errors.hpp"
 #include "analytic/plane/contact_angles.hpp"
 #include "numeric/errors.hpp"
-#include "validation/measured/tracked_body.hpp"
+#include "validation/measured/track.hpp"
 #include "validation/output/number.hpp"
 
 namespace clatter::validation {

@@ -5,9 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "analytic/plane/sequence.hpp"
 #include "validation/evidence/check.hpp"
-#include "validation/evidence/reference.hpp"
 
 namespace clatter::validation {
 namespace {

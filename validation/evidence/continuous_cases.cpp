@@ -112,9 +112,8 @@ CellMeasure continuous_cell(const std::string& axis, double value, bool planar, 
     scene.ground.damping = damping_for(value, scene.ground.stiffness);
     return by_flat_landing(scene, planar, clock);
   }
-  if (axis == "impacts") {
+  if (axis == "impacts")
     return kept_energy(static_cast<int>(value), evaluations_of_long_runs, planar, until(clock, oracle_share));
-  }
   if (axis == "angle" && (value == 0 || value == 90)) return by_flat_landing(scene, planar, clock);
   UnitScale scale;
   if (axis == "size") scale.length = value;

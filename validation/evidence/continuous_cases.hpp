@@ -3,7 +3,6 @@
 #pragma once
 
 #include <functional>
-#include <string>
 
 #include "numeric/simulate.hpp"
 #include "validation/evidence/cell.hpp"

@@ -5,11 +5,9 @@
 #include <cmath>
 #include <limits>
 
-#include "analytic/plane/sequence.hpp"
 #include "validation/evidence/cell.hpp"
 #include "validation/evidence/extreme_cases.hpp"
 #include "validation/evidence/oracles.hpp"
-#include "validation/scene/names.hpp"
 
 namespace clatter::validation {
 namespace {
@@ -150,9 +148,8 @@ bool drop_on_axis(const std::string& axis, double value, Drop& drop) {
 
 CellMeasure discrete_cell(const std::string& axis, double value) {
   if (axis == "angle") return by_exact_rod({.angle_deg = value});
-  if (axis == "restitution") {
+  if (axis == "restitution")
     return by_exact_rod({20, {.gravity_number = 9.81, .restitution = value, .impulse_ratio = 0}});
-  }
   if (axis == "damping") return by_restitution(value / 1e9);
   if (axis == "stiffness") return by_restitution(1e7 / value);
   if (axis == "impacts") return by_energy(static_cast<int>(value));

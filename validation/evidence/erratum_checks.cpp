@@ -12,7 +12,6 @@
 #include "numeric/motion/equations_of_motion.hpp"
 #include "numeric/motion/free_flight.hpp"
 #include "validation/evidence/check.hpp"
-#include "validation/evidence/reference.hpp"
 #include "validation/oracles/event_oracle.hpp"
 #include "validation/output/number.hpp"
 

@@ -3,11 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <memory>
 
 #include "validation/command/command.hpp"
 #include "validation/command/options.hpp"
-#include "validation/command/progress.hpp"
 #include "validation/evidence/check.hpp"
 #include "validation/evidence/extremes_report.hpp"
 #include "validation/evidence/figure.hpp"
@@ -18,7 +16,6 @@
 #include "validation/output/sink.hpp"
 
 namespace clatter::validation {
-
 namespace {
 
 struct VerifyInput {
@@ -59,15 +56,14 @@ int run_verify(const VerifyInput& input) {
 }  // namespace
 
 Command verify_command() {
-  auto input = std::make_shared<VerifyInput>();
-  Command command;
-  command.add_flag("--quick", input->quick, "leave out the checks that take long");
-  command.add_list("--only", input->only, "ID", "these checks, such as C1 E2");
-  command.add_text("--html", input->html, "FILE", "also a page with the verdicts and all figures (needs gnuplot)");
-  add_output_options(command, input->output);
-  command.footer = "Example: clatter verify --quick --html verification.html\nExit status 1 if a check fails.";
-  command.run = [input] { return run_verify(*input); };
-  return command;
+  return command_of<VerifyInput>(run_verify, [](Command& command, VerifyInput& input) {
+    command.add_flag("--quick", input.quick, "leave out the checks that take long");
+    command.add_list("--only", input.only, "ID", "these checks, such as C1 E2");
+    command.add_text("--html", input.html, "FILE", "also a page with the verdicts and all figures (needs gnuplot)");
+    add_output_options(command, input.output);
+    command.footer = "Example: clatter verify --quick --html verification.html\nExit status 1 if a check fails.";
+    command.columns = {{"verify", verify_columns}};
+  });
 }
 
 namespace {
@@ -90,9 +86,8 @@ std::vector<int> chosen(const FiguresInput& input) {
   for (const std::string& text : input.only) {
     const int number = read_integer_option("--only", text, 1, 99);
     const auto& known = figure_numbers();
-    if (std::find(known.begin(), known.end(), number) == known.end()) {
+    if (std::find(known.begin(), known.end(), number) == known.end())
       throw BadInput(fmt::format("--only {}: no such figure; there are {}", number, known_numbers()));
-    }
     numbers.push_back(number);
   }
   return numbers;
@@ -119,19 +114,17 @@ int run_figures(const FiguresInput& input) {
 }  // namespace
 
 Command figures_command() {
-  auto input = std::make_shared<FiguresInput>();
-  Command command;
-  command.add_text("--output", input->folder, "DIR", "folder for figure_07.csv, ...; made if it is not there");
-  command.add_list("--only", input->only, "N", "numbers of figures");
-  command.add(format_argument(input->style.format, "form of the files (csv)"));
-  command.add_flag("--ascii", input->style.ascii, "plain ASCII in tables");
-  command.add_flag("--bare", input->style.bare, "CSV without comments");
-  command.footer =
-      "Example: clatter figures --only 7 14 --output figures\n"
-      "Comments \"plot: ...\" and in JSON the list plots say how each panel is drawn.\n"
-      "clatter verify --html FILE draws them. Figs. 13 and 18 of the paper are meshes, Figs. 1 to 6 sketches.";
-  command.run = [input] { return run_figures(*input); };
-  return command;
+  return command_of<FiguresInput>(run_figures, [](Command& command, FiguresInput& input) {
+    command.add_text("--output", input.folder, "DIR", "folder for figure_07.csv, ...; made if it is not there");
+    command.add_list("--only", input.only, "N", "numbers of figures");
+    command.add(format_argument(input.style.format, "form of the files (csv)"));
+    command.add_flag("--ascii", input.style.ascii, "plain ASCII in tables");
+    command.add_flag("--bare", input.style.bare, "CSV without comments");
+    command.footer =
+        "Example: clatter figures --only 7 14 --output figures\n"
+        "Comments \"plot: ...\" and in JSON the list plots say how each panel is drawn.\n"
+        "clatter verify --html FILE draws them. Figs. 13 and 18 of the paper are meshes, Figs. 1 to 6 sketches.";
+  });
 }
 
 namespace {
@@ -189,25 +182,24 @@ int run_extremes(const ExtremesInput& input) {
 }  // namespace
 
 Command extremes_command() {
-  auto input = std::make_shared<ExtremesInput>();
-  Command command;
-  command.add_list("--only", input->only, "AXIS", "these quantities, such as angle speed");
-  command.add_flag("--quick", input->quick, "without the long runs (impacts, random scenes)");
-  command.add(whole_argument("--seed", input->seed, 0, 2147483647, "S", "of the random scenes (1)"));
-  command.add(number_argument("--seconds", input->seconds, {0, 3600, true, "greater than 0, at most 3600"}, "S",
-                              "that a cell may take (1)"));
-  command.add_text("--plot", input->plot, "FILE", "also a picture, .svg");
-  add_output_options(command, input->output);
-  command.footer =
-      "Example: clatter extremes --only angle restitution --plot extremes.svg\n"
-      "Quantities: angle, stiffness, damping, restitution, ratio, friction, speed,\n"
-      "gravity, size, mass, turns, impacts, disc, needle, slenderness, bounces, hops,\n"
-      "squares, cubes, long.\n"
-      "The table has one row per region, --format csv and json all cells. Each cell\n"
-      "ends within a second with a number and its error or with a typed refusal;\n"
-      "exit status 1 if one does not, or if an error is beyond its bound.";
-  command.run = [input] { return run_extremes(*input); };
-  return command;
+  return command_of<ExtremesInput>(run_extremes, [](Command& command, ExtremesInput& input) {
+    command.add_list("--only", input.only, "AXIS", "these quantities, such as angle speed");
+    command.add_flag("--quick", input.quick, "without the long runs (impacts, random scenes)");
+    command.add(whole_argument("--seed", input.seed, 0, 2147483647, "S", "of the random scenes (1)"));
+    command.add(number_argument("--seconds", input.seconds, {0, 3600, true, "greater than 0, at most 3600"}, "S",
+                                "that a cell may take (1)"));
+    command.add_text("--plot", input.plot, "FILE", "also a picture, .svg");
+    add_output_options(command, input.output);
+    command.footer =
+        "Example: clatter extremes --only angle restitution --plot extremes.svg\n"
+        "Quantities: angle, stiffness, damping, restitution, ratio, friction, speed,\n"
+        "gravity, size, mass, turns, impacts, disc, needle, slenderness, bounces, hops,\n"
+        "squares, cubes, long.\n"
+        "The table has one row per region, --format csv and json all cells. Each cell\n"
+        "ends within a second with a number and its error or with a typed refusal;\n"
+        "exit status 1 if one does not, or if an error is beyond its bound.";
+    command.columns = {{"extremes", extremes_columns}};
+  });
 }
 
 }  // namespace clatter::validation

@@ -15,7 +15,6 @@
 #include "numeric/mesh/generators.hpp"
 #include "numeric/motion/free_rotation.hpp"
 #include "validation/evidence/check.hpp"
-#include "validation/evidence/reference.hpp"
 #include "validation/output/number.hpp"
 
 namespace clatter::validation {
@@ -50,9 +49,8 @@ Measured against_table(ReferenceTable table) {
       const auto exact = row.find(name);
       if (exact == row.end()) continue;
       ++count;
-      if (worst.take(relative(value, exact->second))) {
+      if (worst.take(relative(value, exact->second)))
         where = fmt::format("{} at θ = {}°, G = {}", name, row.at("theta_deg"), row.at("G"));
-      }
     }
   }
   return {static_cast<double>(count), worst.value(), Finding::holds, "worst: " + where};
@@ -146,9 +144,7 @@ Measured elastic_energy(CaseRuns& case_runs) {
   WorstError worst;
   for (const char* name : {"rod-45", "phone-elastic"}) {
     const numeric::Simulation& run = case_runs.run(name, {.planar = true});
-    for (const auto& impact : run.impacts) {
-      worst.take(std::fabs(impact.value.energy_loss) / run.energy_start);
-    }
+    for (const auto& impact : run.impacts) worst.take(std::fabs(impact.value.energy_loss) / run.energy_start);
   }
   return {worst.value(), worst.value(), Finding::holds, "largest loss of one impact over the energy; digits 6"};
 }
@@ -238,9 +234,8 @@ Measured impulses_close_to_flat(CaseRuns&) {
       {.impacts = 9, .amplification = false});
   WorstError worst;
   if (full.rows.size() != limit.size()) worst.take(INFINITY);
-  for (std::size_t i = 0; i < std::min(limit.size(), full.rows.size()); ++i) {
+  for (std::size_t i = 0; i < std::min(limit.size(), full.rows.size()); ++i)
     worst.take(std::fabs(full.rows[i].impact.normal_impulse - limit[i].impulse));
-  }
   return {limit[1].impulse, worst.value(), Finding::holds,
           fmt::format("{} impacts, arms 0.3 and 0.7, κ = 0.2", limit.size())};
 }
@@ -252,9 +247,8 @@ Measured hardest_blow_of_the_phone(CaseRuns&) {
   space::Drop drop;
   drop.body = space::box(1, {.size = size, .centre = Eigen::Vector3d::Zero()});
   analytic::near_flat::Footprint face;
-  for (const auto& [x, y] : {std::pair{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}) {
+  for (const auto& [x, y] : {std::pair{-1, -1}, {1, -1}, {1, 1}, {-1, 1}})
     face.corners.emplace_back(x * size.x() / 2, y * size.y() / 2);
-  }
   face.mobility = analytic::near_flat::slope_mobility(1, drop.body.inertia);
   const auto found = analytic::near_flat::tilt_sectors(face, 1);
   const auto hardest =

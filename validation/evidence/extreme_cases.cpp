@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <memory>
 #include <numbers>
 
@@ -24,9 +23,8 @@ CellMeasure residual(const CrossedScores& scores, double low) {
   const auto bin = std::find_if(scores.bins.begin(), scores.bins.end(),
                                 [&](const ResidualBin& one) { return one.quantity == "angle" && one.low == low; });
   if (bin == scores.bins.end()) throw analytic::OutsideModelError("none of the tracked drops strikes at this angle");
-  if (2 * bin->points < bin->impacts) {
+  if (2 * bin->points < bin->impacts)
     throw analytic::OutsideModelError("most of the tracked drops strike with more than one corner within a frame");
-  }
   return {.error = bin->error,
           .bound = scores.flat_rebound,
           .oracle = "tracked drops, each predicted with what the other half fits; the bound is a flat rebound's error",

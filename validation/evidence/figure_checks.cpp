@@ -113,9 +113,8 @@ Measured figure_16(CaseRuns& case_runs) {
 /// Energy of the history at its ends against the works booked in between.
 Measured energy_over_history(const RecordedRun& recorded) {
   double booked = 0;
-  for (const auto& impact : recorded.run.impacts) {
+  for (const auto& impact : recorded.run.impacts)
     booked += impact.value.work_damping + impact.value.work_friction + impact.value.work_released;
-  }
   const double begin = recorded.samples.front().energy_total(), end = recorded.samples.back().energy_total();
   return {(begin - end) / begin, std::fabs(begin - end - booked) / begin, Finding::holds,
           fmt::format("of the energy lost by the end of impact {}; dampers, friction and release account for it",
@@ -131,9 +130,7 @@ Measured figure_23(CaseRuns& case_runs) {
 Measured figure_19(CaseRuns& case_runs) {
   const auto& samples = case_runs.history("phone-elastic", {.planar = true}).samples;
   WorstError worst;
-  for (const HistorySample& s : samples) {
-    worst.take(std::fabs(s.energy_total() / samples.front().energy_total() - 1));
-  }
+  for (const HistorySample& s : samples) worst.take(std::fabs(s.energy_total() / samples.front().energy_total() - 1));
   return {static_cast<double>(samples.size()), worst.value(), Finding::holds,
           "instants, with the energy of the ground's springs"};
 }
@@ -163,9 +160,8 @@ Measured figure_22(CaseRuns& case_runs) {
   const Simulation& run = case_runs.run("phone-damped");
   const Simulation& fine = case_runs.run("phone-damped", {.digits = 10, .method = numeric::Method::rkck});
   WorstError worst;
-  for (std::size_t i = 0; i < std::min<std::size_t>(3, fine.impacts.size()); ++i) {
+  for (std::size_t i = 0; i < std::min<std::size_t>(3, fine.impacts.size()); ++i)
     worst.take(std::fabs(run.impacts.at(i).value.peak_force / fine.impacts[i].value.peak_force - 1));
-  }
   return {run.impacts.at(1).value.peak_force, worst.value(), Finding::holds,
           "largest force of all; peaks of the first three impacts"};
 }

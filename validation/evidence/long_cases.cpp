@@ -1,18 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 #include <map>
-#include <numbers>
 #include <stdexcept>
 
 #include "analytic/base/errors.hpp"
 #include "analytic/plane/sequence.hpp"
 #include "numeric/errors.hpp"
-#include "numeric/mesh/generators.hpp"
 #include "numeric/simulate.hpp"
 #include "validation/evidence/continuous_cases.hpp"
 #include "validation/evidence/extreme_cases.hpp"

@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "validation/compare/random_scenes.hpp"
-#include "validation/compare/random_space_scenes.hpp"
 #include "validation/evidence/check.hpp"
 #include "validation/measured/score.hpp"
 #include "validation/output/number.hpp"
@@ -32,9 +31,8 @@ struct LandingCount {
       if (!impact.has_landing()) continue;
       ++landed;
       all_land = all_land && impact.lands();
-      for (const auto& [name, heading, q] : comparison.discrete.quantities) {
+      for (const auto& [name, heading, q] : comparison.discrete.quantities)
         miss.take(std::fabs(impact.limit->value[q] - (*impact.discrete)[q]) / comparison.discrete.scales[q]);
-      }
     }
   }
 

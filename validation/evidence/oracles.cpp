@@ -19,7 +19,7 @@ namespace {
 
 using Digits50 = oracle::Digits50;
 using D = oracle::Dual<Digits50>;
-using Real = long double;
+using Wide = long double;
 using analytic::Drop;
 using analytic::FrictionKind;
 using analytic::ImpactMode;
@@ -146,7 +146,7 @@ bool misses(const TrueImpacts& truth) {
 /// The largest residual so far.  A vanishing size belongs to a residual that vanishes too.
 class Worst {
  public:
-  void operator()(const char* law, std::size_t row, Real off, Real size) {
+  void operator()(const char* law, std::size_t row, Wide off, Wide size) {
     double part = off == 0 ? 0 : static_cast<double>(std::fabs(off) / size);
     if (!std::isfinite(part)) part = infinite;
     if (!(part > value)) return;
@@ -158,7 +158,7 @@ class Worst {
 };
 
 struct Place {
-  Real along, across;
+  Wide along, across;
 };
 
 class Walk {
@@ -180,28 +180,28 @@ class Walk {
 
  private:
   /// Inclination at the impact, whole turns of the flight included.
-  [[nodiscard]] Real inclination(std::size_t i) const {
+  [[nodiscard]] Wide inclination(std::size_t i) const {
     return i == 0 ? rows_[0].inclination : rows_[i].flight.arrival.inclination;
   }
 
   [[nodiscard]] Place place_of(int vertex, std::size_t i) const {
     const analytic::Vertex& v = drop_.body.vertices[static_cast<std::size_t>(vertex)];
     // An inclination that came in degrees has its own sine and cosine, exact at 90°.
-    const Real sine = i == 0 ? Real(drop_.inclination.sine) : std::sin(inclination(i));
-    const Real cosine = i == 0 ? Real(drop_.inclination.cosine) : std::cos(inclination(i));
+    const Wide sine = i == 0 ? Wide(drop_.inclination.sine) : std::sin(inclination(i));
+    const Wide cosine = i == 0 ? Wide(drop_.inclination.cosine) : std::cos(inclination(i));
     return {v.x * cosine - v.z * sine, v.x * sine + v.z * cosine};
   }
 
   void flight(std::size_t i) {
     const ImpactRow &last = rows_[i - 1], &row = rows_[i];
-    const Real t = row.flight.arrival.time, g = drop_.gravity;
+    const Wide t = row.flight.arrival.time, g = drop_.gravity;
     const analytic::PlanarVelocity &from = last.impact.after, &to = row.before;
-    worst_("start", i, row.start - last.start - t, Real(row.start) + last.start);
+    worst_("start", i, row.start - last.start - t, Wide(row.start) + last.start);
     worst_("fall", i, to.normal - (from.normal - g * t), std::fabs(from.normal) + g * t);
-    worst_("tangential flight", i, Real(to.tangential) - from.tangential, speed(last));
-    worst_("turning", i, Real(to.angular) - from.angular, speed(last) / drop_.body.reach());
+    worst_("tangential flight", i, Wide(to.tangential) - from.tangential, speed(last));
+    worst_("turning", i, Wide(to.angular) - from.angular, speed(last) / drop_.body.reach());
     rise_ = std::fabs(from.normal) * t + g * t * t / 2 + last.centre_height;
-    turn_ = std::fabs(from.angular * t) + std::fabs(Real(last.inclination));
+    turn_ = std::fabs(from.angular * t) + std::fabs(Wide(last.inclination));
     worst_("turn", i, inclination(i) - (last.inclination - from.angular * t), turn_);
     worst_("parabola", i, row.centre_height - (last.centre_height + from.normal * t - g * t * t / 2), rise_);
   }
@@ -209,8 +209,8 @@ class Walk {
   void place(std::size_t i) {
     for (int v = 0; v < drop_.body.vertex_count; ++v) {
       const Place d = place_of(v, i);
-      const Real height = rows_[i].centre_height + d.across;
-      const Real size = (i > 0 ? rise_ + turn_ * std::fabs(d.along) : Real(0)) + std::fabs(d.across);
+      const Wide height = rows_[i].centre_height + d.across;
+      const Wide size = (i > 0 ? rise_ + turn_ * std::fabs(d.along) : Wide(0)) + std::fabs(d.across);
       const bool arrives = rows_[i].vertices >> v & 1;
       if (!arrives && height >= 0) continue;
       worst_(arrives ? "arriving vertex" : "vertex below the ground", i, height, size);
@@ -219,31 +219,30 @@ class Walk {
     }
   }
 
-  [[nodiscard]] Real speed(const ImpactRow& row) const {
-    const Real reach = drop_.body.reach();
-    return std::fabs(Real(row.impact.after.normal)) + std::fabs(Real(row.impact.after.tangential)) +
-           std::fabs(reach * row.impact.after.angular) + std::fabs(Real(row.before.normal)) +
-           std::fabs(Real(row.before.tangential)) + std::fabs(reach * row.before.angular);
+  [[nodiscard]] Wide speed(const ImpactRow& row) const {
+    const Wide reach = drop_.body.reach();
+    return std::fabs(Wide(row.impact.after.normal)) + std::fabs(Wide(row.impact.after.tangential)) +
+           std::fabs(reach * row.impact.after.angular) + std::fabs(Wide(row.before.normal)) +
+           std::fabs(Wide(row.before.tangential)) + std::fabs(reach * row.before.angular);
   }
 
   void impact(std::size_t i) {
     const ImpactRow& row = rows_[i];
     const analytic::Impact& hit = row.impact;
-    const Real m = drop_.body.mass, total = speed(row);
-    worst_("normal momentum", i, Real(hit.normal_impulse) / m - (Real(hit.after.normal) - row.before.normal), total);
+    const Wide m = drop_.body.mass, total = speed(row);
+    worst_("normal momentum", i, Wide(hit.normal_impulse) / m - (Wide(hit.after.normal) - row.before.normal), total);
     worst_("tangential momentum", i,
-           Real(hit.tangential_impulse) / m - (Real(hit.after.tangential) - row.before.tangential), total);
+           Wide(hit.tangential_impulse) / m - (Wide(hit.after.tangential) - row.before.tangential), total);
     if (!(hit.normal_impulse >= 0)) worst_("pulling impulse", i, 1, 0);
     if (std::popcount(row.vertices) != 1) return;
     const Place d = place_of(std::countr_zero(row.vertices), i);
-    const Real k = drop_.body.gyration_square, reach = drop_.body.reach();
-    const Real twist = (hit.tangential_impulse * d.across - hit.normal_impulse * d.along) / m / k;
-    worst_("angular momentum", i, reach * (twist - (Real(hit.after.angular) - row.before.angular)), total);
+    const Wide k = drop_.body.gyration_square, reach = drop_.body.reach();
+    const Wide twist = (hit.tangential_impulse * d.across - hit.normal_impulse * d.along) / m / k;
+    worst_("angular momentum", i, reach * (twist - (Wide(hit.after.angular) - row.before.angular)), total);
     worst_("approach", i, hit.approach_speed + (row.before.normal - row.before.angular * d.along), total);
     worst_("separation", i, hit.separation_speed - (hit.after.normal - hit.after.angular * d.along), total);
-    if (drop_.law.law == RestitutionLaw::newton) {
-      worst_("restitution", i, hit.separation_speed - Real(drop_.law.restitution) * hit.approach_speed, total);
-    }
+    if (drop_.law.law == RestitutionLaw::newton)
+      worst_("restitution", i, hit.separation_speed - Wide(drop_.law.restitution) * hit.approach_speed, total);
     friction(i, d);
   }
 
@@ -251,14 +250,14 @@ class Walk {
     const ImpactRow& row = rows_[i];
     const analytic::Impact& hit = row.impact;
     // Products below the smallest double are rounded to a multiple of it.
-    const Real least = 4 * std::numeric_limits<double>::denorm_min();
-    const Real value = drop_.law.friction_value, normal = hit.normal_impulse, along = hit.tangential_impulse;
-    const Real slip = hit.after.tangential + hit.after.angular * d.across;
+    const Wide least = 4 * std::numeric_limits<double>::denorm_min();
+    const Wide value = drop_.law.friction_value, normal = hit.normal_impulse, along = hit.tangential_impulse;
+    const Wide slip = hit.after.tangential + hit.after.angular * d.across;
     if (drop_.law.friction == FrictionKind::none) worst_("friction", i, along, normal);
     if (drop_.law.friction == FrictionKind::impulse_ratio)
       worst_("impulse ratio", i, along - value * normal, std::fabs(value * normal));
     if (drop_.law.friction != FrictionKind::coulomb) return;
-    const Real beyond = std::fabs(along) - value * normal;
+    const Wide beyond = std::fabs(along) - value * normal;
     if (std::fabs(beyond) <= least) return;
     if (beyond > 0) worst_("Coulomb's bound", i, beyond, value * normal);
     if (hit.mode == ImpactMode::stick || hit.mode == ImpactMode::slip_stick) worst_("sticking", i, slip, speed(row));
@@ -267,11 +266,11 @@ class Walk {
 
   void energy(std::size_t i) {
     const ImpactRow& row = rows_[i];
-    const Real first = rows_[0].energy_before;
-    const Real m = drop_.body.mass, v = row.before.normal;
+    const Wide first = rows_[0].energy_before;
+    const Wide m = drop_.body.mass, v = row.before.normal;
     if (m * v * v / 2 > std::numeric_limits<double>::max()) return;  // no energy to check: it is no double
-    const Real size = Real(row.energy_before) + row.energy_after;
-    worst_("energy lost", i, Real(row.energy_before) - row.energy_after - row.impact.energy_loss, size);
+    const Wide size = Wide(row.energy_before) + row.energy_after;
+    worst_("energy lost", i, Wide(row.energy_before) - row.energy_after - row.impact.energy_loss, size);
     const bool gains = drop_.law.friction == FrictionKind::impulse_ratio;
     if (!gains && row.impact.energy_loss < 0) worst_("energy gained", i, row.impact.energy_loss, size);
     lost_ += row.impact.energy_loss;
@@ -282,7 +281,7 @@ class Walk {
   void momentum(std::size_t i) {
     const ImpactRow& row = rows_[i];
     impulse_ += row.impact.normal_impulse;
-    const Real change = Real(row.impact.after.normal) - rows_[0].before.normal + Real(drop_.gravity) * row.start;
+    const Wide change = Wide(row.impact.after.normal) - rows_[0].before.normal + Wide(drop_.gravity) * row.start;
     out_.momentum_drift = static_cast<double>(std::fabs(impulse_ - drop_.body.mass * change) / impulse_);
   }
 
@@ -290,11 +289,11 @@ class Walk {
   const std::vector<ImpactRow>& rows_;
   Worst worst_;
   Retrace out_;
-  Real rise_ = 0, turn_ = 0;  ///< sizes of the terms of the last flight
-  Real lost_ = 0, impulse_ = 0;
+  Wide rise_ = 0, turn_ = 0;  ///< sizes of the terms of the last flight
+  Wide lost_ = 0, impulse_ = 0;
 };
 
-using Components = std::array<Real, 4>;  // of a unit quaternion, scalar first
+using Components = std::array<Wide, 4>;  // of a unit quaternion, scalar first
 constexpr int order = 22;                // of the Taylor series
 
 Components product(const Components& a, const Components& b) {
@@ -302,7 +301,7 @@ Components product(const Components& a, const Components& b) {
           a[0] * b[2] + a[2] * b[0] + a[3] * b[1] - a[1] * b[3], a[0] * b[3] + a[3] * b[0] + a[1] * b[2] - a[2] * b[1]};
 }
 
-Real norm(const std::array<Real, 3>& v) { return std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]); }
+Wide norm(const std::array<Wide, 3>& v) { return std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]); }
 
 }  // namespace
 
@@ -358,27 +357,27 @@ PeriodicSpin::PeriodicSpin(const std::array<double, 3>& moments, const std::arra
     start_.w[i] = angular_velocity[i];
     axis_[i] = start_.moments[i] * start_.w[i];
   }
-  const Real momentum = norm(axis_);
-  for (Real& component : axis_) component /= momentum;
-  longest_step_ = Real(0.25) / norm(start_.w);
+  const Wide momentum = norm(axis_);
+  for (Wide& component : axis_) component /= momentum;
+  longest_step_ = Wide(0.25) / norm(start_.w);
   find_period();
   find_angle();
 }
 
-PeriodicSpin::Top PeriodicSpin::advance(Top top, Real time) const {
-  oracle::TopSeries<Real> series(order);
-  const Real steps = std::ceil(std::fabs(time) / longest_step_);
-  for (Real i = 0; i < steps; i += 1) series.step(top, time / steps);
+PeriodicSpin::Top PeriodicSpin::advance(Top top, Wide time) const {
+  oracle::TopSeries<Wide> series(order);
+  const Wide steps = std::ceil(std::fabs(time) / longest_step_);
+  for (Wide i = 0; i < steps; i += 1) series.step(top, time / steps);
   return top;
 }
 
 /// The second return of ω₂ to zero, which it then passes as at the start.
 void PeriodicSpin::find_period() {
   const auto& m = start_.moments;
-  oracle::TopSeries<Real> series(order);
+  oracle::TopSeries<Wide> series(order);
   Top top = start_;
   int changes = 0;
-  Real t = 0;
+  Wide t = 0;
   while (changes < 2) {
     const bool was_positive = top.w[1] > 0;
     series.step(top, longest_step_);
@@ -386,8 +385,8 @@ void PeriodicSpin::find_period() {
     t += longest_step_;
   }
   for (int i = 0; i < 20; ++i) {
-    const Real rate = (m[2] - m[0]) / m[1] * top.w[2] * top.w[0];
-    const Real correction = -top.w[1] / rate;
+    const Wide rate = (m[2] - m[0]) / m[1] * top.w[2] * top.w[0];
+    const Wide correction = -top.w[1] / rate;
     if (!(std::fabs(correction) > 1e-19L * t)) break;
     t += correction;
     top = advance(top, correction);
@@ -398,21 +397,21 @@ void PeriodicSpin::find_period() {
 /// Attitude after a period = turn by ψ about the momentum; only ψ/2 modulo 2π matters.
 void PeriodicSpin::find_angle() {
   const Components after = advance(start_, period_).q;
-  Real sine = 0;
+  Wide sine = 0;
   for (std::size_t i = 0; i < 3; ++i) sine += axis_[i] * after[i + 1];
   angle_ = 2 * std::atan2(sine, after[0]);
 }
 
 double PeriodicSpin::error(const numeric::Rotation& rotation, double time) const {
-  const Real periods = std::round(time / period_);
-  const Top rest = advance(start_, std::fma(-periods, period_, static_cast<Real>(time)));
-  const Real half = std::remainder(periods * angle_ / 2, 2 * std::numbers::pi_v<Real>);
+  const Wide periods = std::round(time / period_);
+  const Top rest = advance(start_, std::fma(-periods, period_, static_cast<Wide>(time)));
+  const Wide half = std::remainder(periods * angle_ / 2, 2 * std::numbers::pi_v<Wide>);
   const Components turn{std::cos(half), std::sin(half) * axis_[0], std::sin(half) * axis_[1],
                         std::sin(half) * axis_[2]};
   const Components exact = product(turn, rest.q);
   const auto& a = rotation.attitude;
   const double found[4] = {a.w(), a.x(), a.y(), a.z()};
-  Real same = 0, other = 0, worst = 0;
+  Wide same = 0, other = 0, worst = 0;
   for (std::size_t i = 0; i < 4; ++i) {
     same = std::fmax(same, std::fabs(found[i] - exact[i]));
     other = std::fmax(other, std::fabs(found[i] + exact[i]));

@@ -6,7 +6,6 @@
 
 #include "analytic/plane/sequence.hpp"
 #include "validation/evidence/figure.hpp"
-#include "validation/evidence/history_panels.hpp"
 #include "validation/run/discrete_scene.hpp"
 
 namespace clatter::validation {
@@ -87,8 +86,7 @@ Figure figure_phone_history(CaseRuns& case_runs, bool damped) {
   const PhoneCase phone = phone_case(damped);
   Figure figure{.number = damped ? 21 : 19,
                 .title = fmt::format("impacts of the {} phone over time", damped ? "damped" : "elastic"),
-                .scene = phone.scene,
-                .columns = {}};
+                .scene = phone.scene};
   add_history_columns(figure);
   const RecordedRun& recorded = case_runs.history(phone.name, phone.options);
   for (const numeric::HistorySample& s : recorded.samples) add_history_row(figure, {}, s);

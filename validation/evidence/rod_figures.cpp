@@ -9,11 +9,9 @@
 #include "analytic/plane/contact_angles.hpp"
 #include "analytic/plane/sequence.hpp"
 #include "validation/evidence/figure.hpp"
-#include "validation/evidence/history_panels.hpp"
 #include "validation/run/discrete_scene.hpp"
 
 namespace clatter::validation {
-
 namespace {
 
 using analytic::Angle;
@@ -298,9 +296,8 @@ Figure figure_rod_contact(CaseRuns& case_runs) {
                                       {"Fn", "normal force Fₙ"},
                                       {"Ft", "tangential force Fₜ"}}) {
     FigurePlot plot{.x_label = "time [ms]", .y_label = figure.label(words, column), .x_factor = 1e3};
-    for (const double mu : contact_frictions) {
+    for (const double mu : contact_frictions)
       plot.curves.push_back({.x = "time", .y = column, .legend = fmt::format("μ = {}", mu), .where = {{"mu", mu}}});
-    }
     figure.plots.push_back(plot);
   }
   letter(figure, {"(a)", "(b)", "(c)", "(d)"});
@@ -316,9 +313,8 @@ Figure figure_rod_sequence(CaseRuns& case_runs) {
   double variant = 1;
   for (const auto& [name, caption, legend] :
        {std::tuple{"rod-at-1ms", " text", "impact at 1 m/s"}, {"rod-from-2m", " caption", "drop from 2 m"}}) {
-    for (const numeric::HistorySample& s : case_runs.history(name, smooth).samples) {
+    for (const numeric::HistorySample& s : case_runs.history(name, smooth).samples)
       add_history_row(figure, {variant}, s);
-    }
     add_history_panels(figure, caption, legend, {{"variant", variant}});
     ++variant;
   }

@@ -7,9 +7,8 @@
 #include <cmath>
 
 #include "analytic/space/body.hpp"
-#include "validation/compare/uniform.hpp"
+#include "validation/compare/random_scenes.hpp"
 #include "validation/evidence/check.hpp"
-#include "validation/evidence/reference.hpp"
 #include "validation/oracles/reference_scene.hpp"
 #include "validation/oracles/stepped_impact.hpp"
 

@@ -10,12 +10,10 @@
 #include "validation/output/html.hpp"
 #include "validation/output/interrupt.hpp"
 #include "validation/output/number.hpp"
-#include "validation/output/picture.hpp"
 #include "validation/output/version.hpp"
 #include "validation/scene/failure.hpp"
 
 namespace clatter::validation {
-
 namespace {
 
 const char* const verify_summary = "every claim, its oracle, tolerance and measured error";

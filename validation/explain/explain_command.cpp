@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <memory>
 #include <utility>
 
 #include "validation/command/command.hpp"
@@ -31,16 +30,15 @@ int run_explain(const ExplainInput& input) {
 }  // namespace
 
 Command explain_command() {
-  auto input = std::make_shared<ExplainInput>();
-  Command command;
-  Argument number = whole_argument("N", input->number, 1, 1'000'000, "", "number of the impact, from 1");
-  number.required = true;
-  command.add(std::move(number));
-  add_scene_flags(command, input->scene, Model::discrete);
-  add_output_options(command, input->output);
-  command.footer = "Example: clatter explain 2 --angle 10";
-  command.run = [input] { return run_explain(*input); };
-  return command;
+  return command_of<ExplainInput>(run_explain, [](Command& command, ExplainInput& input) {
+    Argument number = whole_argument("N", input.number, 1, 1'000'000, "", "number of the impact, from 1");
+    number.required = true;
+    command.add(std::move(number));
+    add_scene_flags(command, input.scene, Model::discrete);
+    add_output_options(command, input.output);
+    command.footer = "Example: clatter explain 2 --angle 10";
+    command.columns = {{"explain", explain_columns}};
+  });
 }
 
 }  // namespace clatter::validation

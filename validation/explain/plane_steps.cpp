@@ -95,9 +95,8 @@ class PlanarImpact {
     const bool levels = d.inclination * d.angular > 0 && std::fabs(d.inclination) <= std::numbers::pi / 2;
     if (drop_.body.uniform_thin_rod && levels && row_.flight.arrival.vertex != d.reference) rod_equation();
     else height_equation();
-    vn_ = velocity(
-        "v_n", row_.before.normal, "m/s",
-        given_.gravity.value(0, 0) > 0 ? Expression(vn0_) - Expression(given_.gravity) * time_ : Expression(vn0_));
+    vn_ = velocity("v_n", row_.before.normal, "m/s",
+                   given_.gravity.value(0, 0) > 0 ? vn0_ - given_.gravity * time_ : Expression(vn0_));
     vt_ = velocity("v_t", row_.before.tangential, "m/s", vt0_);
     w_ = velocity("ω", row_.before.angular, "rad/s", w0_);
     writer_.open("The contact point", {});
@@ -123,8 +122,8 @@ class PlanarImpact {
     const bool falls = given_.gravity.value(0, 0) > 0;
     const Quantity k_name = number("K", 0, ""), gamma_name = number("Γ", 0, "");
     const auto left = [&](const Quantity& k, const Quantity& gamma) {
-      const Expression sum = function("sin", theta) + Expression(k) * phi;
-      return (falls ? sum - Expression(gamma) * square(phi) : sum) - function("sin", Expression(phi) - theta);
+      const Expression sum = function("sin", theta) + k * phi;
+      return (falls ? sum - gamma * square(phi) : sum) - function("sin", phi - theta);
     };
     writer_.law(left(k_name, gamma_name), 0);
     Words words{" The law below is Eq. 12 of the paper for the angle ",
@@ -139,19 +138,17 @@ class PlanarImpact {
     words.emplace_back(".");
     writer_.say(words);
     theta = writer_.found(theta, absolute(alpha0_), {departure_words()});
-    const Quantity k = writer_.computed("K", "", 2 * Expression(vn0_) / (Expression(*length_) * rate));
-    const Quantity gamma =
-        falls ? writer_.computed("Γ", "", Expression(given_.gravity) / (Expression(*length_) * square(w0_)))
-              : gamma_name;
+    const Quantity k = writer_.computed("K", "", 2 * vn0_ / (*length_ * rate));
+    const Quantity gamma = falls ? writer_.computed("Γ", "", given_.gravity / (*length_ * square(w0_))) : gamma_name;
     certified_bracket();
     phi = writer_.found(phi, {fmt::format("the root, found numerically by {} evaluations", row_.flight.evaluations)});
     const Expression f = left(k, gamma);
     const double turned = phi.value(0, 0),
                  terms = 2 + std::fabs(k.value(0, 0)) * turned + gamma.value(0, 0) * turned * turned;
     writer_.computed("f", "", f, {"left side of Eq. 12 at the root"}, terms);
-    time_ = writer_.found(number("T", arrival.time, "s"), Expression(phi) / rate, {"time of flight"});
+    time_ = writer_.found(number("T", arrival.time, "s"), phi / rate, {"time of flight"});
     writer_.found(number(contact_angle_name(n_), row_.contact_angle * degrees, "°", row_.error.contact_angle * degrees),
-                  absolute(Expression(phi) - theta), {"contact angle now"});
+                  absolute(phi - theta), {"contact angle now"});
     inclination();
   }
 
@@ -164,9 +161,9 @@ class PlanarImpact {
   }
 
   void inclination() {
-    alpha_ = writer_.found(
-        number("α", row_.flight.arrival.inclination * degrees, "°", row_.error.inclination * degrees),
-        Expression(alpha0_) - Expression(w0_) * time_, {"inclination at the touch; the angle turned is in rad"});
+    alpha_ =
+        writer_.found(number("α", row_.flight.arrival.inclination * degrees, "°", row_.error.inclination * degrees),
+                      alpha0_ - w0_ * time_, {"inclination at the touch; the angle turned is in rad"});
   }
 
   /// The height of the vertex that arrives.
@@ -177,14 +174,13 @@ class PlanarImpact {
     const Quantity z0 = writer_.found(number(after_last("z_c"), last_->centre_height, "m", 0, reach_),
                                       {"height of the centre of mass at departure"});
     const Expression sine = function("sin", alpha0_), cosine = function("cos", alpha0_);
-    const Quantity dt = writer_.computed(after_last("d_t"), "m", Expression(x_) * cosine - Expression(y_) * sine,
+    const Quantity dt = writer_.computed(after_last("d_t"), "m", x_ * cosine - y_ * sine,
                                          {"from the centre of mass to the vertex, along the ground"}, reach_);
-    const Quantity dn =
-        writer_.computed(after_last("d_n"), "m", Expression(x_) * sine + Expression(y_) * cosine, {"upward"}, reach_);
-    const Quantity h0 = writer_.found(number("h_0", h.height, "m", 0, reach_), Expression(z0) + dn,
-                                      {"height of the vertex at departure"});
-    const Quantity v0 = writer_.found(number("h_0′", h.velocity, "m/s", 0, speed_),
-                                      Expression(vn0_) - Expression(w0_) * dt, {"its velocity, upward"});
+    const Quantity dn = writer_.computed(after_last("d_n"), "m", x_ * sine + y_ * cosine, {"upward"}, reach_);
+    const Quantity h0 =
+        writer_.found(number("h_0", h.height, "m", 0, reach_), z0 + dn, {"height of the vertex at departure"});
+    const Quantity v0 =
+        writer_.found(number("h_0′", h.velocity, "m/s", 0, speed_), vn0_ - w0_ * dt, {"its velocity, upward"});
     if (row_.flight.arrival.bracket_high < 1e300) {
       writer_.found(number("T_low", row_.flight.arrival.bracket_low, "s"), {"left end of the certified bracket"});
       writer_.found(number("T_high", row_.flight.arrival.bracket_high, "s"), {"its right end"});
@@ -193,12 +189,12 @@ class PlanarImpact {
         writer_.found(number("T", row_.flight.arrival.time, "s"),
                       {fmt::format("time of flight, the first root of the height, found numerically by {} evaluations",
                                    row_.flight.evaluations)});
-    Expression height = Expression(h0) + Expression(v0) * time_;
-    if (falls) height = height - Expression(given_.gravity) * square(time_) / 2;
+    Expression height = h0 + v0 * time_;
+    if (falls) height = height - given_.gravity * square(time_) / 2;
     if (turns) {
       const Quantity phi = writer_.computed("φ", "rad", absolute(w0_) * time_, {"angle turned"});
-      const Expression sideways = (Expression(phi) - function("sin", phi)) * dt;
-      height = height - Expression(dn) * (1 - function("cos", phi));
+      const Expression sideways = (phi - function("sin", phi)) * dt;
+      height = height - dn * (1 - function("cos", phi));
       height = h.sine * dt.value(0, 0) < 0 ? height - sideways : height + sideways;
     }
     writer_.computed("h", "m", height, {"height of the vertex at the root"},
@@ -218,23 +214,22 @@ class PlanarImpact {
   void contact_point() {
     place_of(std::countr_zero(row_.vertices));
     const Expression sine = function("sin", alpha_), cosine = function("cos", alpha_);
-    dt_ = writer_.computed("d_t", "m", Expression(x_) * cosine - Expression(y_) * sine,
+    dt_ = writer_.computed("d_t", "m", x_ * cosine - y_ * sine,
                            {"from the centre of mass to the contact, along the ground"}, reach_);
-    dn_ = writer_.computed("d_n", "m", Expression(x_) * sine + Expression(y_) * cosine, {"upward"}, reach_);
-    z_ = writer_.found(number("z_c", row_.centre_height, "m", 0, reach_), -Expression(dn_),
-                       {"height of the centre of mass"});
+    dn_ = writer_.computed("d_n", "m", x_ * sine + y_ * cosine, {"upward"}, reach_);
+    z_ = writer_.found(number("z_c", row_.centre_height, "m", 0, reach_), -dn_, {"height of the centre of mass"});
   }
 
   void point_impact() {
     writer_.open("The contact", {"What an impulse at the contact does to the velocity there."});
     const Quantity a = writer_.computed("A", "", 1 + square(dt_) / k2_);
     Quantity b = a;
-    u_ = writer_.found(number("u", -row_.impact.approach_speed, "m/s", row_.error.approach_speed),
-                       Expression(vn_) - Expression(w_) * dt_, {"normal velocity of the contact, before"});
+    u_ = writer_.found(number("u", -row_.impact.approach_speed, "m/s", row_.error.approach_speed), vn_ - w_ * dt_,
+                       {"normal velocity of the contact, before"});
     const bool rubs = given_.friction || given_.impulse_ratio;
     if (rubs) {
-      b = writer_.computed("B", "", Expression(dt_) * dn_ / k2_);
-      s_ = writer_.found(number("s", row_.impact.slip_before, "m/s", 0, speed_), Expression(vt_) + Expression(w_) * dn_,
+      b = writer_.computed("B", "", dt_ * dn_ / k2_);
+      s_ = writer_.found(number("s", row_.impact.slip_before, "m/s", 0, speed_), vt_ + w_ * dn_,
                          {"slip of the contact, before"});
     }
     const bool is_single = row_.impact.mode != ImpactMode::slip_stick && row_.impact.mode != ImpactMode::reverse_slip;
@@ -246,8 +241,8 @@ class PlanarImpact {
       coulomb(a, b, c, e, is_single);
     }
     eq8(a, b, e, is_single || drop_.law.law == analytic::RestitutionLaw::newton);
-    const Expression work = Expression(*normal_) * (Expression(u_) + u_after_);
-    energy(-((rubs ? work + Expression(*tangential_) * (Expression(*s_) + *s_after_) : work) / 2));
+    const Expression work = *normal_ * (u_ + u_after_);
+    energy(-((rubs ? work + *tangential_ * (*s_ + *s_after_) : work) / 2));
   }
 
   Quantity coulomb_contact() {
@@ -275,7 +270,7 @@ class PlanarImpact {
            "slips, the other way than B"});
     }
     const Quantity r1 =
-        writer_.computed(is_single ? "μ_i" : "r_1", "", -(Expression(*given_.friction) * function("sgn", along)),
+        writer_.computed(is_single ? "μ_i" : "r_1", "", -(*given_.friction * function("sgn", along)),
                          {is_single ? "impulse ratio, against the slip" : "ratio of impulses while slip lasts"});
     if (is_single) {
       ratio_ = r1;
@@ -286,16 +281,16 @@ class PlanarImpact {
         writer_.computed("p_s", "N·s", m * *s_ / (drift - c * r1), {"normal impulse that stops the slip"});
     const bool sticks = mode == ImpactMode::slip_stick;
     const Quantity r2 = sticks ? writer_.computed("r_2", "", drift / c, {"ratio of impulses without slip, at most μ"})
-                               : writer_.computed("r_2", "", -Expression(r1), {"slip goes on the other way"});
-    two_phases({.before = writer_.computed("a_1", "", Expression(a) - Expression(b) * r1, {"m du/dp before"}),
-                .after = writer_.computed("a_2", "", Expression(a) - Expression(b) * r2, {"and after slip stops"}),
+                               : writer_.computed("r_2", "", -r1, {"slip goes on the other way"});
+    two_phases({.before = writer_.computed("a_1", "", a - b * r1, {"m du/dp before"}),
+                .after = writer_.computed("a_2", "", a - b * r2, {"and after slip stops"}),
                 .stop = stop},
                e);
-    const Expression tangential = Expression(r1) * stop + Expression(r2) * (*normal_ - Expression(stop));
+    const Expression tangential = r1 * stop + r2 * (*normal_ - stop);
     tangential_ =
         writer_.found(number("P_t", row_.impact.tangential_impulse, "N·s", row_.error.tangential_impulse), tangential);
     ratio_ = writer_.found(number("μ_i", row_.impact.impulse_ratio(), "", row_.error.impulse_ratio, 1),
-                           Expression(*tangential_) / *normal_, {"impulse ratio"});
+                           *tangential_ / *normal_, {"impulse ratio"});
   }
 
   struct Phases {
@@ -305,13 +300,13 @@ class PlanarImpact {
   /// Normal impulse where the law of restitution ends the path, which has a corner where slip stops.
   void two_phases(const Phases& path, const Quantity& e) {
     const Expression m = given_.mass;
-    const Quantity us = writer_.computed("u_s", "m/s", Expression(u_) + Expression(path.before) * path.stop / m,
+    const Quantity us = writer_.computed("u_s", "m/s", u_ + path.before * path.stop / m,
                                          {"normal velocity of the contact where slip stops"}, speed_);
     const Expression rest = path.stop;
     const auto rise = [&](const Expression& to) { return rest + m * (to - us) / path.after; };
     switch (drop_.law.law) {
-      case analytic::RestitutionLaw::newton: return end(rise(-(Expression(e) * u_)));
-      case analytic::RestitutionLaw::poisson: return end((1 + Expression(e)) * compression(path, us));
+      case analytic::RestitutionLaw::newton: return end(rise(-(e * u_)));
+      case analytic::RestitutionLaw::poisson: return end((1 + e) * compression(path, us));
       case analytic::RestitutionLaw::stronge: return end(rise(stronge_speed(path, us, e)));
       case analytic::RestitutionLaw::viscoelastic: return end(rise(ground_speed(path, us)));
     }
@@ -336,9 +331,9 @@ class PlanarImpact {
     const bool is_first = us.value(0, 0) >= 0;
     const Quantity work = writer_.computed("W_c", "J", is_first ? -(u * pc / 2) : -((u + s) * ps + s * (pc - ps)) / 2,
                                            {"work of compression"});
-    const Expression square_of_speed =
-        is_first ? square(us) + 2 * Expression(path.after) * (square(e) * work - s * (ps - pc) / 2) / m
-                 : 2 * Expression(path.after) * square(e) * work / m;
+    const Expression square_of_speed = is_first
+                                           ? square(us) + 2 * path.after * (square(e) * work - s * (ps - pc) / 2) / m
+                                           : 2 * path.after * square(e) * work / m;
     return writer_.computed("w", "m/s", function("√", square_of_speed), {"separation speed by the work given back"});
   }
 
@@ -346,7 +341,7 @@ class PlanarImpact {
   Quantity ground_speed(const Phases& path, const Quantity& us) {
     const Quantity w = number("w", row_.impact.separation_speed, "m/s");
     const Expression tau = *given_.damping_time;
-    const Expression share = Expression(path.after) / path.before;
+    const Expression share = path.after / path.before;
     if (given_.damping_time->value(0, 0) == 0) {
       return writer_.found(w, function("√", square(us) + share * (square(u_) - square(us))),
                            {"separation speed at which the ground has given back all that it stored"});
@@ -355,7 +350,7 @@ class PlanarImpact {
       return writer_.computed(name, "", -(tau * speed) - function("ln", 1 - tau * speed), {}, 1e-6);
     };
     const Quantity begin = psi("ψ_1", u_), stop = psi("ψ_2", us);
-    const Quantity end = writer_.computed("ψ_3", "", Expression(stop) + share * (Expression(begin) - stop),
+    const Quantity end = writer_.computed("ψ_3", "", stop + share * (begin - stop),
                                           {"work of the ground, up to a factor: that of the end follows"}, 1e-6);
     return writer_.found(w,
                          {"separation speed, which makes ", -(tau * w) - function("ln", 1 - tau * w) - end, " zero"});
@@ -373,22 +368,21 @@ class PlanarImpact {
     const std::optional<Quantity> ratio = ratio_ ? ratio_ : given_.impulse_ratio;
     state_eq8({.p = p, .vn = vn, .vt = vt, .w = w}, ratio, is_newton ? &e : nullptr);
     if (!normal_) {
-      const Expression below = ratio ? Expression(a) - Expression(*ratio) * b : Expression(a);
-      normal_ = writer_.found(p, -((1 + Expression(e)) * m * u_ / below), {"normal impulse"});
+      const Expression below = ratio ? a - *ratio * b : Expression(a);
+      normal_ = writer_.found(p, -((1 + e) * m * u_ / below), {"normal impulse"});
     }
     if (ratio && !tangential_) {
       tangential_ = writer_.found(number("P_t", impact.tangential_impulse, "N·s", row_.error.tangential_impulse),
-                                  Expression(*ratio) * *normal_, {"tangential impulse"});
+                                  *ratio * *normal_, {"tangential impulse"});
     }
     const Expression pn = *normal_;
-    vn_after_ = writer_.found(vn, Expression(vn_) + pn / m);
-    vt_after_ = writer_.found(vt, ratio ? Expression(vt_) + Expression(*tangential_) / m : Expression(vt_));
+    vn_after_ = writer_.found(vn, vn_ + pn / m);
+    vt_after_ = writer_.found(vt, ratio ? vt_ + *tangential_ / m : Expression(vt_));
     const Expression of_normal = pn * dt_, inertia = m * k2_;
-    w_after_ = writer_.found(w, ratio ? Expression(w_) + (Expression(*tangential_) * dn_ - of_normal) / inertia
-                                      : Expression(w_) - of_normal / inertia);
+    w_after_ = writer_.found(w, ratio ? w_ + (*tangential_ * dn_ - of_normal) / inertia : w_ - of_normal / inertia);
     contact_after(ratio.has_value());
     if (!is_newton)
-      writer_.found(number("e_N", impact.restitution(), "", row_.error.restitution, 1), -(Expression(u_after_) / u_),
+      writer_.found(number("e_N", impact.restitution(), "", row_.error.restitution, 1), -(u_after_ / u_),
                     {"ratio of separation to approach speed"});
   }
 
@@ -414,20 +408,19 @@ class PlanarImpact {
     if (!ratio) words.emplace_back(" Without friction the impulse along the ground is zero.");
     writer_.open("Eq. 8", words);
     writer_.law(m * (vn - vn_), p);
-    writer_.law(m * (Expression(of.vt) - vt_), ratio ? Expression(*ratio) * p : Expression(0));
-    writer_.law(m * k2_ * (w - w_), ratio ? Expression(*ratio) * p * dn_ - p * dt_ : -(p * dt_));
-    if (e) writer_.law(vn - w * dt_, -(Expression(*e) * (Expression(vn_) - Expression(w_) * dt_)));
+    writer_.law(m * (of.vt - vt_), ratio ? *ratio * p : Expression(0));
+    writer_.law(m * k2_ * (w - w_), ratio ? *ratio * p * dn_ - p * dt_ : -(p * dt_));
+    if (e) writer_.law(vn - w * dt_, -(*e * (vn_ - w_ * dt_)));
   }
 
   /// The velocity of the contact after the impact.
   void contact_after(bool rubs) {
     const analytic::Impact& impact = row_.impact;
-    u_after_ =
-        writer_.found(number("u′", impact.separation_speed, "m/s", 0, speed_),
-                      Expression(vn_after_) - Expression(w_after_) * dt_, {"normal velocity of the contact, after"});
+    u_after_ = writer_.found(number("u′", impact.separation_speed, "m/s", 0, speed_), vn_after_ - w_after_ * dt_,
+                             {"normal velocity of the contact, after"});
     if (rubs) {
-      s_after_ = writer_.found(number("s′", impact.slip_after, "m/s", 0, speed_),
-                               Expression(vt_after_) + Expression(w_after_) * dn_, {"slip of the contact, after"});
+      s_after_ = writer_.found(number("s′", impact.slip_after, "m/s", 0, speed_), vt_after_ + w_after_ * dn_,
+                               {"slip of the contact, after"});
     }
   }
 
@@ -445,45 +438,42 @@ class PlanarImpact {
         "Eq. 10: vertices strike together (flat landing)",
         {"The body rebounds as a whole, its turning reversed like its fall. Unknown are the impulses ", p, " and ", pt,
          " and the velocities after, ", vn, ", ", vt, " and ", w, "; for e = 1 they are those of Eq. 11."});
-    writer_.law(m * (Expression(vn) - vn_), p);
-    writer_.law(m * (Expression(vt) - vt_), pt);
-    writer_.law(vn, -(Expression(e) * vn_));
-    writer_.law(w, -(Expression(e) * w_));
-    normal_ = writer_.found(p, -((1 + Expression(e)) * m * vn_), {"normal impulse"});
-    vn_after_ = writer_.found(vn, -(Expression(e) * vn_));
-    w_after_ = writer_.found(w, -(Expression(e) * w_));
+    writer_.law(m * (vn - vn_), p);
+    writer_.law(m * (vt - vt_), pt);
+    writer_.law(vn, -(e * vn_));
+    writer_.law(w, -(e * w_));
+    normal_ = writer_.found(p, -((1 + e) * m * vn_), {"normal impulse"});
+    vn_after_ = writer_.found(vn, -(e * vn_));
+    w_after_ = writer_.found(w, -(e * w_));
     const bool rubs = given_.friction || given_.impulse_ratio;
     if (rubs)
       tangential_ =
           writer_.found(pt, flat_friction(e), {fmt::format("tangential impulse, mode {}", mode_name(impact.mode))});
-    vt_after_ = writer_.found(vt, rubs ? Expression(vt_) + Expression(*tangential_) / m : Expression(vt_));
-    const Expression lost = (1 - square(e)) * m * (square(vn_) + Expression(k2_) * square(w_)) / 2;
-    energy(rubs ? lost - Expression(*tangential_) * (Expression(vt_) + vt_after_) / 2 : lost);
+    vt_after_ = writer_.found(vt, rubs ? vt_ + *tangential_ / m : Expression(vt_));
+    const Expression lost = (1 - square(e)) * m * (square(vn_) + k2_ * square(w_)) / 2;
+    energy(rubs ? lost - *tangential_ * (vt_ + vt_after_) / 2 : lost);
   }
 
   /// Tangential impulse of a flat landing: the reversed turning moves the face along the ground by ω d_n.
   Expression flat_friction(const Quantity& e) {
     const Expression m = given_.mass, pn = *normal_;
-    if (given_.impulse_ratio) return Expression(*given_.impulse_ratio) * pn;
-    s_ = writer_.found(number("s", row_.impact.slip_before, "m/s", 0, speed_), Expression(vt_) + Expression(w_) * dn_,
+    if (given_.impulse_ratio) return *given_.impulse_ratio * pn;
+    s_ = writer_.found(number("s", row_.impact.slip_before, "m/s", 0, speed_), vt_ + w_ * dn_,
                        {"slip of the face, before"});
     if (row_.impact.mode == ImpactMode::stick || row_.impact.mode == ImpactMode::slip_stick)
-      return m * (Expression(e) * w_ * dn_ - vt_);
-    const Quantity drift =
-        writer_.computed("D", "", -(Expression(w_) * dn_ / vn_), {"drift of the face by its turning"});
-    const Expression along = s_->value(0, 0) == 0 ? -Expression(drift) : Expression(*s_);
-    const Quantity r =
-        writer_.computed("r_1", "", -(Expression(*given_.friction) * function("sgn", along)), {"against the slip"});
-    if (row_.impact.mode != ImpactMode::reverse_slip) return Expression(r) * pn;
-    const Quantity stop =
-        writer_.computed("p_s", "N·s", m * *s_ / (Expression(drift) - r), {"normal impulse that stops the slip"});
-    return Expression(r) * (2 * Expression(stop) - pn);
+      return m * (e * w_ * dn_ - vt_);
+    const Quantity drift = writer_.computed("D", "", -(w_ * dn_ / vn_), {"drift of the face by its turning"});
+    const Expression along = s_->value(0, 0) == 0 ? -drift : Expression(*s_);
+    const Quantity r = writer_.computed("r_1", "", -(*given_.friction * function("sgn", along)), {"against the slip"});
+    if (row_.impact.mode != ImpactMode::reverse_slip) return r * pn;
+    const Quantity stop = writer_.computed("p_s", "N·s", m * *s_ / (drift - r), {"normal impulse that stops the slip"});
+    return r * (2 * stop - pn);
   }
 
   void energy(const Expression& lost) {
     const Expression m = given_.mass;
     const auto total = [&](const Quantity& n, const Quantity& t, const Quantity& w) {
-      const Expression moving = m * (square(n) + square(t) + Expression(k2_) * square(w)) / 2;
+      const Expression moving = m * (square(n) + square(t) + k2_ * square(w)) / 2;
       return given_.gravity.value(0, 0) > 0 ? moving + m * given_.gravity * z_ : moving;
     };
     write_energy(

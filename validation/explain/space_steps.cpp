@@ -142,8 +142,8 @@ class SpatialImpact {
                          : "Energy and angular momentum are constant. In principal axes, numbered so that the angular "
                            "momentum circles axis 3, ω follows Jacobi's elliptic functions of modulus k, and repeats "
                            "after a period of four complete elliptic integrals K."});
-    const Quantity momentum = writer_.computed("L_b", "kg·m²/s", Expression(inertia_b_) * rate_b_,
-                                               {"angular momentum at departure, body axes"});
+    const Quantity momentum =
+        writer_.computed("L_b", "kg·m²/s", inertia_b_ * rate_b_, {"angular momentum at departure, body axes"});
     const Quantity length = writer_.computed("L", "kg·m²/s", absolute(momentum));
     const Quantity energy = writer_.computed("E_r", "J", dot(rate_b_, momentum) / 2, {"energy of the rotation"});
     if (steady) return;
@@ -153,7 +153,7 @@ class SpatialImpact {
     const Quantity i1 = writer_.given(number("I_1", moments[0], "kg·m²", 0, size), {"principal moments"});
     const Quantity i2 = writer_.given(number("I_2", moments[1], "kg·m²", 0, size), {});
     const Quantity i3 = writer_.given(number("I_3", moments[2], "kg·m²", 0, size), {});
-    const Expression a = i1, b = i2, c = i3, twice = 2 * Expression(energy), square_l = square(length);
+    const Expression a = i1, b = i2, c = i3, twice = 2 * energy, square_l = square(length);
     const Expression below = absolute(b - c) * absolute(square_l - twice * a);
     const Quantity modulus = writer_.found(number("k²", theta.modulus_square(), "", 0, 1),
                                            absolute(a - b) * absolute(twice * c - square_l) / below, {"modulus"});
@@ -177,8 +177,8 @@ class SpatialImpact {
                      "and its second derivative hold; before the bracket no corner comes down, within it the height "
                      "of {} has one root.",
                      names(flight.together))});
-    const Expression rising = Expression(z0_) + up(v0_) * t;
-    writer_.law(h, (falls() ? rising - Expression(given_.gravity) * square(t) / 2 : rising) + dot(e, place));
+    const Expression rising = z0_ + up(v0_) * t;
+    writer_.law(h, (falls() ? rising - given_.gravity * square(t) / 2 : rising) + dot(e, place));
     if (flight.bracket_high < 1e300) {
       writer_.found(number("T_low", flight.bracket_low, "s"), {"left end of the certified bracket"});
       writer_.found(number("T_high", flight.bracket_high, "s"), {"its right end"});
@@ -186,12 +186,11 @@ class SpatialImpact {
     time_ = writer_.found(
         number("T", flight.time, "s"),
         {fmt::format("the root, found numerically by {} evaluations of the rotation", flight.evaluations)});
-    if (period_) writer_.computed("N", "", Expression(time_) / *period_, {"periods flown"});
+    if (period_) writer_.computed("N", "", time_ / *period_, {"periods flown"});
     else writer_.computed("θ", "rad", absolute(rate_b_) * time_, {"angle turned"});
-    const Expression line = Expression(z0_) + up(v0_) * time_;
+    const Expression line = z0_ + up(v0_) * time_;
     z_ = writer_.found(number("z", row_.before.position.z(), "m", 0, reach_),
-                       falls() ? line - Expression(given_.gravity) * square(time_) / 2 : line,
-                       {"height of the centre of mass"});
+                       falls() ? line - given_.gravity * square(time_) / 2 : line, {"height of the centre of mass"});
     next_corner();
     if (std::isfinite(flight.near_miss.clearance)) {
       writer_.found(number("h_miss", flight.near_miss.clearance, "m", flight.near_miss.margin),
@@ -222,13 +221,11 @@ class SpatialImpact {
     const Eigen::Vector4d q(now.attitude.w(), now.attitude.x(), now.attitude.y(), now.attitude.z());
     writer_.found({"q", q, "", 0, 1}, {"Euler parameters of the attitude, body to world"});
     rotation_ = writer_.found({"R", now.attitude.toRotationMatrix(), "", 0, 1}, {"their rotation matrix"});
-    inertia_ = writer_.computed("I", "kg·m²", Expression(rotation_) * inertia_b_ * power(rotation_, -1),
-                                {"inertia in world axes"});
+    inertia_ = writer_.computed("I", "kg·m²", rotation_ * inertia_b_ * power(rotation_, -1), {"inertia in world axes"});
     if (last_) {
-      velocity_ =
-          writer_.found({"V", now.velocity, "m/s", 0, speed_},
-                        falls() ? Expression(v0_) - Expression(given_.gravity) * time_ * normal_ : Expression(v0_),
-                        {"velocity of the centre of mass"});
+      velocity_ = writer_.found({"V", now.velocity, "m/s", 0, speed_},
+                                falls() ? v0_ - given_.gravity * time_ * normal_ : Expression(v0_),
+                                {"velocity of the centre of mass"});
       rate_ = writer_.found({"ω", now.angular_velocity, "rad/s"}, {"angular velocity, by the rotation without torque"});
       return;
     }
@@ -242,14 +239,14 @@ class SpatialImpact {
     const Quantity place =
         writer_.given({"r_b" + number, corner.place, "m"}, {who + " from the centre of mass, body axes"});
     const std::string index = number.empty() ? "" : "_" + number;
-    const Quantity arm = writer_.computed("r" + index, "m", Expression(rotation_) * place, {"in world axes"}, reach_);
-    const Quantity velocity = writer_.computed("v" + index, "m/s", Expression(velocity_) + cross(rate_, arm),
-                                               {"velocity there, before"}, speed_);
+    const Quantity arm = writer_.computed("r" + index, "m", rotation_ * place, {"in world axes"}, reach_);
+    const Quantity velocity =
+        writer_.computed("v" + index, "m/s", velocity_ + cross(rate_, arm), {"velocity there, before"}, speed_);
     return {arm, velocity};
   }
 
   void heights(const Quantity& arm) {
-    if (last_) writer_.computed("h", "m", Expression(z_) + up(arm), {"height of the corner at the root"}, reach_);
+    if (last_) writer_.computed("h", "m", z_ + up(arm), {"height of the corner at the root"}, reach_);
     else
       z_ = writer_.found(number("z", row_.before.position.z(), "m", 0, reach_), -up(arm),
                          {"height of the centre of mass"});
@@ -265,14 +262,13 @@ class SpatialImpact {
     heights(arm);
     const bool rubs = given_.friction || given_.impulse_ratio;
     if (rubs) {
-      w_ = writer_.computed("W", "1/kg",
-                            1 / Expression(given_.mass) - cross_matrix(arm) * power(inertia_, -1) * cross_matrix(arm));
+      w_ = writer_.computed("W", "1/kg", 1 / given_.mass - cross_matrix(arm) * power(inertia_, -1) * cross_matrix(arm));
       b_ = writer_.given({"b", w_.value.block(0, 2, 2, 1), "1/kg", w_.error, w_.size},
                          {"its mixed part, along the ground and normal"});
       c_ = writer_.given(number("c", w_.value(2, 2), "1/kg", w_.error), {"its normal part"});
     } else {
       const Expression lever = cross(arm, normal_);
-      c_ = writer_.computed("c", "1/kg", 1 / Expression(given_.mass) + dot(lever, power(inertia_, -1) * lever),
+      c_ = writer_.computed("c", "1/kg", 1 / given_.mass + dot(lever, power(inertia_, -1) * lever),
                             {"normal part of W"});
     }
     if (given_.friction) path();
@@ -299,7 +295,7 @@ class SpatialImpact {
                     mode_name(struck_.path), path_words(struck_.path))};
     if (struck_.is_path_ambiguous) words.emplace_back(" Slip comes so close to zero that rounding decides this kind.");
     writer_.open("Friction in impulse space", words);
-    writer_.law(Expression(dv) / dp, Expression(w_) * (Expression(normal_) - Expression(*given_.friction) * s));
+    writer_.law(dv / dp, w_ * (normal_ - *given_.friction * s));
     const Quantity a =
         writer_.given({"A", w_.value.topLeftCorner(2, 2), "1/kg", w_.error, w_.size}, {"part of W along the ground"});
     const Quantity slip = writer_.given({"v_h", contact_.value.topRows(2), "m/s", contact_.error, speed_},
@@ -328,10 +324,8 @@ class SpatialImpact {
                         {fmt::format("invariant direction, {}, {}", one.attracts ? "stable" : "unstable",
                                      one.slip_rate > 0 ? "outgoing" : "incoming")});
       const Quantity s = writer_.computed("s" + index, "", column(function("cos", phi), function("sin", phi)));
-      writer_.found(number("f" + index, one.slip_rate, "1/kg", 0, w_.value.trace()),
-                    dot(s, Expression(b_) - mu * a * s));
-      writer_.found(number("h" + index, one.normal_rate, "1/kg", 0, w_.value.trace()),
-                    Expression(c_) - mu * dot(b_, s));
+      writer_.found(number("f" + index, one.slip_rate, "1/kg", 0, w_.value.trace()), dot(s, b_ - mu * a * s));
+      writer_.found(number("h" + index, one.normal_rate, "1/kg", 0, w_.value.trace()), c_ - mu * dot(b_, s));
     }
   }
 
@@ -350,7 +344,7 @@ class SpatialImpact {
       const Quantity pc = writer_.found(number("p_c", struck_.compression_impulse, "N·s"),
                                         {"normal impulse where compression ends, on the path"});
       const bool is_poisson = drop_.law.law.law == analytic::RestitutionLaw::poisson;
-      if (is_poisson) writer_.found(z, (1 + Expression(*e)) * pc, {"normal impulse where the impact ends"});
+      if (is_poisson) writer_.found(z, (1 + *e) * pc, {"normal impulse where the impact ends"});
       else writer_.found(z, {"normal impulse where the impact ends, on the path"});
       impulse_ = writer_.found(p, {"impulse, its tangential part the friction summed along the path"});
       return;
@@ -359,30 +353,27 @@ class SpatialImpact {
     if (given_.impulse_ratio) {
       const Quantity d =
           writer_.given({"d", drop_.law.ratio_direction, ""}, {"direction in which the impulse ratio acts"});
-      rate = rate + Expression(*given_.impulse_ratio) * dot(b_, d);
+      rate = rate + *given_.impulse_ratio * dot(b_, d);
     }
-    const Quantity end = writer_.found(z, -((1 + Expression(*e)) * approach / rate), {"normal impulse"});
+    const Quantity end = writer_.found(z, -((1 + *e) * approach / rate), {"normal impulse"});
     if (given_.impulse_ratio) {
       const Vector3 d(drop_.law.ratio_direction.x(), drop_.law.ratio_direction.y(), 0);
       const Quantity along = writer_.given({"d_3", d, ""}, {"the same as a vector of three components"});
-      impulse_ = writer_.found(p, Expression(end) * (Expression(normal_) + Expression(*given_.impulse_ratio) * along));
+      impulse_ = writer_.found(p, end * (normal_ + *given_.impulse_ratio * along));
     } else {
-      impulse_ = writer_.found(p, Expression(end) * normal_);
+      impulse_ = writer_.found(p, end * normal_);
     }
   }
 
   void velocities() {
     writer_.open("What the impulse does", {});
     const Expression m = given_.mass;
-    velocity_after_ =
-        writer_.found({"V′", struck_.velocity_after, "m/s", row_.error.velocity_after, speed_},
-                      Expression(velocity_) + Expression(impulse_) / m, {"velocity of the centre of mass, after"});
-    rate_after_ =
-        writer_.found({"ω′", struck_.angular_velocity_after, "rad/s", row_.error.angular_velocity_after},
-                      Expression(rate_) + power(inertia_, -1) * cross(arm_, impulse_), {"angular velocity, after"});
-    const Quantity after =
-        writer_.found({"v′", struck_.contact_after, "m/s", 0, speed_},
-                      Expression(velocity_after_) + cross(rate_after_, arm_), {"velocity of the corner, after"});
+    velocity_after_ = writer_.found({"V′", struck_.velocity_after, "m/s", row_.error.velocity_after, speed_},
+                                    velocity_ + impulse_ / m, {"velocity of the centre of mass, after"});
+    rate_after_ = writer_.found({"ω′", struck_.angular_velocity_after, "rad/s", row_.error.angular_velocity_after},
+                                rate_ + power(inertia_, -1) * cross(arm_, impulse_), {"angular velocity, after"});
+    const Quantity after = writer_.found({"v′", struck_.contact_after, "m/s", 0, speed_},
+                                         velocity_after_ + cross(rate_after_, arm_), {"velocity of the corner, after"});
     if (given_.friction) {
       const Quantity slip = writer_.given({"v_h′", after.value.topRows(2), "m/s", after.error, speed_}, {"slip after"});
       writer_.computed("σ′", "m/s", absolute(slip), {"its size"}, speed_);
@@ -391,13 +382,13 @@ class SpatialImpact {
     }
     writer_.found(number("e_N", struck_.restitution(), "", 0, 1), -(up(after) / up(contact_)),
                   {"ratio of separation to approach speed"});
-    energy(-(dot(impulse_, Expression(contact_) + after) / 2));
+    energy(-(dot(impulse_, contact_ + after) / 2));
   }
 
   void energy(const Expression& loss) {
     const Expression m = given_.mass;
     const auto total = [&](const Quantity& v, const Quantity& w) {
-      const Expression moving = m * dot(v, v) / 2 + dot(w, Expression(inertia_) * w) / 2;
+      const Expression moving = m * dot(v, v) / 2 + dot(w, inertia_ * w) / 2;
       return falls() ? moving + m * given_.gravity * z_ : moving;
     };
     const double size = std::max(row_.energy_before, row_.energy_after);
@@ -456,13 +447,11 @@ class SpatialImpact {
     rate_after_ = writer_.found({"ω′", group.angular_velocity_after, "rad/s", row_.error.angular_velocity_after},
                                 {"angular velocity, after"});
     impulse_ = writer_.found({"P", group.impulse, "N·s", row_.error.impulse},
-                             Expression(given_.mass) * (Expression(velocity_after_) - velocity_), {"impulse of all"});
+                             given_.mass * (velocity_after_ - velocity_), {"impulse of all"});
     const Quantity moment = writer_.found({"M", group.moment, "N·m·s", 0, group.impulse.norm() * reach_},
-                                          Expression(inertia_) * (Expression(rate_after_) - rate_),
-                                          {"their moment about the centre of mass"});
+                                          inertia_ * (rate_after_ - rate_), {"their moment about the centre of mass"});
     if (group.impulse.z() > 0) resultant(moment);
-    energy(
-        -((dot(impulse_, Expression(velocity_) + velocity_after_) + dot(moment, Expression(rate_) + rate_after_)) / 2));
+    energy(-((dot(impulse_, velocity_ + velocity_after_) + dot(moment, rate_ + rate_after_)) / 2));
   }
 
   /// Where one impulse would have the same effect: x and y on the ground, from P × and M about the centre of mass.
@@ -473,9 +462,8 @@ class SpatialImpact {
     const Quantity px = part("P_x", impulse_, 0, "N·s"), py = part("P_y", impulse_, 1, "N·s"),
                    pz = part("P_z", impulse_, 2, "N·s");
     const Quantity mx = part("M_x", moment, 0, "N·m·s"), my = part("M_y", moment, 1, "N·m·s");
-    writer_.computed("x", "m", -((Expression(my) + Expression(z_) * px) / pz),
-                     {"place of the resultant from the centre of mass"}, reach_);
-    writer_.computed("y", "m", (Expression(mx) - Expression(z_) * py) / pz, {}, reach_);
+    writer_.computed("x", "m", -((my + z_ * px) / pz), {"place of the resultant from the centre of mass"}, reach_);
+    writer_.computed("y", "m", (mx - z_ * py) / pz, {}, reach_);
   }
 
   /// What small tilts would make of corners at once.
@@ -488,9 +476,8 @@ class SpatialImpact {
                                         : fmt::format("one of {} outcomes", count);
     if (!set.varies && count > most)
       outcomes += fmt::format("; the {} commonest follow, JSON of sequence has all", most);
-    if (!set.is_complete()) {
+    if (!set.is_complete())
       outcomes += fmt::format("; {} % of the directions are not followed", significant(100 * set.open_share, 2));
-    }
     writer_.open("Small tilts",
                  {fmt::format("However small, a tilt makes the corners strike in some order. Each direction gives {}.",
                               outcomes)});

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // `clatter gradient SCENE`: how the state after each impact changes with the drop.
-#include <memory>
 
 #include "validation/command/command.hpp"
 #include "validation/command/options.hpp"
@@ -27,17 +26,16 @@ int run_gradient(const GradientInput& input) {
 }  // namespace
 
 Command gradient_command() {
-  auto input = std::make_shared<GradientInput>();
-  Command command;
-  add_scene_flags(command, input->scene, Model::discrete);
-  add_output_options(command, input->output);
-  command.footer =
-      "Example: clatter gradient --angle 10 --gravity 9.81 --restitution 0.8 --impacts 3\n"
-      "With respect to the angle and in space the tilt (per radian), the speed or height, restitution and\n"
-      "friction. None at a fold, where an impact grazes, and where drops on both sides have other impacts:\n"
-      "exit status 3.";
-  command.run = [input] { return run_gradient(*input); };
-  return command;
+  return command_of<GradientInput>(run_gradient, [](Command& command, GradientInput& input) {
+    add_scene_flags(command, input.scene, Model::discrete);
+    add_output_options(command, input.output);
+    command.footer =
+        "Example: clatter gradient --angle 10 --gravity 9.81 --restitution 0.8 --impacts 3\n"
+        "With respect to the angle and in space the tilt (per radian), the speed or height, restitution and\n"
+        "friction. None at a fold, where an impact grazes, and where drops on both sides have other impacts:\n"
+        "exit status 3.";
+    command.columns = {{"gradient", [] { return with_more(gradient_columns(false), gradient_columns(true)); }}};
+  });
 }
 
 }  // namespace clatter::validation

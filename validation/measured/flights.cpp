@@ -7,7 +7,6 @@
 #include <cmath>
 
 namespace clatter::validation {
-
 namespace {
 
 using Eigen::Matrix2d;

@@ -2,13 +2,87 @@
 // Restitution and friction fitted to measured impacts, for each law.
 #pragma once
 
+#include <Eigen/Core>
 #include <array>
-#include <string>
+#include <functional>
+#include <vector>
 
 #include "analytic/plane/impact.hpp"
-#include "validation/measured/calibration.hpp"
+#include "validation/measured/meetings.hpp"
 
 namespace clatter::validation {
+
+// Parameters that make the sum of bounded or slowly growing losses least, with confidence from the items' scatter.
+
+/// The loss of each item (a drop, say) for given parameters.
+using Losses = std::function<Eigen::VectorXd(const Eigen::VectorXd& parameters)>;
+
+struct FitStart {
+  std::vector<double> value;
+  std::vector<double> step;  ///< size of the first simplex, and twenty times the step of derivatives
+};
+
+struct RobustFit {
+  Eigen::VectorXd value;
+  /// The jackknife's covariance: without item i the parameters move by (Σ H − H_i)⁻¹ g_i to first order, g and H an
+  /// item's first and second derivatives by central differences; NaN where Σ H is not positive definite.
+  Eigen::MatrixXd covariance;
+  Eigen::VectorXd losses;  ///< of each item at `value`
+
+  [[nodiscard]] double loss() const { return losses.mean(); }
+  /// Half the width of a parameter's 95 % interval, by Student's distribution.
+  [[nodiscard]] double half_width(int parameter) const;
+};
+
+/// Least mean loss by the simplex of Nelder and Mead (GSL).  Losses need no derivatives: friction's have kinks.
+/// @throws NumericalError if the simplex does not shrink to 1e-6 of its first size in 2000 steps.
+[[nodiscard]] RobustFit fit_robustly(const Losses& losses, const FitStart& start);
+
+/// s² (√(1 + (r/s)²) − 1): r²/2 for small r, s |r| for large ones.
+[[nodiscard]] double pseudo_huber(double r, double s);
+
+/// Mean of a − b, item by item, and its standard error: whether one model beats another on the same items.
+struct PairedDifference {
+  double mean = 0;
+  double error = 0;
+  [[nodiscard]] bool is_clear() const { return std::abs(mean) > 1.96 * error; }
+};
+[[nodiscard]] PairedDifference paired_difference(const Eigen::VectorXd& a, const Eigen::VectorXd& b);
+
+// What a file says of its body before any impact law is asked: axes, ground, inertia, rounded corners.
+
+/// Indices of tracks in a file: those to fit on, or those to score.
+using TrackPart = std::vector<std::size_t>;
+
+struct CalibrationResult {
+  Calibration calibration;
+  double ground_spread = 0;        ///< of the touches' heights, standard deviation [m]
+  std::size_t resting = 0;         ///< tracks that end on a face, at rest
+  std::size_t touches = 0;         ///< impacts that gave the ground's height
+  double inertia_half_width = 0;   ///< of the 95 % interval
+  double rounding_half_width = 0;  ///< likewise [m]
+  double turn_error = 0;           ///< standard error [rad]
+  double lever_before = 0;         ///< middle turning that point impacts leave unexplained, uniform and sharp
+  double lever_after = 0;
+};
+
+/// The parts of a calibration that are fitted; the ground's height always is.
+struct CalibrationParts {
+  bool axes = true;     ///< of the body, from resting poses: a face lies flat
+  bool inertia = true;  ///< and rounding, from the momentum about the touching point of first impacts
+};
+
+/// Calibrates on a part of a file.  Losses are capped, so that impacts on more than a point do not count.
+[[nodiscard]] CalibrationResult calibrate(const MeasuredFile& file, const TrackPart& part,
+                                          const CalibrationParts& parts);
+
+/// Impact `number` of each track of a part that has one.
+struct PartImpact {
+  std::size_t track = 0;
+  TrackImpact impact;
+};
+[[nodiscard]] std::vector<PartImpact> impacts_of(const MeasuredFile& file, const TrackPart& part,
+                                                 const TrackedBody& body, double ground_error, int number);
 
 /// An impact law with numbers.  Restitution may depend on the effective mass of the corner,
 ///     e = e₀ + e₁ ν,   ν = 1/(m W_nn) in (0, 1]: 1 where the centre is above the corner,           (1)

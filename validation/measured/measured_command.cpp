@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <filesystem>
-#include <memory>
 
 #include "validation/measured/measured_command.hpp"
 
@@ -14,7 +13,6 @@
 #include "validation/scene/option_values.hpp"
 
 namespace clatter::validation {
-
 namespace {
 
 void refuse_two_splits(const MeasuredRequest& input) {
@@ -149,31 +147,32 @@ int run_measured(const MeasuredInput& input) {
 }  // namespace
 
 Command measured_command() {
-  auto input = std::make_shared<MeasuredInput>();
-  Command command;
-  command.add({.name = "ACTION",
-               .target = &input->action,
-               .type = "fit|predict|score",
-               .help = "what to do",
-               .required = true});
-  command.add({.name = "FILE",
-               .target = &input->request.file,
-               .type = "FILE",
-               .help = "poses, frame by frame (CSV), or square-drops or cube-tosses, which come with the program",
-               .required = true});
-  command.add(measured_arguments(input->request));
-  command.add_text("--drop", input->drop, "NAME", "to draw (the first point impact)");
-  add_output_options(command, input->output);
-  add_plot_options(command, input->plot);
-  command.footer =
-      "Example: clatter measured score square-drops --plot score.svg\n"
-      "FILE has a row a frame, drop by drop: drop, sample, x_m, z_m, angle_rad for motion in a plane, drop, "
-      "sample, x_m, y_m, z_m, q0, q1, q2, q3 in space.\n"
-      "FILE.toml beside it says what was tracked: [body] size, mass; [track] motion, rate and the columns' names; "
-      "[world] ground, gravity. The reference's page of this command has each key and an example.\n"
-      "No drop is both fitted to and scored; at least 3 drops are fitted to.";
-  command.run = [input] { return run_measured(*input); };
-  return command;
+  return command_of<MeasuredInput>(run_measured, [](Command& command, MeasuredInput& input) {
+    command.add({.name = "ACTION",
+                 .target = &input.action,
+                 .type = "fit|predict|score",
+                 .help = "what to do",
+                 .required = true});
+    command.add({.name = "FILE",
+                 .target = &input.request.file,
+                 .type = "FILE",
+                 .help = "poses, frame by frame (CSV), or square-drops or cube-tosses, which come with the program",
+                 .required = true});
+    command.add(measured_arguments(input.request));
+    command.add_text("--drop", input.drop, "NAME", "to draw (the first point impact)");
+    add_output_options(command, input.output);
+    add_plot_options(command, input.plot);
+    command.footer =
+        "Example: clatter measured score square-drops --plot score.svg\n"
+        "FILE has a row a frame, drop by drop: drop, sample, x_m, z_m, angle_rad for motion in a plane, drop, "
+        "sample, x_m, y_m, z_m, q0, q1, q2, q3 in space.\n"
+        "FILE.toml beside it says what was tracked: [body] size, mass; [track] motion, rate and the columns' names; "
+        "[world] ground, gravity. The reference's page of this command has each key and an example.\n"
+        "No drop is both fitted to and scored; at least 3 drops are fitted to.";
+    command.columns = {{"measured-fit", measured_fit_columns},
+                       {"measured-predict", measured_predict_columns},
+                       {"measured-score", measured_score_columns}};
+  });
 }
 
 }  // namespace clatter::validation

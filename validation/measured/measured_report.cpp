@@ -11,7 +11,6 @@
 #include "validation/output/version.hpp"
 
 namespace clatter::validation {
-
 namespace {
 
 std::string mm(double metres) { return significant(1e3 * metres, 3); }
@@ -404,9 +403,7 @@ PicturePanel track_panel(const MeasuredRun& run, const ScoredDrop& drop) {
       .columns = {{"time", "s", "since impact 1"},
                   {"height", "m", "of the centre"},
                   {"kind", "1", "0 measured, 1 predicted"}},
-      .rows = {},
       .plot = {
-          .title = "",
           .x_label = "t [s]",
           .y_label = "height of the centre [m]",
           .curves = {
@@ -433,9 +430,7 @@ PicturePanel residual_panel(const Scores& scores) {
   PicturePanel panel{.columns = {{"angle", "deg", "between the corner's arm and the vertical"},
                                  {"error", "%", "of the motion after impact 1"},
                                  {"point", "1", "1: a point impact"}},
-                     .rows = {},
-                     .plot = {.title = "",
-                              .x_label = "angle between the corner's arm and the vertical [°]",
+                     .plot = {.x_label = "angle between the corner's arm and the vertical [°]",
                               .y_label = "error [%]",
                               .curves = {{.x = "angle",
                                           .y = "error",
@@ -455,9 +450,7 @@ PicturePanel residual_panel(const Scores& scores) {
 PicturePanel coverage_panel(const MeasuredRun& run, const Scores& scores) {
   PicturePanel panel{
       .columns = {{"width", "1", "over that of the 90 % interval"}, {"share", "%", "of the numbers within"}},
-      .rows = {},
-      .plot = {.title = "",
-               .x_label = "distance over half the 90 % interval",
+      .plot = {.x_label = "distance over half the 90 % interval",
                .y_label = "numbers within [%]",
                .curves = {{.x = "width", .y = "share", .legend = "velocities after impact 1; 90 % belong at 1"}}}};
   const TrackedBody body(run.file.file.description, run.fit.calibration.calibration);

@@ -11,7 +11,6 @@
 #include "analytic/space/first_contact.hpp"
 
 namespace clatter::validation {
-
 namespace {
 
 using analytic::space::State;
@@ -196,13 +195,7 @@ MeasuredFile measure_tracks(TrackFile file) {
   measured.model.noise = flight_noise(measured.file, flights, measured.model);
   for (std::size_t i = 0; i < flights.size(); ++i) {
     const Track& track = measured.file.tracks[i];
-    MeasuredTrack result{.name = track.name,
-                         .flights = {},
-                         .missing = track.missing,
-                         .meetings = {},
-                         .other_changes = {},
-                         .rest = {},
-                         .rest_position = {}};
+    MeasuredTrack result{.name = track.name, .missing = track.missing};
     result.flights = std::move(flights[i]);
     result.meetings = find_meetings(track, result.flights, measured.model, body);
     if (result.flights.rests) {

@@ -38,13 +38,13 @@ struct Meeting {
 
 /// Everything read from one track.
 struct MeasuredTrack {
-  std::string name;
-  TrackFlights flights;
+  std::string name{};
+  TrackFlights flights{};
   int missing = 0;
-  std::vector<Meeting> meetings;       ///< impacts
-  std::vector<Meeting> other_changes;  ///< of the motion, away from the ground
-  std::optional<Quaternion> rest;      ///< attitude at rest, as tracked
-  std::optional<Vector3> rest_position;
+  std::vector<Meeting> meetings{};       ///< impacts
+  std::vector<Meeting> other_changes{};  ///< of the motion, away from the ground
+  std::optional<Quaternion> rest{};      ///< attitude at rest, as tracked
+  std::optional<Vector3> rest_position{};
 };
 
 /// A file taken apart, with what its frames say of themselves.

@@ -2,12 +2,116 @@
 // Tracked motion: poses of a body, frame by frame, drop by drop.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
-#include "validation/measured/tracked_body.hpp"
+#include "analytic/space/body.hpp"
 
 namespace clatter::validation {
+
+// The body that was tracked, and how its file is to be read: a TOML file beside the CSV.
+//
+//     [body]       size = [L, W, T], mass                              a box; in the plane W is left out of account
+//     [track]      motion = "plane" or "space", rate [Hz], drop, sample, x, y, z, angle, q0 … q3: names of columns
+//                  unit [m], angle_unit [rad], turns = "counter-clockwise" or "clockwise" (z up, x right),
+//                  attitude = "body-to-world" or "world-to-body"
+//     [world]      ground: height of the ground [m]; gravity [m/s²]
+//     [impact]     lever_tolerance: how far from the corner the touch may lie, over the corner's distance
+//     [published]  restitution, friction: of the data's authors
+//     [source]     text, licence
+
+using analytic::space::cross_matrix;
+using analytic::space::Matrix3;
+using analytic::space::Quaternion;
+using analytic::space::Vector3;
+
+/// Parameters of an impact law as someone else states them.
+struct StatedLaw {
+  double restitution = 0;
+  double friction = 0;
+};
+
+struct TrackDescription {
+  enum class Motion { plane, space };
+  std::string path;  ///< of the description, for messages
+  Motion motion = Motion::space;
+  Vector3 size = Vector3::Ones();  ///< along the body's x, y, z [m]
+  double mass = 1;                 ///< [kg]
+  double rate = 0;                 ///< frames per second [Hz]
+  double unit = 1;                 ///< of the positions [m]
+  double angle_unit = 1;           ///< of the angle [rad]
+  bool clockwise = false;          ///< the angle's sense, with z up and x to the right
+  bool to_body = false;            ///< the quaternion maps world to body
+  double ground = 0;               ///< its height [m]
+  double gravity = 9.81;           ///< expected along the fall [m/s²]
+  double lever_tolerance = 0.1;    ///< of a point impact, over the corner's distance from the centre
+  std::optional<StatedLaw> published;
+  std::string source, licence;
+  std::string drop, sample, x, y, z, angle;  ///< names of columns
+  std::vector<std::string> quaternion;       ///< likewise, scalar first
+
+  [[nodiscard]] bool is_planar() const { return motion == Motion::plane; }
+};
+
+/// Reads a description: a file, or the name of one that the program carries ("square-drops").
+/// @throws BadInput naming file, key, value and what is allowed.
+[[nodiscard]] TrackDescription read_description(const std::string& path);
+/// The description of a CSV file: `given`, or without it the file of the same name that ends in .toml.
+[[nodiscard]] TrackDescription description_of(const std::string& csv, const std::string& given);
+/// Names of the descriptions that the program carries.
+[[nodiscard]] std::vector<std::string> carried_descriptions();
+/// Whether a path names tracks that the program carries, and no file.
+[[nodiscard]] bool means_carried(const std::string& path);
+
+/// How the body differs from the one described: what resting poses and momentum about the touched corner say.
+struct Calibration {
+  Vector3 turn = Vector3::Zero();  ///< rotation vector of the body's true axes in those tracked, body frame [rad]
+  double ground = 0;               ///< height of the ground [m]
+  double inertia_factor = 1;       ///< moment of inertia over that of the uniform box
+  double rounding = 0;             ///< radius of the corners [m]
+};
+
+/// A body as tracks see it.  A corner rounded with radius ρ touches the ground ρ below the corner of a core that is
+/// smaller by ρ on every side, so that the touching point lies inside the sharp corner.
+class TrackedBody {
+ public:
+  TrackedBody(const TrackDescription& description, const Calibration& calibration);
+
+  /// Mass, inertia and corners of the core.  A planar body has an inertia alike about all axes: only the one about y
+  /// matters.
+  [[nodiscard]] const analytic::space::Body& core() const { return core_; }
+  /// The same without rounding.
+  [[nodiscard]] const analytic::space::Body& sharp() const { return sharp_; }
+  [[nodiscard]] const Calibration& calibration() const { return calibration_; }
+  /// Outward normals of the faces, body frame, and their distance from the centre [m].
+  [[nodiscard]] const std::vector<Vector3>& faces() const { return faces_; }
+  [[nodiscard]] double face_distance(std::size_t face) const { return distances_[face]; }
+  /// k² = I/m of the uniform body, by which turning is weighed against translation: the same whatever is fitted [m²].
+  [[nodiscard]] double gyration_square() const { return gyration_square_; }
+  /// Distance of a sharp corner from the centre [m].
+  [[nodiscard]] double reach() const { return reach_; }
+
+  /// True attitude for a tracked one.
+  [[nodiscard]] Quaternion attitude(const Quaternion& tracked) const { return (tracked * turn_).normalized(); }
+  /// From the centre to the touching point of a corner, world frame [m].
+  [[nodiscard]] Vector3 arm(const Quaternion& attitude, int corner) const;
+  /// The corner whose touching point is lowest.
+  [[nodiscard]] int lowest(const Quaternion& attitude) const;
+  /// The face that looks down most.
+  [[nodiscard]] std::size_t down_face(const Quaternion& attitude) const;
+
+ private:
+  Calibration calibration_;
+  analytic::space::Body core_, sharp_;
+  std::vector<Vector3> faces_;
+  std::vector<double> distances_;
+  Quaternion turn_;
+  double gyration_square_ = 1, reach_ = 1;
+};
+
+/// Ends of the ranges of the angle between arm and vertical [°] by which scores and extremes list measured drops.
+inline constexpr double arm_angle_edges[] = {0, 10, 20, 25, 30, 35, 40, 60};
 
 /// One pose.
 struct Frame {

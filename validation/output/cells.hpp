@@ -2,7 +2,6 @@
 // The cells of rows that are made by the million: as CSV, or packed for files of numbers and for sums over all rows.
 #pragma once
 
-#include <cstdint>
 #include <string>
 #include <string_view>
 #include <vector>

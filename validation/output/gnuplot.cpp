@@ -11,7 +11,6 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <limits>
@@ -20,11 +19,10 @@
 #include "validation/output/bad_input.hpp"
 #include "validation/output/interrupt.hpp"
 #include "validation/output/number.hpp"
-#include "validation/output/shell_word.hpp"
+#include "validation/output/report.hpp"
 #include "validation/output/symbols.hpp"
 
 namespace clatter::validation {
-
 namespace {
 
 std::filesystem::path temporary_folder() {
@@ -86,9 +84,8 @@ std::string run_gnuplot(const std::string& script) {
   std::array<char, 4096> buffer;
   for (std::size_t n = 0; (n = std::fread(buffer.data(), 1, buffer.size(), pipe)) > 0;) text.append(buffer.data(), n);
   const int status = pclose(pipe);
-  if (WIFEXITED(status) && WEXITSTATUS(status) == 127) {
+  if (WIFEXITED(status) && WEXITSTATUS(status) == 127)
     throw BadInput("gnuplot is not on PATH; install the package gnuplot-nox");
-  }
   if (status != 0) throw std::runtime_error("gnuplot failed: " + first_line(complaints.path()));
   return text;
 }
@@ -364,9 +361,8 @@ std::string axes_text(const PlotData& data, const FigurePlot& plot) {
 }
 
 std::string plot_command(const PlotData& data, const FigurePlot& plot, const std::string& name) {
-  if (!has_numbers(data, plot)) {
+  if (!has_numbers(data, plot))
     return "set label 9 'no number to draw here' at graph 0.5, graph 0.5 center\nplot NaN notitle\nunset label 9\n";
-  }
   std::string command = "plot ", separator;
   const std::vector<std::string> colours = curve_colours(plot);
   Used used;

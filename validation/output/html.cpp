@@ -3,8 +3,6 @@
 
 #include <fmt/format.h>
 
-#include "validation/output/number.hpp"
-
 namespace clatter::validation {
 namespace {
 

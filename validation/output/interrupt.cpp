@@ -82,9 +82,8 @@ bool shows_progress() {
 
 void remove_on_interrupt(const std::string& path) {
   const auto file = std::find_if(doomed.begin(), doomed.end(), [](const Doomed& one) { return !one.is_set; });
-  if (file == doomed.end() || path.size() >= file->path.size()) {
+  if (file == doomed.end() || path.size() >= file->path.size())
     throw std::length_error("too many files at once: " + path);
-  }
   *std::copy(path.begin(), path.end(), file->path.begin()) = '\0';
   file->is_set = true;
 }

@@ -6,13 +6,11 @@
 #include <algorithm>
 #include <array>
 #include <sstream>
-#include <stdexcept>
 
 #include "validation/output/gnuplot.hpp"
 #include "validation/output/report.hpp"
 
 namespace clatter::validation {
-
 namespace {
 
 // Lengths in units of the SVG's pixel.

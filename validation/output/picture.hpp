@@ -11,15 +11,15 @@ namespace clatter::validation {
 
 /// One plot with the numbers that it shows.
 struct PicturePanel {
-  std::vector<FigureColumn> columns;
-  std::vector<std::vector<double>> rows;  ///< NaN: no value
-  FigurePlot plot;                        ///< no x label: the axis is that of the panel below
+  std::vector<FigureColumn> columns{};
+  std::vector<std::vector<double>> rows{};  ///< NaN: no value
+  FigurePlot plot{};                        ///< no x label: the axis is that of the panel below
 };
 
 struct Picture {
-  std::string what;                ///< the first line of the title
-  std::vector<std::string> scene;  ///< body, drop, ground: put together to as few lines below it as they fill
-  std::vector<PicturePanel> panels;
+  std::string what{};                ///< the first line of the title
+  std::vector<std::string> scene{};  ///< body, drop, ground: put together to as few lines below it as they fill
+  std::vector<PicturePanel> panels{};
 };
 
 /// The look of axes in gnuplot's language.

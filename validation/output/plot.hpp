@@ -17,9 +17,9 @@ namespace clatter::validation {
 inline constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
 
 struct FigureColumn {
-  std::string name;      ///< of the CSV
-  std::string unit;      ///< "1" for none
-  std::string quantity;  ///< what it is, one line
+  std::string name{};      ///< of the CSV
+  std::string unit{};      ///< "1" for none
+  std::string quantity{};  ///< what it is, one line
 };
 
 /// Only the rows in which each of these columns has its value; none: all.
@@ -48,7 +48,7 @@ struct FigureCurve {
     segments,
     regions
   };
-  std::string x, y;         ///< names of columns
+  std::string x{}, y{};     ///< names of columns
   std::string legend = {};  ///< empty: not in the legend
   Style style = Style::line;
   RowFilter where = {};

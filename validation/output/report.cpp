@@ -2,13 +2,14 @@
 #include "validation/output/report.hpp"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
-#include <functional>
+#include <cstdlib>
 #include <sstream>
+#include <string_view>
 #include <utility>
 
-#include "validation/output/json.hpp"
 #include "validation/output/number.hpp"
 #include "validation/output/symbols.hpp"
 #include "validation/output/version.hpp"
@@ -426,6 +427,14 @@ Column error_column(const Column& number) {
   return column;
 }
 
+std::vector<Column> with_more(std::vector<Column> columns, const std::vector<Column>& others) {
+  for (const Column& column : others) {
+    const auto is_it = [&](const Column& other) { return other.name == column.name; };
+    if (std::none_of(columns.begin(), columns.end(), is_it)) columns.push_back(column);
+  }
+  return columns;
+}
+
 std::string csv_head(const Report& report, bool bare) {
   std::string out;
   const auto comment = [&](const std::string& line) {
@@ -443,9 +452,8 @@ std::string csv_head(const Report& report, bool bare) {
     if (report.explains_columns) comment(explanation(column));
   }
   if (!report.explains_columns) comment(units_line(report.grid.columns));
-  for (std::size_t i = 0; i < report.grid.columns.size(); ++i) {
+  for (std::size_t i = 0; i < report.grid.columns.size(); ++i)
     out += (i ? "," : "") + csv_text(report.grid.columns[i].name);
-  }
   return out + "\n";
 }
 
@@ -502,6 +510,37 @@ std::string report_text(const Report& report, const TextStyle& style) {
   write_rows(report, {rows.size(), [&](std::size_t i) -> const Row& { return rows[i]; }}, style,
              [&](std::string_view piece) { text += piece; });
   return text;
+}
+
+std::string shell_word(const std::string& word) {
+  const char* const plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./+,@%=:";
+  if (!word.empty() && word.find_first_not_of(plain) == std::string::npos) return word;
+  std::string text = "'";
+  for (const char c : word) {
+    if (c == '\'') text += "'\\''";
+    else text += c;
+  }
+  return text + "'";
+}
+
+bool shows_colours() {
+  const char* const terminal = std::getenv("TERM");
+  return isatty(STDOUT_FILENO) == 1 && std::getenv("NO_COLOR") == nullptr && terminal != nullptr &&
+         std::string_view(terminal) != "dumb";
+}
+
+std::string with_colours(const std::string& table) {
+  std::size_t begin = table.find("──");  // the rule below heading and units
+  for (int lines = 0; lines < 3 && begin != std::string::npos; ++lines)
+    begin = begin == 0 ? std::string::npos : table.rfind('\n', begin - 1);
+  if (begin == std::string::npos) return table;
+  std::string out = "\033[2m" + table.substr(0, begin) + "\033[0m";
+  for (std::size_t i = begin; i < table.size(); ++i) {
+    const bool alone =
+        table[i] == '?' && table[i - 1] == ' ' && i + 1 < table.size() && (table[i + 1] == ' ' || table[i + 1] == '\n');
+    out += alone ? "\033[1m?\033[0m" : std::string(1, table[i]);
+  }
+  return out;
 }
 
 }  // namespace clatter::validation

@@ -18,9 +18,9 @@ enum class Format { table, csv, json, markdown, latex };
 
 /// A column; `name` is its name in CSV, `heading` and `unit` stand above it in tables.
 struct Column {
-  std::string name;
-  std::string heading;
-  std::string unit;       ///< of CSV, JSON and tables; empty: none
+  std::string name{};
+  std::string heading{};
+  std::string unit{};     ///< of CSV, JSON and tables; empty: none
   std::string meaning{};  ///< for `clatter columns`
   bool shown = true;      ///< false: only in CSV and JSON
   bool words = false;     ///< a text, aligned to the left in tables
@@ -35,6 +35,9 @@ struct Column {
 [[nodiscard]] Column word_column(const std::string& name, const std::string& heading, const std::string& meaning);
 /// The column NAME_error beside a number's: in JSON NAME in the object error_estimate, in tables left out.
 [[nodiscard]] Column error_column(const Column& number);
+
+/// Columns, and after them those of `others` that have other names.
+[[nodiscard]] std::vector<Column> with_more(std::vector<Column> columns, const std::vector<Column>& others);
 
 /// A cell: its value, and how much of that a reader is shown.
 struct Cell {
@@ -54,8 +57,8 @@ struct Cell {
 using Row = std::vector<Cell>;
 
 struct Grid {
-  std::vector<Column> columns;
-  std::vector<Row> rows;
+  std::vector<Column> columns{};
+  std::vector<Row> rows{};
   std::size_t leading = 1;  ///< so many shown columns say which row it is: in each block of a table that is too wide
 };
 
@@ -138,5 +141,16 @@ struct RowSource {
 /// The text of report_text() in any form but JSON, with these rows in place of the report's: each is asked for once by
 /// CSV, Markdown and LaTeX, by a table once for the widths and once for each block.
 void write_rows(const Report& report, const RowSource& rows, const TextStyle& style, const WriteText& write);
+
+/// A word of a command as a shell takes it: in quotes where it needs them.
+[[nodiscard]] std::string shell_word(const std::string& word);
+
+// Tables on a terminal: what was asked is dim, what cannot be predicted is bold.
+
+/// Whether stdout is a terminal that knows colours, and NO_COLOR is not set.
+[[nodiscard]] bool shows_colours();
+
+/// The text of a report as a table: dim as far as the heading of its first block, and each "?" that stands alone bold.
+[[nodiscard]] std::string with_colours(const std::string& table);
 
 }  // namespace clatter::validation

@@ -7,11 +7,32 @@
 #include <string>
 #include <vector>
 
+#include "analytic/plane/sequence.hpp"
 #include "analytic/space/sequence.hpp"
+#include "numeric/body.hpp"
+#include "numeric/motion/motion_state.hpp"
 #include "validation/run/motion_numbers.hpp"
 #include "validation/scene/scene.hpp"
 
 namespace clatter::validation {
+
+// Whether a body and its motion are their own mirror image.
+
+/// Whether the body at this attitude is its own mirror image in the vertical plane y = 0 through its centre of mass and
+/// moves along it, so that the motion stays in it.  Vertices and products of inertia count as mirrored within 1e-9 of
+/// the body's size, velocities within rounding.
+[[nodiscard]] bool is_mirror_image(const numeric::Body& body, const numeric::MotionState& state);
+
+// The first three impacts of a thin rod from Eqs. 9 and 12 alone.
+
+/// Why the closed form does not apply to a drop; empty: it does.  It is for a thin rod that falls straight, one end
+/// first, with Newton's restitution and an impulse ratio as given, or none.
+[[nodiscard]] std::string reason_against_closed_form(const analytic::Drop& drop);
+
+/// The first impacts, at most three, of a drop to which it applies.  One impact is Eq. 9; with the second and third
+/// come the roots β and γ of Eq. 12.  What comes after the third impact is not known.  Accuracy: as contact_angles();
+/// the rows' errors are left unknown.
+[[nodiscard]] analytic::Sequence closed_form_sequence(const analytic::Drop& drop, int impacts);
 
 /// The models, from the cheapest to the one that leaves nothing out.
 enum class ModelLevel {

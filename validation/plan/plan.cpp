@@ -1,14 +1,19 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "validation/plan/plan.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 
 #include "analytic/base/errors.hpp"
-#include "validation/compare/prediction.hpp"
+#include "validation/compare/discrete_side.hpp"
+#include "validation/output/number.hpp"
+#include "validation/output/report.hpp"
 #include "validation/plan/cost_table.hpp"
-#include "validation/plan/tolerance_search.hpp"
+#include "validation/plan/planned_run.hpp"
+#include "validation/scene/keys.hpp"
 #include "validation/scene/names.hpp"
 
 namespace clatter::validation {
@@ -202,9 +207,8 @@ class Planner {
     if (weighed.level == ModelLevel::discrete) weighed.assumption_error = contact_effects(*ladder_.drop());
     if (weighed.level == ModelLevel::discrete_in_space)
       weighed.assumption_error = contact_effects(*ladder_.space_drop());
-    if (weighed.level == ModelLevel::planar) {
+    if (weighed.level == ModelLevel::planar)
       weighed.assumption_error = plan_.growth_out_of_plane * std::numeric_limits<double>::epsilon();
-    }
   }
 
   /// What the rod's radius changes: closed form against the discrete model at the rod's real corners.
@@ -291,6 +295,46 @@ class Planner {
 
 Plan make_plan(const Scene& scene, const PlanTarget& target, const numeric::Observer& observer) {
   return Planner(scene, target, observer).make();
+}
+
+namespace {
+
+using Overrides = std::vector<SceneOverride>;
+
+/// What the choice of a continuous level sets.
+Overrides chosen_keys(const Plan& plan) {
+  Overrides keys{{"run.method", "", method_name(plan.choice.method)},
+                 {"run.tolerance", "", shortest(plan.choice.tolerance)}};
+  if (plan.choice.level == ModelLevel::planar && !plan.scene.world.planar) keys.push_back({"run.planar", "", "true"});
+  for (const WeighedPart& part : plan.parts) {
+    if (part.left_out && part.part == Part::friction) {
+      for (const char* key : {"ground.static_friction", "ground.sliding_friction"}) keys.push_back({key, "", "0"});
+    }
+    if (part.left_out && part.part == Part::damping) keys.push_back({"ground.damping", "", "0"});
+  }
+  return keys;
+}
+
+/// The flags that were given, but those of keys that the choice sets or that its model does not have.
+Overrides kept(const Plan& plan, const Overrides& chosen) {
+  const Model model = is_continuous(plan.choice.level) ? Model::continuous : Model::discrete;
+  Overrides rest = plan.given;
+  std::erase_if(rest, [&](const SceneOverride& given) {
+    return given.key == "run.step" || !key_named(given.key).is_for(model) ||
+           std::ranges::any_of(chosen, [&](const SceneOverride& set) { return set.key == given.key; });
+  });
+  return rest;
+}
+
+}  // namespace
+
+std::string command_line(const Plan& plan) {
+  const bool continuous = is_continuous(plan.choice.level);
+  const std::string source = name_of_source(plan.scene.path);
+  const Overrides chosen = continuous ? chosen_keys(plan) : Overrides{};
+  return fmt::format("clatter {}{}{}{}", continuous ? "simulate" : "sequence",
+                     source.empty() ? "" : " " + shell_word(source), flag_words(kept(plan, chosen)),
+                     flag_words(chosen));
 }
 
 }  // namespace clatter::validation

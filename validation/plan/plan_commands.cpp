@@ -2,11 +2,8 @@
 // `clatter plan` and `clatter tradeoff`: what accuracy costs.
 #include <fmt/format.h>
 
-#include <memory>
-
 #include "validation/command/command.hpp"
 #include "validation/command/options.hpp"
-#include "validation/command/progress.hpp"
 #include "validation/output/bad_input.hpp"
 #include "validation/output/interrupt.hpp"
 #include "validation/plan/plan_report.hpp"
@@ -14,7 +11,6 @@
 #include "validation/scene/failure.hpp"
 
 namespace clatter::validation {
-
 namespace {
 
 struct PlanInput {
@@ -45,17 +41,16 @@ int run_plan(const PlanInput& input) {
 }  // namespace
 
 Command plan_command() {
-  auto input = std::make_shared<PlanInput>();
-  Command command;
-  add_scene_flags(command, input->scene);
-  command.add(within_argument(input->within));
-  add_output_options(command, input->output);
-  add_plot_options(command, input->plot);
-  command.footer =
-      "Example: clatter plan phone-damped --digits 4\n"
-      "Exit status 3 if no model gives the digits; the best is shown all the same.";
-  command.run = [input] { return run_plan(*input); };
-  return command;
+  return command_of<PlanInput>(run_plan, [](Command& command, PlanInput& input) {
+    add_scene_flags(command, input.scene);
+    command.add(within_argument(input.within));
+    add_output_options(command, input.output);
+    add_plot_options(command, input.plot);
+    command.footer =
+        "Example: clatter plan phone-damped --digits 4\n"
+        "Exit status 3 if no model gives the digits; the best is shown all the same.";
+    command.columns = {{"plan", plan_columns}};
+  });
 }
 
 namespace {
@@ -101,16 +96,15 @@ int run_tradeoff(const TradeoffInput& input) {
 }  // namespace
 
 Command tradeoff_command() {
-  auto input = std::make_shared<TradeoffInput>();
-  Command command;
-  add_scene_flags(command, input->scene);
-  add_output_options(command, input->output);
-  add_plot_options(command, input->plot);
-  command.footer =
-      "Example: clatter tradeoff rod-45 --plot tradeoff.svg\n"
-      "The table shows the front, --format csv all points.";
-  command.run = [input] { return run_tradeoff(*input); };
-  return command;
+  return command_of<TradeoffInput>(run_tradeoff, [](Command& command, TradeoffInput& input) {
+    add_scene_flags(command, input.scene);
+    add_output_options(command, input.output);
+    add_plot_options(command, input.plot);
+    command.footer =
+        "Example: clatter tradeoff rod-45 --plot tradeoff.svg\n"
+        "The table shows the front, --format csv all points.";
+    command.columns = {{"tradeoff", tradeoff_columns}};
+  });
 }
 
 }  // namespace clatter::validation

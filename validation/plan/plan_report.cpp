@@ -21,9 +21,8 @@ namespace {
 std::string error_words(double error) { return std::isfinite(error) ? significant(error, 2) : "too large to tell"; }
 
 std::string summary_of(const Plan& plan) {
-  if (plan.target.most_accurate) {
+  if (plan.target.most_accurate)
     return fmt::format("the most accurate model within {} ms", shortest(*plan.target.within_ms));
-  }
   const std::string within =
       plan.target.within_ms ? fmt::format(" within {} ms", shortest(*plan.target.within_ms)) : "";
   return fmt::format("the smallest model that gives {} digits{}", plan.target.digits, within);
@@ -214,7 +213,6 @@ Picture plan_picture(const Scene& scene, const Plan& plan) {
   PicturePanel panel{.columns = {{"curve", "1", "number of the model; -1: what is asked, -2: the time allowed"},
                                  {"cost", "ms", "predicted time"},
                                  {"error", "1", "predicted error"}},
-                     .rows = {},
                      .plot = {.x_label = "predicted cost [ms]",
                               .y_label = "predicted error, relative",
                               .legend_place = "beside",

@@ -15,7 +15,6 @@
 #include "validation/scene/keys.hpp"
 
 namespace clatter::validation {
-
 namespace {
 
 /// What stands before a command: the program's own options.
@@ -57,9 +56,8 @@ const Argument* find_option(const Command& command, const std::string& name) {
     if (argument.name == name && argument.is_option()) return &argument;
   }
   static const std::set<std::string> of_simulator{"--tolerance", "--step", "--history", "--planar"};
-  if (command.name == "sequence" && of_simulator.contains(name)) {
+  if (command.name == "sequence" && of_simulator.contains(name))
     throw BadInput(fmt::format("{}: is the simulator's; the discrete model has no such option", name));
-  }
   require_scene_by_keys(command, name);
   if (command.name == "angles" && name == "--angle")
     throw BadInput("--angle: angles takes a range of them, --from, --to and --step");
@@ -86,9 +84,8 @@ class Scan {
       return;
     }
     used_next = equal == std::string::npos;
-    if (used_next && (next == nullptr || next->starts_with("--"))) {
+    if (used_next && (next == nullptr || next->starts_with("--")))
       throw BadInput(fmt::format("{}: needs a value", name));
-    }
     const std::string value = used_next ? *next : argument.substr(equal + 1);
     if (value.empty()) throw BadInput(fmt::format("{} '': the value is empty", name));
     out_.push_back(name + "=" + value);
@@ -107,9 +104,8 @@ class Scan {
       allowed += one.is_option() ? 0 : 1;
       takes_many = takes_many || (!one.is_option() && one.is_list());
     }
-    if (++positionals_ > allowed && !takes_many) {
+    if (++positionals_ > allowed && !takes_many)
       throw BadInput(fmt::format("'{}': unexpected argument for {}", argument, command_.name));
-    }
     out_.push_back(argument);
   }
 

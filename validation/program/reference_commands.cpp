@@ -5,48 +5,20 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cctype>
 #include <memory>
-#include <sstream>
 
-#include "validation/atlas/atlas_report.hpp"
-#include "validation/benchmark/benchmark_report.hpp"
-#include "validation/benchmark/score_report.hpp"
 #include "validation/command/options.hpp"
-#include "validation/compare/comparison_report.hpp"
-#include "validation/evidence/extremes_report.hpp"
-#include "validation/evidence/verify_report.hpp"
-#include "validation/explain/explanation_report.hpp"
-#include "validation/gradient/gradient_report.hpp"
-#include "validation/measured/measured_report.hpp"
 #include "validation/output/bad_input.hpp"
 #include "validation/output/json.hpp"
-#include "validation/output/number.hpp"
 #include "validation/output/sink.hpp"
 #include "validation/output/version.hpp"
-#include "validation/plan/plan_report.hpp"
-#include "validation/plan/tradeoff_report.hpp"
 #include "validation/program/commands.hpp"
 #include "validation/program/parser.hpp"
-#include "validation/rod/angles_report.hpp"
-#include "validation/rod/regimes_report.hpp"
-#include "validation/run/history_file.hpp"
-#include "validation/run/impact_rows.hpp"
+#include "validation/scene/keys.hpp"
 #include "validation/scene/option_values.hpp"
 #include "validation/scene/orientation.hpp"
-#include "validation/scene/scene_text.hpp"
-#include "validation/sequence/sequence_report.hpp"
-#include "validation/shock/ground_report.hpp"
-#include "validation/shock/shock_history.hpp"
-#include "validation/shock/shock_pulses.hpp"
-#include "validation/shock/shock_report.hpp"
-#include "validation/simulate/simulation_report.hpp"
-#include "validation/sweep/map_plan.hpp"
-#include "validation/sweep/rows.hpp"
-#include "validation/sweep/summary.hpp"
 
 namespace clatter::validation {
-
 namespace {
 
 /// A scene of the shape, with what each needs to be run.
@@ -232,58 +204,9 @@ struct ColumnsInput {
   OutputChoice output;
 };
 
-/// A command and what asks for its columns.
-struct ColumnsOf {
-  const char* command;
-  std::vector<Column> (*columns)();
-};
-
-std::vector<Column> angles_all() {
-  AnglesRequest request;
-  request.as_printed = true;
-  return angles_frame(request).grid.columns;
-}
-/// Columns in the plane, and what comes to them in space.
-std::vector<Column> with_more(std::vector<Column> all, const std::vector<Column>& in_space) {
-  for (const Column& column : in_space) {
-    const auto is_it = [&](const Column& other) { return other.name == column.name; };
-    if (std::none_of(all.begin(), all.end(), is_it)) all.push_back(column);
-  }
-  return all;
-}
-std::vector<Column> sequence_all() { return with_more(sequence_columns(), impact_columns(RunModel::space, {})); }
-std::vector<Column> gradient_all() { return with_more(gradient_columns(false), gradient_columns(true)); }
-std::vector<Column> sweep_all() { return sweep_columns({.model = Model::continuous}); }
-
-const std::vector<ColumnsOf>& all_columns() {
-  static const std::vector<ColumnsOf> all{{"sequence", sequence_all},
-                                          {"angles", angles_all},
-                                          {"regimes", regimes_columns},
-                                          {"atlas", atlas_space_columns},
-                                          {"atlas-plane", atlas_plane_columns},
-                                          {"explain", explain_columns},
-                                          {"gradient", gradient_all},
-                                          {"simulate", simulation_columns},
-                                          {"history", history_columns},
-                                          {"compare", comparison_columns},
-                                          {"shock", shock_columns},
-                                          {"shock-spectrum", spectrum_columns},
-                                          {"shock-pulse", pulse_columns},
-                                          {"shock-history", [] { return shock_history_columns({"probe"}); }},
-                                          {"ground", [] { return with_more(ground_columns(), material_columns()); }},
-                                          {"sweep", sweep_all},
-                                          {"sweep-summary", Summary::columns},
-                                          {"map", map_columns},
-                                          {"verify", verify_columns},
-                                          {"plan", plan_columns},
-                                          {"tradeoff", tradeoff_columns},
-                                          {"extremes", extremes_columns},
-                                          {"benchmark-list", benchmark_list_columns},
-                                          {"benchmark-truth", benchmark_truth_columns},
-                                          {"benchmark-score", score_columns},
-                                          {"measured-fit", measured_fit_columns},
-                                          {"measured-predict", measured_predict_columns},
-                                          {"measured-score", measured_score_columns}};
+std::vector<NamedColumns> all_columns() {
+  std::vector<NamedColumns> all;
+  for (const Command& command : all_commands()) all.insert(all.end(), command.columns.begin(), command.columns.end());
   return all;
 }
 
@@ -292,11 +215,10 @@ Report columns_report(const std::string& command) {
   report.grid.columns = {word_column("command", "command", "that writes the column"),
                          word_column("column", "column", "its name"), word_column("unit", "unit", "its unit"),
                          word_column("meaning", "meaning", "what its numbers are")};
-  for (const ColumnsOf& of : all_columns()) {
-    if (!command.empty() && command != of.command) continue;
-    for (const Column& column : of.columns()) {
-      report.grid.rows.push_back({Cell(of.command), Cell(column.name), Cell(column.unit), Cell(column.meaning)});
-    }
+  for (const NamedColumns& of : all_columns()) {
+    if (!command.empty() && command != of.name) continue;
+    for (const Column& column : of.columns())
+      report.grid.rows.push_back({Cell(of.name), Cell(column.name), Cell(column.unit), Cell(column.meaning)});
   }
   report.notes = {
       "history: of simulate --history.  sweep: one row per scene; with --rows impact the columns of sequence or "
@@ -332,18 +254,16 @@ int run_columns(const ColumnsInput& input) {
 }  // namespace
 
 Command columns_command() {
-  auto input = std::make_shared<ColumnsInput>();
-  Command command;
-  const auto known = [](const std::string& option, const std::string& name) {
-    std::vector<std::string> names;
-    for (const ColumnsOf& of : all_columns()) names.emplace_back(of.command);
-    return names[read_name_option(option, name, names)];
-  };
-  command.add(read_argument("--only", input->command, known, "COMMAND", "the columns of this one alone"));
-  add_output_options(command, input->output);
-  command.footer = "Example: clatter columns --only sequence --format markdown";
-  command.run = [input] { return run_columns(*input); };
-  return command;
+  return command_of<ColumnsInput>(run_columns, [](Command& command, ColumnsInput& input) {
+    const auto known = [](const std::string& option, const std::string& name) {
+      std::vector<std::string> names;
+      for (const NamedColumns& of : all_columns()) names.emplace_back(of.name);
+      return names[read_name_option(option, name, names)];
+    };
+    command.add(read_argument("--only", input.command, known, "COMMAND", "the columns of this one alone"));
+    add_output_options(command, input.output);
+    command.footer = "Example: clatter columns --only sequence --format markdown";
+  });
 }
 
 // Shell completion, made from the descriptions of the commands, and the man page, made from their --help.
@@ -351,8 +271,7 @@ Command columns_command() {
 namespace {
 
 constexpr const char* file_type = "FILE";
-const Argument help_option{
-    .name = "--help", .target = static_cast<bool*>(nullptr), .type = "", .help = "print this help and exit"};
+const Argument help_option{.name = "--help", .target = static_cast<bool*>(nullptr), .help = "print this help and exit"};
 
 /// The options of a command as shells complete them, --help first.
 std::vector<const Argument*> options_of(const Command& command) {
@@ -419,9 +338,7 @@ std::string plain(std::string text) {
 
 std::string zsh_completion() {
   std::string out = "#compdef clatter\n_clatter() {\n  local -a commands\n  commands=(\n";
-  for (const Command& command : all_commands()) {
-    out += fmt::format("    '{}:{}'\n", command.name, plain(command.help));
-  }
+  for (const Command& command : all_commands()) out += fmt::format("    '{}:{}'\n", command.name, plain(command.help));
   out +=
       "  )\n  if ((CURRENT == 2)); then _describe command commands; return; fi\n"
       "  case $words[2] in\n";
@@ -483,9 +400,8 @@ std::string man_page() {
       version, program_summary, synopsis(), roff(program_notes));
   for (const Command& command : all_commands()) {
     page += ".SH clatter " + command.name + "\n" + roff(command.help);
-    for (const Argument& argument : command.arguments) {
+    for (const Argument& argument : command.arguments)
       page += ".TP\n" + roff(argument.name + " " + argument.type) + roff(argument.help);
-    }
     page += ".PP\n" + roff(command.footer);
   }
   return page;
@@ -503,7 +419,7 @@ int print(const std::string& text) {
 Command completion_command() {
   auto shell = std::make_shared<std::string>();
   Command command;
-  command.add({.name = "SHELL", .target = shell.get(), .type = "", .help = "bash, zsh or fish", .required = true});
+  command.add({.name = "SHELL", .target = shell.get(), .help = "bash, zsh or fish", .required = true});
   command.footer = "Example: clatter completion bash > ~/.local/share/bash-completion/completions/clatter";
   command.run = [shell] {
     switch (read_name_option("completion", *shell, {"bash", "zsh", "fish"})) {

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <bitset>
 #include <cmath>
 #include <limits>
@@ -15,7 +14,6 @@
 #include "validation/output/number.hpp"
 
 namespace clatter::validation {
-
 namespace {
 
 using analytic::degrees_per_radian;
@@ -52,7 +50,6 @@ Arguments angles_arguments(AnglesOptions& options) {
   for (Argument& row : rod_arguments(options.rod)) rows.push_back(std::move(row));
   rows.push_back({.name = "--as-printed",
                   .target = &options.as_printed,
-                  .type = "",
                   .help = "beta by the paper's printed gravity term beside the corrected one",
                   .group = "Rod"});
   rows.push_back(whole_argument("--digits", options.digits, 1, 17, "N", "significant digits in tables (6)", "Output"));
@@ -345,17 +342,15 @@ std::vector<std::vector<double>> drawn_rows(const AnglesRequest& request) {
       rows.push_back(as_vector(angles_row(fine, i + fineness)));
     }
   }
-  for (long long i = 0; request.count <= most_with_points && i < request.count; ++i) {
+  for (long long i = 0; request.count <= most_with_points && i < request.count; ++i)
     rows.push_back(as_vector(angles_row(request, i), true));
-  }
   return rows;
 }
 
 std::vector<FigureColumn> figure_columns(const AnglesRequest& request) {
   std::vector<FigureColumn> columns;
-  for (const Column& column : angles_columns(request)) {
+  for (const Column& column : angles_columns(request))
     columns.push_back({column.name, column.unit.empty() ? "1" : column.unit, column.heading});
-  }
   columns.resize(std::tuple_size_v<AnglesRow>);  // the printed forms may be left out
   columns.push_back({"of_table", "1", "1: a row of the table, 0: between them"});
   return columns;
@@ -373,11 +368,10 @@ Picture angles_picture(const AnglesRequest& request) {
   const Range2 range = range_of(request);
   PicturePanel angles{.columns = figure_columns(request),
                       .rows = drawn_rows(request),
-                      .plot = {.title = "", .x_label = "", .y_label = "contact angle [°]", .x = range, .y = {0, 90}}};
+                      .plot = {.y_label = "contact angle [°]", .x = range, .y = {0, 90}}};
   PicturePanel impulses{.columns = angles.columns,
                         .rows = angles.rows,
-                        .plot = {.title = "",
-                                 .x_label = "contact angle θ of the first impact [°]",
+                        .plot = {.x_label = "contact angle θ of the first impact [°]",
                                  .y_label = "normal impulse [m|vₙ|]",
                                  .x = range,
                                  .y = {0, no_number}}};

@@ -10,8 +10,7 @@
 #include "analytic/plane/contact_angles.hpp"
 #include "validation/output/picture.hpp"
 #include "validation/output/report.hpp"
-#include "validation/scene/rod_parameters.hpp"
-#include "validation/scene/swept_range.hpp"
+#include "validation/rod/rod_parameters.hpp"
 
 namespace clatter::validation {
 

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 
 #include "analytic/plane/contact_angles.hpp"
 #include "validation/output/bad_input.hpp"
@@ -13,7 +12,6 @@
 #include "validation/output/number.hpp"
 
 namespace clatter::validation {
-
 namespace {
 
 using analytic::BoundaryKind;
@@ -59,14 +57,12 @@ const std::vector<VariedQuantity>& all_quantities() {
 std::vector<double> values_of(const RegimesRequest& input, const VariedQuantity& quantity) {
   const RangeRequest& range = input.range;
   if (!range.from && !range.to && !range.step && !range.count) return quantity.values;
-  if (!range.from || !range.to || (!range.step && !range.count)) {
+  if (!range.from || !range.to || (!range.step && !range.count))
     throw BadInput("--from, --to and --step or --count: a range needs all three");
-  }
   Sweep sweep = sweep_of(range, {0, 0, 1}, quantity.range);
   sweep.logarithmic = input.logarithmic;
-  if (input.logarithmic && (!(sweep.from > 0) || sweep.step > 0)) {
+  if (input.logarithmic && (!(sweep.from > 0) || sweep.step > 0))
     throw BadInput("--log: needs --from greater than 0 and --count");
-  }
   std::vector<double> values;
   for (long long i = 0; i < sweep.count; ++i) values.push_back(sweep.value(i));
   return values;
@@ -178,11 +174,8 @@ Arguments regimes_arguments(RegimesRequest& request) {
   for (const VariedQuantity& quantity : all_quantities()) names.emplace_back(quantity.name);
   Arguments rows{choice_argument("--over", request.over, names, "what to vary (gravity-number)", "Range")};
   for (Argument& row : range_arguments(request.range, "value")) rows.push_back(std::move(row));
-  rows.push_back({.name = "--log",
-                  .target = &request.logarithmic,
-                  .type = "",
-                  .help = "values in geometric progression",
-                  .group = "Range"});
+  rows.push_back(
+      {.name = "--log", .target = &request.logarithmic, .help = "values in geometric progression", .group = "Range"});
   for (Argument& row : rod_arguments(request.rod)) rows.push_back(std::move(row));
   rows.push_back(whole_argument("--digits", request.digits, 1, 17, "N", "significant digits in tables (8)", "Output"));
   return rows;
@@ -293,11 +286,8 @@ Picture regimes_picture(const FoundRegimes& found) {
                                  {"below_2", "°", "two impacts or more below"},
                                  {"upright", "°", "greatest θ"},
                                  {"of_table", "1", "1: a row of the table, 0: between them"}},
-                     .rows = {},
-                     .plot = {.title = "",
-                              .x_label = found.words + std::string(leaves_out ? " (0 lies off this axis)" : ""),
+                     .plot = {.x_label = found.words + std::string(leaves_out ? " (0 lies off this axis)" : ""),
                               .y_label = "contact angle θ of the first impact [°]",
-                              .curves = {},
                               .x = range_of(found),
                               .y = {0, 90},
                               .logarithmic_x = found.logarithmic}};

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <future>
-#include <memory>
 #include <vector>
 
 #include "validation/command/command.hpp"
@@ -16,7 +15,6 @@
 #include "validation/rod/regimes_report.hpp"
 
 namespace clatter::validation {
-
 namespace {
 
 struct AnglesInput {
@@ -80,14 +78,17 @@ int run_angles(const AnglesInput& input) {
 }  // namespace
 
 Command angles_command() {
-  auto input = std::make_shared<AnglesInput>();
-  Command command;
-  command.add(angles_arguments(input->options));
-  add_output_options(command, input->output);
-  add_plot_options(command, input->plot);
-  command.footer = "Example: clatter angles --from 0 --to 60 --step 2.5 --gravity-number 0.1";
-  command.run = [input] { return run_angles(*input); };
-  return command;
+  return command_of<AnglesInput>(run_angles, [](Command& command, AnglesInput& input) {
+    command.add(angles_arguments(input.options));
+    add_output_options(command, input.output);
+    add_plot_options(command, input.plot);
+    command.footer = "Example: clatter angles --from 0 --to 60 --step 2.5 --gravity-number 0.1";
+    command.columns = {{"angles", [] {
+                          AnglesRequest request;
+                          request.as_printed = true;
+                          return angles_frame(request).grid.columns;
+                        }}};
+  });
 }
 
 namespace {
@@ -103,27 +104,24 @@ int run_regimes(const RegimesInput& input) {
   check_files(input.output, plot_files(input.plot));
   PlotFile plot(input.plot);
   write_report(input.output, found.report);
-  if (plot.is_wanted()) {
-    plot.write(regimes_picture(found), found.script_head);
-  }
+  if (plot.is_wanted()) plot.write(regimes_picture(found), found.script_head);
   return 0;
 }
 
 }  // namespace
 
 Command regimes_command() {
-  auto input = std::make_shared<RegimesInput>();
-  Command command;
-  command.add(regimes_arguments(input->request));
-  add_output_options(command, input->output);
-  add_plot_options(command, input->plot);
-  command.footer =
-      "Example: clatter regimes --over restitution --from 0.2 --to 1 --step 0.1\n"
-      "Of the thin rod in its plane, whose regimes end at folds of one angle. In space an attitude has three angles, "
-      "and\n"
-      "the number of impacts of its drops is a row of clatter sweep.";
-  command.run = [input] { return run_regimes(*input); };
-  return command;
+  return command_of<RegimesInput>(run_regimes, [](Command& command, RegimesInput& input) {
+    command.add(regimes_arguments(input.request));
+    add_output_options(command, input.output);
+    add_plot_options(command, input.plot);
+    command.footer =
+        "Example: clatter regimes --over restitution --from 0.2 --to 1 --step 0.1\n"
+        "Of the thin rod in its plane, whose regimes end at folds of one angle. In space an attitude has three angles, "
+        "and\n"
+        "the number of impacts of its drops is a row of clatter sweep.";
+    command.columns = {{"regimes", regimes_columns}};
+  });
 }
 
 }  // namespace clatter::validation

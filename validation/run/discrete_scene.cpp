@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "analytic/base/errors.hpp"
 #include "analytic/law/viscoelastic.hpp"
@@ -77,9 +78,8 @@ std::string asymmetry(const numeric::Body& body, const std::vector<Vertex>& corn
       high = first ? vertex.y() : std::max(high, vertex.y());
       first = false;
     }
-    if (!(std::fabs(low + high) <= symmetry * size)) {
+    if (!(std::fabs(low + high) <= symmetry * size))
       return "body.centre and the corners do not lie about its plane y = 0";
-    }
   }
   return "";
 }
@@ -247,9 +247,8 @@ double ground_restitution(const DiscreteLaw& law, double approach) {
 }
 
 std::string restitution_words(const DiscreteLaw& law, std::optional<double> approach) {
-  if (law.restitution_from != LawSource::ground) {
+  if (law.restitution_from != LawSource::ground)
     return fmt::format("e = {} ({})", shortest(law.law.restitution), law_name(law.law.law));
-  }
   if (!(law.law.damping_per_stiffness > 0)) return "e = 1 (viscoelastic), from the ground without damping";
   if (!approach) {
     return fmt::format("e from the ground's damping (viscoelastic, c/k = {} s/m)",
@@ -326,15 +325,13 @@ std::string reason_in_space(const Scene& scene) {
   }
   const Vector3 velocity = scene.touch_velocity(), rate = scene.touch_angular_velocity();
   if (!vanish({velocity.y()}, velocity.norm())) return given("drop.velocity") + " has a part across its plane";
-  if (!vanish({rate.x(), rate.z()}, rate.norm())) {
+  if (!vanish({rate.x(), rate.z()}, rate.norm()))
     return given("drop.angular_velocity") + " has a part that is not about y";
-  }
   const std::vector<double>&centre = scene.body.centre, &inertia = scene.body.inertia;
   const bool is_about_plane = scene.body.shape != BodyScene::Shape::mesh;  // a mesh's plane is where its corners say
   if (is_about_plane && !centre.empty() && centre[1] != 0) return given("body.centre") + " lies off the plane y = 0";
-  if (inertia.size() == 6 && !vanish({inertia[3], inertia[5]}, *std::max_element(inertia.begin(), inertia.end()))) {
+  if (inertia.size() == 6 && !vanish({inertia[3], inertia[5]}, *std::max_element(inertia.begin(), inertia.end())))
     return given("body.inertia") + " has no principal axis y";
-  }
   return "";
 }
 
@@ -479,9 +476,8 @@ std::string law_words(const Scene& scene, std::optional<double> approach, const 
   std::string words;
   if (is_settled({"impact.restitution", "ground.damping", "ground.stiffness"}))
     words = restitution_words(law, approach);
-  if (is_settled({"impact.friction", "impact.impulse_ratio", "ground.static_friction", "ground.sliding_friction"})) {
+  if (is_settled({"impact.friction", "impact.impulse_ratio", "ground.static_friction", "ground.sliding_friction"}))
     words += (words.empty() ? "" : of_ground ? "; " : ", ") + law_friction_words(scene, law);
-  }
   return words.empty() ? "as swept" : words;
 }
 
@@ -538,9 +534,8 @@ std::string tilt_words(const space::OutcomeSet& set) {
   std::string words = fmt::format("small tilts give {} up to {} m/s and {} rad/s apart", outcomes,
                                   significant(set.velocity_spread, 2), significant(set.angular_velocity_spread, 2));
   const auto percent = [](double share) { return significant(100 * share, 2); };
-  if (!set.varies && count > 1) {
+  if (!set.varies && count > 1)
     words += fmt::format(", the commonest for {} % of the directions", percent(set.outcomes.front().share));
-  }
   if (!set.is_complete()) words += fmt::format("; {} % of the directions are not followed", percent(set.open_share));
   return words;
 }
@@ -560,10 +555,28 @@ Run named_run(const Scene& scene, const DiscreteSequence& sequence, const Vector
 
 Run named_run(const Scene& scene, const numeric::Simulation& simulation) {
   Run run = run_of(simulation);
-  for (std::size_t i = 0; i < run.impacts.size(); ++i) {
+  for (std::size_t i = 0; i < run.impacts.size(); ++i)
     run.impacts[i].corners = corner_names(scene, simulation.impacts[i].place);
-  }
   return run;
+}
+
+std::string read_sequence_method(const std::string& option, const std::string& name) {
+  if (name == "closed-form")
+    throw BadInput(option + " closed-form: no longer there; discrete gives the same rows, and those after the third");
+  static_cast<void>(read_name_option(option, name, {"auto", "discrete"}));
+  return name;
+}
+
+DiscreteRun run_discrete(const PreparedScene& prepared) {
+  const Scene& scene = prepared.scene;
+  DiscreteSequence sequence = std::visit(
+      [&](const auto& drop) -> DiscreteSequence {
+        return impact_sequence(
+            drop, {.impacts = scene.most_impacts(), .digits = scene.accuracy.digits, .until_rest = scene.until_rest});
+      },
+      prepared.drop);
+  Run run = named_run(scene, sequence, prepared.centre);
+  return {std::move(sequence), std::move(run)};
 }
 
 }  // namespace clatter::validation

@@ -2,15 +2,33 @@
 // The time history of a run as a CSV file.
 #pragma once
 
+#include <limits>
 #include <string>
 #include <vector>
 
 #include "numeric/drop/history.hpp"
 #include "validation/output/report.hpp"
 #include "validation/output/sink.hpp"
-#include "validation/run/time_window.hpp"
 
 namespace clatter::validation {
+
+// The times that pictures and histories show.
+
+/// From one time to another after the first touch-down, both taken [s].
+struct TimeWindow {
+  double from = -std::numeric_limits<double>::infinity(), to = std::numeric_limits<double>::infinity();
+  [[nodiscard]] bool holds(double time) const { return time >= from && time <= to; }
+  [[nodiscard]] std::string text() const;  ///< "FROM:TO"
+  [[nodiscard]] bool is_all() const { return from == -std::numeric_limits<double>::infinity(); }
+};
+
+/// "FROM:TO", given under a name.  @throws BadInput unless both are finite numbers and FROM < TO.
+[[nodiscard]] TimeWindow read_window(const std::string& name, const std::string& text);
+
+/// The rows in the window of some that begin with a time, in order; where others lie beyond an end of the window, a row
+/// there on the straight line between its neighbours, so that curves reach the frame.
+[[nodiscard]] std::vector<std::vector<double>> clipped(const std::vector<std::vector<double>>& rows,
+                                                       const TimeWindow& window);
 
 /// A sample's numbers: t, x, …, in_contact.
 [[nodiscard]] std::vector<Column> history_columns();

@@ -119,7 +119,7 @@ Numbers numbers_of(const numeric::ImpactNumbers& numbers) {
 
 /// Nothing is known but how it was found.
 RunTail begun_tail(bool closed_form) {
-  RunTail tail{.sum = {}, .closed_form = closed_form};
+  RunTail tail{.closed_form = closed_form};
   tail.sum.is_tail = true;
   tail.sum.value = tail.sum.error = Numbers::unknown();
   return tail;
@@ -192,17 +192,12 @@ double relative_error(const space::Sequence& sequence) {
 template <class Sequence>
 Run begun_run(RunModel model, const Sequence& sequence, long evaluations) {
   Run run{.model = model,
-          .impacts = {},
-          .tail = {},
-          .impulse_between = {},
           .outcome = outcome_name(sequence.outcome),
           .message = sequence.message,
           .warnings = sequence.warnings,
           .is_cut_short = is_cut_short(sequence.outcome),
           .leaves_model = sequence.outcome == analytic::Outcome::outside_model,
           .relative_error = relative_error(sequence),
-          .near_miss = {},
-          .total_normal_impulse = {},
           .evaluations = evaluations};
   if (sequence.outcome == analytic::Outcome::no_further_impact) run.near_miss = sequence.near_miss;
   if (sequence.tail) run.tail = tail_of(*sequence.tail);
@@ -239,7 +234,6 @@ Numbers Numbers::unknown() {
 Impact impact_of(const analytic::ImpactRow& row, int n, double drop_deg) {
   Impact impact{.n = n,
                 .end = analytic::PlanarBody::vertex_set_name(row.vertices),
-                .corners = {},
                 .value = values_of(row),
                 .error = errors_of(row.error),
                 .mode = mode_name(row.impact.mode),
@@ -256,8 +250,6 @@ Impact impact_of(const analytic::ImpactRow& row, int n, double drop_deg) {
 
 Impact impact_of(const space::ImpactRow& row, int n) {
   return {.n = n,
-          .end = {},
-          .corners = {},
           .value = values_of(row),
           .error = errors_of(row, row.impact.impulse.x() / row.impact.impulse.z()),
           .touches = static_cast<int>(row.corners.size()),
@@ -271,7 +263,6 @@ Impact impact_of(const space::ImpactRow& row, int n) {
 Impact impact_of(const numeric::ImpactRecord& row, int n) {
   Impact impact{.n = n,
                 .end = end_name(row.end),
-                .corners = {},
                 .value = numbers_of(row.value),
                 .error = numbers_of(row.error),
                 .touches = row.touches,
@@ -294,17 +285,15 @@ Impact impact_of(const numeric::ImpactRecord& row, int n) {
 Run run_of(const analytic::Sequence& sequence, double drop_deg) {
   Run run = begun_run(RunModel::plane, sequence, sequence.root_evaluations);
   run.total_normal_impulse = Estimated{sequence.total_normal_impulse, sequence.total_normal_impulse_error};
-  for (const analytic::ImpactRow& row : sequence.rows) {
+  for (const analytic::ImpactRow& row : sequence.rows)
     run.impacts.push_back(impact_of(row, static_cast<int>(run.impacts.size()) + 1, drop_deg));
-  }
   return run;
 }
 
 Run run_of(const space::Sequence& sequence) {
   Run run = begun_run(RunModel::space, sequence, sequence.evaluations);
-  for (const space::ImpactRow& row : sequence.rows) {
+  for (const space::ImpactRow& row : sequence.rows)
     run.impacts.push_back(impact_of(row, static_cast<int>(run.impacts.size()) + 1));
-  }
   for (const space::SustainedContact& contact : sequence.contacts) {
     run.impulse_between += {contact.normal_impulse, contact.normal_impulse_error};
     if (contact.tail) run.impulse_between += {contact.tail->normal_impulse, contact.tail->normal_impulse_error};
@@ -314,20 +303,51 @@ Run run_of(const space::Sequence& sequence) {
 
 Run run_of(const numeric::Simulation& simulation) {
   Run run{.model = RunModel::continuous,
-          .impacts = {},
-          .tail = {},
-          .impulse_between = {},
           .outcome = outcome_name(simulation.outcome),
           .message = simulation.message,
-          .warnings = {},
-          .is_cut_short = is_cut_short(simulation.outcome),
-          .near_miss = {},
-          .total_normal_impulse = {}};
+          .is_cut_short = is_cut_short(simulation.outcome)};
   run.impacts.reserve(simulation.impacts.size());
-  for (const numeric::ImpactRecord& row : simulation.impacts) {
+  for (const numeric::ImpactRecord& row : simulation.impacts)
     run.impacts.push_back(impact_of(row, static_cast<int>(run.impacts.size()) + 1));
-  }
   return run;
+}
+
+Totals totals(const Run& run) {
+  Totals sums;
+  sums.impacts = static_cast<int>(run.impacts.size());
+  for (const Impact& impact : run.impacts) {
+    const Numbers &value = impact.value, &error = impact.error;
+    const Estimated peak{value.peak_force, impact.predictable ? error.peak_force : unknown_error};
+    const bool is_first = &impact == &run.impacts.front();
+    sums.predictable = sums.predictable && impact.predictable;
+    sums.normal_impulse += {value.impulse[2], error.impulse[2]};
+    sums.energy_loss += {value.energy_loss, error.energy_loss};
+    sums.last_start = {value.start, error.start};
+    if (is_first) sums.first_peak = peak;
+    sums.largest_peak = is_first ? peak : larger(sums.largest_peak, peak);
+    const Estimated depth{value.indentation, error.indentation};
+    sums.largest_depth = is_first ? depth : larger(sums.largest_depth, depth);
+  }
+  sums.normal_impulse += run.impulse_between;
+  if (run.tail) sums.normal_impulse += {run.tail->sum.value.impulse[2], run.tail->sum.error.impulse[2]};
+  if (run.total_normal_impulse) sums.normal_impulse = *run.total_normal_impulse;
+  if (sums.predictable) return sums;
+  for (Estimated* sum :
+       {&sums.normal_impulse, &sums.energy_loss, &sums.last_start, &sums.largest_peak, &sums.largest_depth})
+    sum->error = unknown_error;
+  return sums;
+}
+
+void add_totals(const Totals& sums, Value& fields) {
+  fields["total_normal_impulse"] = sums.normal_impulse.value;
+  fields["total_normal_impulse_error"] = error_or_nothing(sums.normal_impulse);
+  fields["predictable"] = sums.predictable;
+}
+
+std::string totals_line(const Totals& sums) {
+  const auto text = [](const Value& number) { return number.is_nothing() ? "unknown" : number.text(); };
+  return "total_normal_impulse: " + text(sums.normal_impulse.value) +
+         "; total_normal_impulse_error: " + text(error_or_nothing(sums.normal_impulse));
 }
 
 }  // namespace clatter::validation

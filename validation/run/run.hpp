@@ -50,12 +50,12 @@ struct Numbers {
 };
 
 struct Impact {
-  int n = 0;             ///< from 1
-  bool is_tail = false;  ///< the sum of infinitely many impacts after the last row; `start` is their end
-  std::string end;       ///< which end of the body strikes, or its vertices
-  std::string corners;   ///< which of its corners; empty: they have no names
-  EntryVector place{};   ///< of the first of them, from the geometric centre (a mesh: in its file's frame) [m]
-  Numbers value, error;
+  int n = 0;              ///< from 1
+  bool is_tail = false;   ///< the sum of infinitely many impacts after the last row; `start` is their end
+  std::string end{};      ///< which end of the body strikes, or its vertices
+  std::string corners{};  ///< which of its corners; empty: they have no names
+  EntryVector place{};    ///< of the first of them, from the geometric centre (a mesh: in its file's frame) [m]
+  Numbers value{}, error{};
   int touches = 1;        ///< separate places that came down
   const char* mode = "";  ///< how friction acted
   bool submerged = false;
@@ -70,24 +70,25 @@ struct Impact {
 
 /// The sum of infinitely many impacts after the last row.
 struct RunTail {
-  Impact sum;
+  Impact sum{};
   bool closed_form = false;  ///< else by extrapolation
 };
 
 struct Run {
   RunModel model = RunModel::plane;
-  std::vector<Impact> impacts;
-  std::optional<RunTail> tail;
-  Estimated impulse_between;  ///< normal impulse of hops and contacts that last, between impacts [N·s]
+  std::vector<Impact> impacts{};
+  std::optional<RunTail> tail{};
+  Estimated impulse_between{};  ///< normal impulse of hops and contacts that last, between impacts [N·s]
   const char* outcome = "";
-  std::string message;  ///< the outcome in words
-  std::vector<std::string> warnings;
+  std::string message{};  ///< the outcome in words
+  std::vector<std::string> warnings{};
   bool is_cut_short = false;  ///< a number could not be computed, or a limit on the work was reached
   bool leaves_model = false;  ///< the next impact is outside the model
   double relative_error = 0;  ///< largest of the discrete model's numbers; infinite: one cannot be predicted
-  std::optional<analytic::NearMiss> near_miss;    ///< of the flight after the last impact
-  std::optional<Estimated> total_normal_impulse;  ///< by the model itself, which knows how errors are correlated [N·s]
-  long evaluations = 0;                           ///< of the discrete model, of heights or rotations
+  std::optional<analytic::NearMiss> near_miss{};  ///< of the flight after the last impact
+  /// By the model itself, which knows how errors are correlated [N·s].
+  std::optional<Estimated> total_normal_impulse{};
+  long evaluations = 0;  ///< of the discrete model, of heights or rotations
 };
 
 /// An inclination that no drop has: the angle of the first impact is then that of its row.
@@ -104,5 +105,28 @@ inline constexpr double no_inclination = 360;
 [[nodiscard]] Run run_of(const analytic::Sequence& sequence, double drop_deg = no_inclination);
 [[nodiscard]] Run run_of(const analytic::space::Sequence& sequence);
 [[nodiscard]] Run run_of(const numeric::Simulation& simulation);
+
+// Sums over the impacts of a run, with the errors that follow from those of the impacts.
+
+/// Sums and extremes over the impacts listed; the normal impulse with that of the discrete model's tail.  Errors of
+/// impacts may be correlated, so their sizes add up.  One impact that cannot be predicted leaves all unknown but the
+/// first peak, if that is another impact's.
+struct Totals {
+  int impacts = 0;
+  bool predictable = true;   ///< each impact is
+  Estimated normal_impulse;  ///< [N·s]
+  Estimated energy_loss;     ///< [J]
+  Estimated last_start;      ///< touch-down of the last impact, after that of the first [s]
+  Estimated first_peak;      ///< peak force of the first impact [N]; the continuous model's
+  Estimated largest_peak;    ///< [N]; likewise
+  Estimated largest_depth;   ///< greatest indentation [m]; likewise
+};
+
+[[nodiscard]] Totals totals(const Run& run);
+
+/// Adds the sum of normal impulses, its error and whether all can be predicted to the fields of a run.
+void add_totals(const Totals& sums, Value& fields);
+/// The sum and its error as a comment of CSV.
+[[nodiscard]] std::string totals_line(const Totals& sums);
 
 }  // namespace clatter::validation

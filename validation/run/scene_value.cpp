@@ -58,9 +58,8 @@ std::string shape_words(const BodyScene& body, Model model, const KeyNames& unse
   if (body.has_radius() && !is_thin) words.add(radius, {"body.radius"});
   else if (is_rod && has_mesh) words.add(radius + " (thin: 0.01 of the length)", {"body.radius", "body.length"});
   const numeric::Vector3& size = body.size;
-  if (body.has_size()) {
+  if (body.has_size())
     words.add(fmt::format("{} × {} × {} m", shortest(size.x()), shortest(size.y()), shortest(size.z())), {"body.size"});
-  }
   words.add(fmt::format("{} kg", shortest(body.mass)), {"body.mass"});
   const bool says_thin = is_thin && !has_mesh && !words.is_unsettled("body.radius");
   return after(says_thin ? "thin rod" : shape_names()[static_cast<std::size_t>(body.shape)], words.text());
@@ -92,9 +91,8 @@ std::string in_powers(double value) {
     const std::string digits = shortest(value / std::pow(10, std::floor(std::log10(value))));
     const int exponent = static_cast<int>(std::floor(std::log10(value)));
     double back = 0;
-    if (read_number(fmt::format("{}e{}", digits, exponent), back) && back == value) {
+    if (read_number(fmt::format("{}e{}", digits, exponent), back) && back == value)
       return fmt::format("{}e{}", digits, exponent);
-    }
   }
   return shortest(value);
 }
@@ -102,13 +100,11 @@ std::string in_powers(double value) {
 std::string friction_words(const numeric::Ground& ground) {
   if (!ground.has_friction()) return "no friction";
   std::string law;
-  if (ground.friction == FrictionLaw::regularised) {
+  if (ground.friction == FrictionLaw::regularised)
     law = fmt::format(", regularised at {} m/s", shortest(ground.regularisation_speed));
-  }
   if (ground.friction == FrictionLaw::local) law = ", each place by its own slip";
-  if (ground.static_friction == ground.sliding_friction) {
+  if (ground.static_friction == ground.sliding_friction)
     return fmt::format("friction μ = {}{}", shortest(ground.sliding_friction), law);
-  }
   return fmt::format("friction μₛ = {}, μₖ = {}{}", shortest(ground.static_friction), shortest(ground.sliding_friction),
                      law);
 }
@@ -186,13 +182,11 @@ std::string Scene::drop_words(const KeyNames& unsettled) const {
   else if (velocity.empty()) way.add(fmt::format("at {} m/s", shortest(speed)), {"drop.speed"});
   words.add(after(turns.text(), way.text()));
   if (!velocity.empty()) words.add(fmt::format("velocity {} m/s", in_brackets(velocity)), {"drop.velocity"});
-  if (tangential_velocity != 0) {
+  if (tangential_velocity != 0)
     words.add(fmt::format("tangential {} m/s", shortest(tangential_velocity)), {"drop.tangential_velocity"});
-  }
   if (spin != 0) words.add(fmt::format("spin {} rad/s", shortest(spin)), {"drop.spin"});
-  if (!angular_velocity.empty()) {
+  if (!angular_velocity.empty())
     words.add(fmt::format("angular velocity {} rad/s", in_brackets(angular_velocity)), {"drop.angular_velocity"});
-  }
   return words.text();
 }
 

@@ -20,9 +20,8 @@ std::string digits_shortfall(int asked, double achieved) {
 
 std::string shortfall(const Scene& scene, const Run& run) {
   if (run.is_cut_short) return fmt::format("{}: {}", run.outcome, run.message);
-  if (scene.until_rest && run.outcome == std::string_view("impact-limit")) {
+  if (scene.until_rest && run.outcome == std::string_view("impact-limit"))
     return fmt::format("not at rest after {} impacts", run.impacts.size());
-  }
   return scene.require_digits ? digits_shortfall(scene.accuracy.digits, run.relative_error) : "";
 }
 

@@ -6,17 +6,35 @@
 #include <fmt/ranges.h>
 
 #include <functional>
-#include <optional>
+#include <map>
 #include <string>
-#include <type_traits>
 #include <utility>
 #include <variant>
 #include <vector>
 
-#include "validation/scene/named_texts.hpp"
+#include "validation/output/bad_input.hpp"
 #include "validation/scene/option_values.hpp"
+#include "validation/scene/scene.hpp"
 
 namespace clatter::validation {
+
+// Arguments by the names of the command line's flags, with "_" for "-", for those who have no command line.
+
+using NamedTexts = std::map<std::string, std::string>;
+
+/// What stands in `table` under `name`.  @throws BadInput for an unknown name, with the nearest.
+template <class Value>
+[[nodiscard]] const Value& named(const std::map<std::string, Value>& table, const std::string& name) {
+  const auto found = table.find(name);
+  if (found != table.end()) return found->second;
+  std::vector<std::string> names;
+  for (const auto& entry : table) names.push_back(entry.first);
+  throw BadInput(name + ": unknown argument; did you mean " + nearest_name(name, names) + "?");
+}
+
+/// Flags of `clatter simulate` and the keys of the scene file whose place they take; also planar, contact_gravity,
+/// errors, amplification and evaluation_limit.  @throws BadInput for an unknown name, with the nearest.
+[[nodiscard]] std::vector<SceneOverride> scene_overrides(const NamedTexts& given);
 
 struct Argument {
   /// Checks the text that was given under a name and puts its value where the row says.  @throws BadInput
@@ -24,10 +42,10 @@ struct Argument {
   /// A truth is a flag without a value; a list takes many values.
   using Target = std::variant<bool*, std::string*, std::vector<std::string>*, Reader>;
 
-  std::string name;  ///< "--angle", or "SCENE" for an argument known by its place
-  Target target;
-  std::string type;  ///< of the value, in help: "DEG", "a|b|c" (shells offer these), "FILE" (shells offer files)
-  std::string help;
+  std::string name{};  ///< "--angle", or "SCENE" for an argument known by its place
+  Target target{};
+  std::string type{};  ///< of the value, in help: "DEG", "a|b|c" (shells offer these), "FILE" (shells offer files)
+  std::string help{};
   std::string group{};  ///< heading in help; empty: "Options"
   bool required = false;
   bool repeats = false;  ///< a list that takes one value each time the option is given

@@ -83,9 +83,7 @@ void check(const Scene& scene, double mass, const Matrix3& k2, const Bounds& bou
       fmt::format("{}, {} and {} kg m2", of_mass(moments[0]), of_mass(moments[1]), of_mass(moments[2]));
   const bool is_given = !body.inertia.empty();
   const bool positive = moments[0] > 0 || (bounds.is_thin && moments[0] >= 0 && moments[1] > 0);
-  if (is_given && !positive) {
-    refuse(scene, "body.inertia", "positive definite; its principal moments are " + three);
-  }
+  if (is_given && !positive) refuse(scene, "body.inertia", "positive definite; its principal moments are " + three);
   if (is_given && !(moments[2] <= (moments[0] + moments[1]) * (1 + typed_rounding))) {
     refuse(scene, "body.inertia",
            "a body's, with no principal moment larger than the sum of the other two; they are " + three);
@@ -141,9 +139,8 @@ numeric::SmoothShape round_shape(const BodyScene& body) {
 }
 
 numeric::Mesh own_mesh(const BodyScene& body) {
-  if (body.shape == BodyScene::Shape::box) {
+  if (body.shape == BodyScene::Shape::box)
     return numeric::box_mesh({.size = body.size, .mass = body.mass, .nx = body.nx, .ny = body.ny, .nz = body.nz});
-  }
   if (body.is_round()) {
     const numeric::SmoothShape shape = round_shape(body);
     return numeric::round_mesh({.semiaxes = shape.semiaxes,
@@ -181,9 +178,8 @@ BodyProperties of_solid(const SolidBody& solid) {
 /// The bounds of a centre in an ellipsoid, or in the capsule of its spheres.
 Bounds round_bounds(const analytic::space::Body& body, const Vector3& centre) {
   Bounds bounds;
-  for (const auto& [middle, semiaxes] : body.ellipsoids) {
+  for (const auto& [middle, semiaxes] : body.ellipsoids)
     bounds.reach = std::fmax(bounds.reach, (middle - centre).norm() + semiaxes.maxCoeff());
-  }
   const auto& [end, semiaxes] = body.ellipsoids.back();
   Vector3 off = centre;
   off.x() -= std::clamp(centre.x(), -end.x(), end.x());
@@ -240,9 +236,8 @@ class MeshFile {
 };
 
 analytic::space::Body round_body(const BodyScene& body) {
-  if (body.shape == BodyScene::Shape::capsule) {
+  if (body.shape == BodyScene::Shape::capsule)
     return analytic::space::capsule(body.mass, {.length = body.length, .radius = body.radius});
-  }
   return analytic::space::ellipsoid(body.mass, body.extents(body.radius) / 2);
 }
 

@@ -50,9 +50,8 @@ void add_to(numeric::ImpactRecord& row, const ImpactSizes& sizes, double before,
   error.start += before * value.start;
   for (double* angle : {&error.inclination, &error.contact_angle}) *angle += before;
   error.approach_speed += before * value.approach_speed;
-  for (const auto member : {&Record::duration, &Record::peak_force, &Record::indentation}) {
+  for (const auto member : {&Record::duration, &Record::peak_force, &Record::indentation})
     error.*member += after * value.*member;
-  }
   error.restitution += after * (1 + std::fabs(value.restitution));
   error.peak_time += after * value.duration;
   const std::pair<numeric::Vector3 Record::*, double> vectors[] = {{&Record::impulse, value.impulse.norm()},

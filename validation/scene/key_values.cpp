@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "validation/output/shell_word.hpp"
+#include "validation/output/report.hpp"
 #include "validation/scene/keys.hpp"
 
 namespace clatter::validation {

@@ -3,6 +3,7 @@
 // echo, what a sweep may set, and the arguments of Python and of the page.
 #pragma once
 
+#include <functional>
 #include <map>
 #include <optional>
 #include <span>
@@ -135,5 +136,15 @@ void add_keys(const Scene& scene, Model model, Value& fields);
 [[nodiscard]] const std::vector<std::string>& friction_law_names();
 [[nodiscard]] const std::vector<std::string>& method_names();
 [[nodiscard]] const std::vector<std::string>& sweep_names();
+
+// A scene as others read it again: the keys that it has to say, and the text of a file.
+
+/// Keys whose values flags alone would not give, in the order of the echo, but for files; those of the body, gravity
+/// and restitution in any case.
+[[nodiscard]] std::vector<const Key*> said_keys(const Scene& scene);
+
+/// `head`, then the keys under their tables, each as `line` writes it; `name` is the key's within its table.
+[[nodiscard]] std::string scene_text(const std::string& head, const std::vector<const Key*>& keys,
+                                     const std::function<std::string(const Key& key, const std::string& name)>& line);
 
 }  // namespace clatter::validation

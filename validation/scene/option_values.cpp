@@ -21,18 +21,16 @@ std::string Range::allowed() const {
 
 double read_number_option(const std::string& option, const std::string& text, const Range& range) {
   double value = 0;
-  if (!read_number(text, value)) {
+  if (!read_number(text, value))
     throw BadInput(fmt::format("{} '{}': is no number; it must be {}", option, text, range.allowed()));
-  }
   if (!range.holds(value)) throw BadInput(fmt::format("{} '{}': must be {}", option, text, range.allowed()));
   return value;
 }
 
 int read_integer_option(const std::string& option, const std::string& text, int low, int high) {
   long long value = 0;
-  if (!read_integer(text, value) || value < low || value > high) {
+  if (!read_integer(text, value) || value < low || value > high)
     throw BadInput(fmt::format("{} '{}': must be a whole number from {} to {}", option, text, low, high));
-  }
   return static_cast<int>(value);
 }
 

@@ -8,8 +8,9 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <numbers>
+#include <optional>
+#include <string>
 
 #include "validation/embedded/embedded.hpp"
 #include "validation/output/bad_input.hpp"
@@ -19,10 +20,107 @@
 #include "validation/scene/keys.hpp"
 #include "validation/scene/orientation.hpp"
 #include "validation/scene/scene.hpp"
-#include "validation/scene/scene_sweep.hpp"
+#include "validation/scene/scene_values.hpp"
 
 namespace clatter::validation {
 namespace {
+
+constexpr int most_values = 1'000'000;
+constexpr std::array<const char*, 5> range_parts{".from", ".to", ".step", ".count", ".scale"};
+const char* const forms = "a sweep is a list, or has from, to and step or count";
+const std::vector<std::string> scales{"linear", "log"};
+
+SceneSweep read_list(const SceneValues& values, const std::string& key, const Range& range) {
+  SceneSweep sweep;
+  sweep.listed = values.number_list(key, range);
+  const auto [least, largest] = std::minmax_element(sweep.listed.begin(), sweep.listed.end());
+  sweep.from = *least;
+  sweep.to = *largest;
+  return sweep;
+}
+
+void read_count(const SceneValues& values, const std::string& table, SceneSweep& sweep) {
+  values.exclude(table + ".count", table + ".step");
+  sweep.count = values.integer(table + ".count", 0, 2, most_values);
+  sweep.logarithmic = values.name(table + ".scale", 0, scales) == 1;
+  if (sweep.logarithmic && !(sweep.from > 0)) values.refuse(table + ".from", "greater than 0 with scale = \"log\"");
+}
+
+SceneSweep read_grid(const SceneValues& values, const std::string& table, const Range& range) {
+  for (const char* key : {".from", ".to"}) values.require(table + key, forms);
+  SceneSweep sweep;
+  sweep.from = values.number(table + ".from", 0, range);
+  sweep.to = values.number(table + ".to", 0, range);
+  if (!(sweep.to >= sweep.from)) values.refuse(table + ".to", "at least the sweep's from");
+  if (values.has(table + ".count")) {
+    read_count(values, table, sweep);
+    return sweep;
+  }
+  values.require(table + ".step", forms);
+  if (values.has(table + ".scale")) values.refuse(table + ".scale", "left out with step; give count");
+  sweep.step = values.number(table + ".step", 1, positive_number);
+  if (!((sweep.to - sweep.from) / sweep.step <= most_values))
+    values.refuse(table + ".step", fmt::format("at most {} values", most_values));
+  return sweep;
+}
+
+/// Value i of `count` from one end to the other.
+double placed(const SceneSweep& sweep, long long i) {
+  if (i == sweep.count - 1) return sweep.to;
+  if (sweep.logarithmic) return clean_ratio(sweep.from, sweep.to, i, sweep.count);
+  return clean_step(sweep.from, (sweep.to - sweep.from) / static_cast<double>(sweep.count - 1), i);
+}
+
+}  // namespace
+
+std::vector<double> SceneSweep::values() const {
+  if (!listed.empty()) return listed;
+  std::vector<double> values;
+  for (long long i = 0; i < count; ++i) values.push_back(placed(*this, i));
+  if (count > 0) return values;
+  const long long steps = count_of_steps((to - from) / step);
+  for (long long i = 0; i < steps; ++i) values.push_back(std::min(clean_step(from, step, i), to));
+  return values;
+}
+
+const std::string& SceneSweep::name() const { return sweep_names()[static_cast<std::size_t>(quantity)]; }
+
+Value SceneSweep::fields() const {
+  if (!listed.empty()) return listed;
+  Value fields = Value::Fields{{"from", from}, {"to", to}};
+  if (count > 0) fields["count"] = count;
+  else fields["step"] = step;
+  if (logarithmic) fields["scale"] = "log";
+  return fields;
+}
+
+namespace {
+
+/// The sweep of a file, if it has one: under "sweep" a quantity's name with
+///     [A, B, ...]                                    these values, in their order
+///     { from = A, to = B, step = S }                 A, A + S, ... as far as B
+///     { from = A, to = B, count = N }                N values at equal distances, both ends taken
+///     { from = A, to = B, count = N, scale = "log" } N values with equal ratios, A > 0
+/// @throws BadInput naming the key, what was given and what is allowed.
+std::optional<SceneSweep> read_sweep_table(const SceneValues& values) {
+  std::optional<SceneSweep> sweep;
+  for (std::size_t i = 0; i < sweep_names().size(); ++i) {
+    const std::string table = "sweep." + sweep_names()[i];
+    if (!values.has(table) && !values.has_table(table)) continue;
+    if (sweep) throw BadInput(fmt::format("{}: {}: only one quantity can be swept", values.path(), table));
+    const Key& key = key_named(i == 0 ? "drop.angle_deg" : "ground.sliding_friction");
+    const Range& range = std::get<NumberValue>(key.value).range;
+    sweep = values.has(table) ? read_list(values, table, range) : read_grid(values, table, range);
+    sweep->quantity = static_cast<SceneSweep::Quantity>(i);
+  }
+  return sweep;
+}
+
+/// Leaves out all that the file says of the sweep of `name`.
+void drop_sweep(SceneValues& values, const std::string& name) {
+  values.drop("sweep." + name);
+  for (const char* part : range_parts) values.drop("sweep." + name + part);
+}
 
 void only_for(const SceneValues& values, const std::vector<std::string>& keys, const std::string& what) {
   for (const std::string& key : keys) {
@@ -45,9 +143,7 @@ void check_mesh(const SceneValues& values, BodyScene& body) {
   body.mesh_file = unread_mesh();
   body.file = (file.is_absolute() ? file : std::filesystem::path(values.path()).parent_path() / file).string();
   note_read(body.file);
-  if (body.is_stl() && !body.density) {
-    values.require("body.mass", "or body.mesh.density: an STL surface has neither");
-  }
+  if (body.is_stl() && !body.density) values.require("body.mass", "or body.mesh.density: an STL surface has neither");
 }
 
 void check_body(const SceneValues& values, BodyScene& body) {
@@ -55,21 +151,17 @@ void check_body(const SceneValues& values, BodyScene& body) {
   if (body.shape != Shape::rod) only_for(values, {"body.mesh.layers"}, "a rod");
   if (!body.has_length()) only_for(values, {"body.length"}, "a rod or capsule");
   if (!body.has_radius()) only_for(values, {"body.radius"}, "a rod, sphere or capsule");
-  if (!body.has_radius() && !body.is_round()) {
+  if (!body.has_radius() && !body.is_round())
     only_for(values, {"body.mesh.sectors", "body.mesh.rings"}, "a rod, sphere, ellipsoid or capsule");
-  }
   if (!body.has_size()) only_for(values, {"body.size"}, "a box or ellipsoid");
   if (body.shape != Shape::box) only_for(values, {"body.mesh.nx", "body.mesh.ny", "body.mesh.nz"}, "a box");
-  if (body.shape != Shape::mesh) {
-    only_for(values, {"body.mesh.file", "body.mesh.unit", "body.mesh.density"}, "a mesh");
-  }
+  if (body.shape != Shape::mesh) only_for(values, {"body.mesh.file", "body.mesh.unit", "body.mesh.density"}, "a mesh");
   if (body.shape == Shape::box) values.require("body.size", "the box's [L, W, T] in m");
   if (body.shape == Shape::mesh) check_mesh(values, body);
   if (body.shape == Shape::ellipsoid) {
     values.require("body.size", "the ellipsoid's axes [L, W, T] in m");
-    if (!(body.size.minCoeff() >= 1e-6 * body.size.maxCoeff())) {
+    if (!(body.size.minCoeff() >= 1e-6 * body.size.maxCoeff()))
       values.refuse("body.size", "an ellipsoid's, with no axis below 1e-6 of the largest");
-    }
   }
   if (!body.is_round() || !body.has_radius()) return;
   values.require("body.radius", "in m");
@@ -98,12 +190,10 @@ void check_ground(const SceneValues& values, numeric::Ground& ground, Model mode
 void check_accuracy(const SceneValues& values, const numeric::Accuracy& accuracy) {
   using numeric::Method;
   const bool takes_step = accuracy.method == Method::automatic || accuracy.method == Method::tvd_rk3;
-  if (values.has("run.step") && !takes_step) {
+  if (values.has("run.step") && !takes_step)
     values.refuse("run.step", fmt::format("left out: {} chooses its own", method_name(accuracy.method)));
-  }
-  if (values.has("run.tolerance") && (accuracy.step > 0 || accuracy.method == Method::tvd_rk3)) {
+  if (values.has("run.tolerance") && (accuracy.step > 0 || accuracy.method == Method::tvd_rk3))
     values.refuse("run.tolerance", "left out: a fixed step has none");
-  }
 }
 
 void check_sweep(const SceneValues& values, Scene& scene) {
@@ -135,13 +225,11 @@ void check_drop(const SceneValues& values, Scene& scene) {
   for (const auto& [key, is_given] :
        {std::pair{"drop.height", scene.height}, {"drop.clearance", scene.clearance}, {"drop.topple", scene.topple}}) {
     if (is_given && !(scene.world.gravity > 0)) values.refuse(key, "left out where world.gravity is 0");
-    if (is_given && scene.world.incline_deg != 0) {
+    if (is_given && scene.world.incline_deg != 0)
       values.refuse("world.incline_deg", fmt::format("0 or left out with {}: give the velocity at the touch", key));
-    }
   }
-  if (scene.world.incline_deg != 0 && !(scene.world.gravity > 0)) {
+  if (scene.world.incline_deg != 0 && !(scene.world.gravity > 0))
     values.refuse("world.incline_deg", "0 or left out where world.gravity is 0");
-  }
 }
 
 /// The same for files, flags and Python: the paper's thin rod, without gravity unless something falls from a height or
@@ -161,15 +249,12 @@ void check_impact(const SceneValues& values, const Scene& scene) {
   using analytic::RestitutionLaw;
   if (!scene.impact.law || *scene.impact.law == RestitutionLaw::newton) return;
   const bool is_viscoelastic = *scene.impact.law == RestitutionLaw::viscoelastic;
-  if (is_viscoelastic && !scene.has_ground()) {
+  if (is_viscoelastic && !scene.has_ground())
     values.refuse("impact.law", "newton, poisson or stronge where no ground is given, whose damping it takes");
-  }
-  if (is_viscoelastic && scene.impact.restitution) {
+  if (is_viscoelastic && scene.impact.restitution)
     values.refuse("impact.restitution", "left out: the viscoelastic law takes it from the ground's damping");
-  }
-  if (!is_viscoelastic && !scene.impact.restitution) {
+  if (!is_viscoelastic && !scene.impact.restitution)
     values.refuse("impact.law", "given with impact.restitution, the coefficient that it relates");
-  }
 }
 
 /// A restitution takes the place of a file's viscoelastic law, and that law of a file's restitution.
@@ -201,9 +286,8 @@ Scene read_values(SceneValues values, const std::vector<SceneOverride>& override
     if (flag.key == "run.method") values.drop(flag.text == "tvd-rk3" ? "run.tolerance" : "run.step");
     if (flag.key == "run.step") values.drop("run.tolerance");
     if (flag.key == "run.tolerance") values.drop("run.step");
-    if (flag.key == "drop.angle_deg" || flag.key == "drop.attitude" || flag.key == "drop.orientation") {
+    if (flag.key == "drop.angle_deg" || flag.key == "drop.attitude" || flag.key == "drop.orientation")
       drop_sweep(values, "angle_deg");
-    }
     values.set(flag.key, flag.flag, flag.text);
   }
   Scene scene = default_scene(values);
@@ -271,9 +355,8 @@ SceneValues scene_values(const std::string& source) {
   std::error_code error;
   if (!is_plain_name(source) || std::filesystem::exists(source, error)) return {source, scene_keys()};
   const std::vector<std::string> names = case_names();
-  if (std::find(names.begin(), names.end(), source) != names.end()) {
+  if (std::find(names.begin(), names.end(), source) != names.end())
     return {case_path(source), case_text(source), scene_keys()};
-  }
   throw BadInput(fmt::format("{}: neither a file nor a case; did you mean {}?", source, nearest_name(source, names)));
 }
 

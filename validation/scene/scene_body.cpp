@@ -41,9 +41,8 @@ numeric::Body Scene::make_body() const {
 }
 
 Eigen::Quaterniond Scene::touch_attitude() const {
-  if (attitude.empty()) {
+  if (attitude.empty())
     return numeric::attitude_of({.inclination = angle_deg * degree, .out_of_plane_tilt = tilt_deg * degree});
-  }
   return Eigen::Quaterniond(attitude[0], attitude[1], attitude[2], attitude[3]).normalized();
 }
 
@@ -74,23 +73,20 @@ numeric::MotionState Scene::start(const numeric::Body& dropped) const {
 
 TouchMotion toppled(const Scene& scene) {
   const auto refuse = [](const std::string& what) { throw BadInput("drop.topple: " + what); };
-  if (scene.body.shape != BodyScene::Shape::rod && scene.body.shape != BodyScene::Shape::box) {
+  if (scene.body.shape != BodyScene::Shape::rod && scene.body.shape != BodyScene::Shape::box)
     refuse("must be left out where the body is neither rod nor box");
-  }
   const numeric::Matrix3 turn = scene.touch_attitude().toRotationMatrix();
   constexpr double level = 1e-12;  // of the axes' sines: what an attitude typed with all its digits leaves
   const auto is_level = [](double cosine) { return std::fabs(cosine) < level || std::fabs(cosine) > 1 - level; };
-  if (!std::ranges::all_of(turn.row(2), is_level) || !std::ranges::all_of(turn.row(0), is_level)) {
+  if (!std::ranges::all_of(turn.row(2), is_level) || !std::ranges::all_of(turn.row(0), is_level))
     refuse("must be left out where the body does not arrive on a face, its edges along x and y: drop.angle_deg = 0");
-  }
   const BodyProperties body = body_properties(scene, Model::discrete);
   const numeric::Vector3 half = turn.cwiseAbs() * scene.body.extents(scene.body.radius) / 2;
   const numeric::Vector3 centre = turn * body.centre;
   const double b = half.x() - centre.x(), h = half.z() + centre.z(), length = 2 * half.x();
   const double most = length * b / std::hypot(b, h);
-  if (!(*scene.topple <= most)) {
+  if (!(*scene.topple <= most))
     refuse(fmt::format("must be at most {} m, where the centre of mass stands above the edge", shortest(most)));
-  }
   const double sine = *scene.topple / length, cosine = std::sqrt((1 - sine) * (1 + sine));
   const double fall = b * sine - h * sine * sine / (1 + cosine);
   const double inertia = (turn * body.gyration_square * turn.transpose())(1, 1) + b * b + h * h;

@@ -6,7 +6,6 @@
 #include <toml++/toml.h>
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -59,9 +58,8 @@ std::string text_of(const std::string& path) {
 }
 
 toml::table parse(const std::string& path) {
-  if (std::error_code error; !std::filesystem::is_regular_file(path, error) && !std::filesystem::is_fifo(path, error)) {
+  if (std::error_code error; !std::filesystem::is_regular_file(path, error) && !std::filesystem::is_fifo(path, error))
     throw BadInput(fmt::format("{}: {}", path, std::filesystem::exists(path, error) ? "not a file" : "cannot be read"));
-  }
   note_read(path);
   return parse(path, text_of(path));
 }
@@ -128,9 +126,8 @@ class SceneParser {
     const bool known =
         std::any_of(known_.begin(), known_.end(), [&](const std::string& name) { return name.starts_with(key + "."); });
     if (known) return;
-    if (std::find(known_.begin(), known_.end(), key) != known_.end()) {
+    if (std::find(known_.begin(), known_.end(), key) != known_.end())
       throw BadInput(fmt::format("{}: {}: must be a value, not a table", where, key));
-    }
     std::vector<std::string> tables;
     for (const std::string& name : known_) tables.push_back(name.substr(0, name.rfind('.')));
     throw BadInput(fmt::format("{}: {}: unknown table; did you mean {}?", where, key, nearest_name(key, tables)));
@@ -265,9 +262,8 @@ std::size_t SceneValues::name(const std::string& key, std::size_t fallback,
 std::vector<double> SceneValues::number_list(const std::string& key, const Range& range) const {
   const auto* const list = std::get_if<std::vector<double>>(&at(key).value);
   const auto fits = [&](double value) { return range.holds(value); };
-  if (!list || list->empty() || !std::all_of(list->begin(), list->end(), fits)) {
+  if (!list || list->empty() || !std::all_of(list->begin(), list->end(), fits))
     refuse(key, fmt::format("a list of numbers, each {}", range.allowed()));
-  }
   return *list;
 }
 

@@ -1,16 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <fmt/format.h>
 
-#include <memory>
-
 #include "validation/command/command.hpp"
 #include "validation/command/options.hpp"
 #include "validation/output/bad_input.hpp"
-#include "validation/output/colours.hpp"
-#include "validation/output/number.hpp"
+#include "validation/output/report.hpp"
 #include "validation/output/sink.hpp"
 #include "validation/output/symbols.hpp"
-#include "validation/run/discrete_run.hpp"
+#include "validation/run/discrete_scene.hpp"
+#include "validation/run/impact_rows.hpp"
 #include "validation/run/shortfall.hpp"
 #include "validation/sequence/sequence_picture.hpp"
 #include "validation/sequence/sequence_report.hpp"
@@ -58,9 +56,8 @@ void write_rows_of(const PreparedScene& prepared, const DiscreteRun& found, cons
 int run_sequence(const SequenceInput& input) {
   const PreparedScene prepared = read_discrete_flags(input.scene);
   const OutputChoice& choice = input.output;
-  if (input.window && input.plot.path.empty()) {
+  if (input.window && input.plot.path.empty())
     throw BadInput(fmt::format("--window {}: needs --plot FILE", input.window->text()));
-  }
   check_files(choice, plot_files(input.plot));
   PlotFile plot(input.plot);
   const DiscreteRun found = run_discrete(prepared);
@@ -71,26 +68,24 @@ int run_sequence(const SequenceInput& input) {
   analytic::space::TiltEffort tilts;
   if (choice.style.format != Format::json) tilts.rubs = 20;
   write_rows_of(prepared, found, tilts, choice);
-  if (picture) {
+  if (picture)
     plot.write(*picture, run_words("sequence", "impact sequence, discrete model", prepared.scene, Model::discrete));
-  }
   return status_of(prepared.scene, found.run);
 }
 
 }  // namespace
 
 Command sequence_command() {
-  auto input = std::make_shared<SequenceInput>();
-  Command command;
-  add_scene_flags(command, input->scene, Model::discrete);
-  command.add(read_argument("--method", input->method, read_sequence_method, "NAME",
-                            "auto or discrete, the same (auto)", "Scene"));
-  add_output_options(command, input->output);
-  add_plot_options(command, input->plot);
-  add_window_option(command, input->window, "of the picture");
-  command.footer = "Example: clatter sequence --angle 10 --gravity 9.81 --restitution 0.8 --impacts 20";
-  command.run = [input] { return run_sequence(*input); };
-  return command;
+  return command_of<SequenceInput>(run_sequence, [](Command& command, SequenceInput& input) {
+    add_scene_flags(command, input.scene, Model::discrete);
+    command.add(read_argument("--method", input.method, read_sequence_method, "NAME",
+                              "auto or discrete, the same (auto)", "Scene"));
+    add_output_options(command, input.output);
+    add_plot_options(command, input.plot);
+    add_window_option(command, input.window, "of the picture");
+    command.footer = "Example: clatter sequence --angle 10 --gravity 9.81 --restitution 0.8 --impacts 20";
+    command.columns = {{"sequence", [] { return with_more(sequence_columns(), impact_columns(RunModel::space, {})); }}};
+  });
 }
 
 }  // namespace clatter::validation

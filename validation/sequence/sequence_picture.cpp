@@ -6,16 +6,170 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
+#include <optional>
 #include <set>
+#include <span>
+#include <string>
+#include <vector>
 
 #include "analytic/space/free_flight.hpp"
+#include "analytic/space/impact_rows.hpp"
+#include "analytic/space/tilted_outcomes.hpp"
 #include "validation/output/number.hpp"
 #include "validation/run/discrete_scene.hpp"
-#include "validation/scene/body_properties.hpp"
-#include "validation/sequence/tilt_panel.hpp"
 
 namespace clatter::validation {
 namespace {
+
+namespace space = analytic::space;
+using Style = FigureCurve::Style;
+
+constexpr std::size_t most_classes = 7;
+constexpr const char* class_colours[most_classes] = {blue, red, green, pink, palette::ochre, palette::sky, "#8c564b"};
+constexpr const char* grey = "#bbbbbb";
+// Radii of the ring, and of the corners drawn inside it.
+constexpr double inner = 0.62, corners_at = 0.42;
+constexpr double aspect = 3.4;  // of a panel of three, so that a ring is round
+
+/// Outcomes of one colour.
+struct OutcomeClass {
+  std::string legend{}, colour{};
+  std::vector<space::TiltSector> sectors{};
+  double share = 0;
+
+  void add(const space::TiltedOutcome& outcome) {
+    sectors.insert(sectors.end(), outcome.sectors.begin(), outcome.sectors.end());
+    share += outcome.share;
+  }
+};
+
+std::string percent(double share) { return significant(100 * share, 2) + " %"; }
+
+/// The largest shares one by one, the others together.
+std::vector<OutcomeClass> classes_by_share(const std::vector<space::TiltedOutcome>& outcomes) {
+  std::vector<OutcomeClass> classes;
+  OutcomeClass others{.colour = grey};
+  for (std::size_t i = 0; i < outcomes.size(); ++i) {
+    const space::GroupImpact& impact = outcomes[i].impact;
+    if (i >= most_classes) {
+      others.add(outcomes[i]);
+      continue;
+    }
+    classes.push_back({.legend = fmt::format("{}: Vₙ {} m/s, |Ω| {} rad/s", percent(outcomes[i].share),
+                                             significant(impact.velocity_after.z(), 3),
+                                             significant(impact.angular_velocity_after.norm(), 3)),
+                       .colour = class_colours[i],
+                       .sectors = {}});
+    classes.back().add(outcomes[i]);
+  }
+  others.legend = fmt::format("{}: {} further outcomes", percent(others.share),
+                              outcomes.size() - std::min(outcomes.size(), most_classes));
+  if (!others.sectors.empty()) classes.push_back(std::move(others));
+  return classes;
+}
+
+/// By equal parts of the range of rebound speeds.
+std::vector<OutcomeClass> classes_by_speed(const std::vector<space::TiltedOutcome>& outcomes) {
+  const auto speed = [](const space::TiltedOutcome& outcome) { return outcome.impact.velocity_after.z(); };
+  const auto [slow, fast] = std::ranges::minmax(outcomes, {}, speed);
+  const double low = speed(slow), part = (speed(fast) - low) / most_classes;
+  std::vector<OutcomeClass> classes(most_classes);
+  for (const space::TiltedOutcome& outcome : outcomes) {
+    const double place = part > 0 ? (speed(outcome) - low) / part : 0;
+    classes[std::min(static_cast<std::size_t>(place), most_classes - 1)].add(outcome);
+  }
+  for (std::size_t i = 0; i < most_classes; ++i) {
+    const double from = low + static_cast<double>(i) * part;
+    classes[i].legend = fmt::format("{}: Vₙ {} to {} m/s", percent(classes[i].share), significant(from, 3),
+                                    significant(from + part, 3));
+    classes[i].colour = class_colours[i];
+  }
+  std::erase_if(classes, [](const OutcomeClass& one) { return one.sectors.empty(); });
+  return classes;
+}
+
+/// Rows of class, x, y; a row without y ends an outline.
+class RingRows {
+ public:
+  void add_sector(double kind, const space::TiltSector& sector) {
+    const int parts = 2 + static_cast<int>(sector.width * 30);  // chords of two degrees
+    for (const double radius : {1.0, inner}) {
+      for (int i = 0; i <= parts; ++i) {
+        const int step = radius == 1 ? i : parts - i;
+        add_point(kind, radius, sector.from + sector.width * step / parts);
+      }
+    }
+    rows.push_back({kind, 0, no_number});
+  }
+  void add_point(double kind, double radius, double direction) {
+    rows.push_back({kind, radius * std::cos(direction), radius * std::sin(direction)});
+  }
+
+  std::vector<std::vector<double>> rows;
+};
+
+/// The corners, or the rim, as seen from above, the furthest from the centre of mass at `corners_at`.
+void add_corners(const space::ImpactRow& row, double kind, RingRows& ring) {
+  const space::Corner& first = row.corners.front();
+  if (first.radius > 0) {
+    for (int i = 0; i <= 60; ++i) ring.add_point(kind, corners_at, std::numbers::pi * i / 30);
+    return;
+  }
+  double reach = 0;
+  for (const space::Corner& corner : row.corners)
+    reach = std::fmax(reach, (row.before.attitude * corner.place).head<2>().norm());
+  for (const space::Corner& corner : row.corners) {
+    const space::Vector3 arm = row.before.attitude * corner.place;
+    ring.add_point(kind, corners_at * arm.head<2>().norm() / reach, std::atan2(arm.y(), arm.x()));
+  }
+}
+
+PicturePanel ring_panel(const space::ImpactRow& row, std::size_t number, const space::OutcomeSet& set) {
+  const std::vector<OutcomeClass> classes =
+      set.varies ? classes_by_speed(set.outcomes) : classes_by_share(set.outcomes);
+  PicturePanel panel{
+      .columns = {{"class", "1", "number of the class of outcomes"},
+                  {"x", "1", "along x, to the right"},
+                  {"y", "1", "along y, into the page"}},
+      .plot = {.x_label = fmt::format("impact {}: outcome over the direction in which the tilted body lies "
+                                      "higher; x to the right, y upward, from above",
+                                      number),
+               .y_label = "small tilts",
+               .x = {-1.25 * aspect, 1.25 * aspect},
+               .y = {-1.25, 1.25},
+               .equal_scales = true,
+               .no_axes = true,
+               .ring = true}};
+  RingRows ring;
+  const auto add_curve = [&](const std::string& legend, Style style, const std::string& colour) {
+    const auto kind = static_cast<double>(panel.plot.curves.size());
+    panel.plot.curves.push_back(
+        {.x = "x", .y = "y", .legend = legend, .style = style, .where = {{"class", kind}}, .colour = colour});
+    return kind;
+  };
+  for (const OutcomeClass& one : classes) {
+    const double kind = add_curve(one.legend, Style::regions, one.colour);
+    for (const space::TiltSector& sector : one.sectors) ring.add_sector(kind, sector);
+  }
+  const bool is_rim = row.corners.front().radius > 0;
+  add_corners(row, add_curve(is_rim ? "rim" : "corners", is_rim ? Style::line : Style::marks, ink), ring);
+  panel.rows = std::move(ring.rows);
+  return panel;
+}
+
+/// The ring of the first landing of several corners, or of a level rim, that tilts decide; nothing if there is none.
+/// Directions are those in which the tilted corners lie higher, counter-clockwise from x, the view from above.  The
+/// seven outcomes with the largest shares have a colour of their own; where they vary with the direction (level rim),
+/// seven classes of equal range of the body's rebound speed.
+std::optional<PicturePanel> tilt_panel(const space::Drop& drop, std::span<const space::ImpactRow> rows) {
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    if (!rows[i].group) continue;
+    const space::OutcomeSet set = tilted_outcomes(drop.body, rows[i].before, rows[i].corners, drop.law);
+    if (set.outcomes.size() > 1) return ring_panel(rows[i], i + 1, set);
+  }
+  return std::nullopt;
+}
 
 using analytic::ImpactRow;
 using analytic::PlanarBody;
@@ -65,9 +219,8 @@ class HeightCurve {
         width_(std::min(whole_, window.to - window.from)) {
     add_part(flight(rows_.front(), rows_.front().before), -approach());
     std::reverse(samples_.begin(), samples_.end());
-    for (std::size_t i = 0; i + 1 < rows_.size(); ++i) {
+    for (std::size_t i = 0; i + 1 < rows_.size(); ++i)
       add_whole(flight(rows_[i], rows_[i].impact.after), rows_[i + 1].start - rows_[i].start);
-    }
     add_part(flight(rows_.back(), rows_.back().impact.after), 0.2 * whole_);
   }
   /// Rows of time, height of end a, height of end b.
@@ -140,11 +293,8 @@ PicturePanel height_panel(const analytic::Drop& drop, const Sequence& sequence, 
                   {"b", "m", "height of the lowest point of end b"},
                   {"end", "m", "time at which the impacts end"}},
       .rows = clipped(HeightCurve(drop, sequence, window).samples(), window),
-      .plot = {.title = "",
-               .x_label = "",
-               .y_label = "lowest point [m]",
+      .plot = {.y_label = "lowest point [m]",
                .curves = {{.x = "time", .y = "a", .legend = "end a"}, {.x = "time", .y = "b", .legend = "end b"}},
-               .x = {},
                .y = {0, no_number}}};
   if (!sequence.tail) return panel;
   double highest = 0;
@@ -165,18 +315,13 @@ std::size_t side_of(const PlanarBody& body, const ImpactRow& row) {
 }
 
 PicturePanel impulse_panel(const PlanarBody& body, const Sequence& sequence) {
-  PicturePanel panel{.columns = {{"time", "s", "time since the first impact"},
-                                 {"a", "N·s", "normal impulse at end a"},
-                                 {"b", "N·s", "normal impulse at end b"},
-                                 {"both", "N·s", "normal impulse at both ends"},
-                                 {"rest", "N·s", "sum of the normal impulses of all further impacts"}},
-                     .rows = {},
-                     .plot = {.title = "",
-                              .x_label = "time since the first impact [s]",
-                              .y_label = "normal impulse [N·s]",
-                              .curves = {},
-                              .x = {},
-                              .y = {0, no_number}}};
+  PicturePanel panel{
+      .columns = {{"time", "s", "time since the first impact"},
+                  {"a", "N·s", "normal impulse at end a"},
+                  {"b", "N·s", "normal impulse at end b"},
+                  {"both", "N·s", "normal impulse at both ends"},
+                  {"rest", "N·s", "sum of the normal impulses of all further impacts"}},
+      .plot = {.x_label = "time since the first impact [s]", .y_label = "normal impulse [N·s]", .y = {0, no_number}}};
   bool is_used[5] = {};
   for (const ImpactRow& row : sequence.rows) {
     auto& numbers = panel.rows.emplace_back(std::vector<double>{row.start, no_number, no_number, no_number, no_number});
@@ -254,12 +399,9 @@ PicturePanel space_height_panel(const analytic::space::Drop& drop, const SpaceSe
                       {"centre", "m", "height of the centre of mass"},
                       {"lowest", "m", "height of the lowest point"}},
           .rows = clipped(space_heights(drop, sequence), window),
-          .plot = {.title = "",
-                   .x_label = "",
-                   .y_label = "height [m]",
+          .plot = {.y_label = "height [m]",
                    .curves = {{.x = "time", .y = "centre", .legend = "centre of mass"},
                               {.x = "time", .y = "lowest", .legend = "lowest point"}},
-                   .x = {},
                    .y = {0, no_number}}};
 }
 
@@ -274,14 +416,9 @@ std::vector<std::string> striking_corners(const Run& run) {
 }
 
 PicturePanel space_impulse_panel(const Run& run) {
-  PicturePanel panel{.columns = {{"time", "s", "time since the first impact"}},
-                     .rows = {},
-                     .plot = {.title = "",
-                              .x_label = "time since the first impact [s]",
-                              .y_label = "normal impulse [N·s]",
-                              .curves = {},
-                              .x = {},
-                              .y = {0, no_number}}};
+  PicturePanel panel{
+      .columns = {{"time", "s", "time since the first impact"}},
+      .plot = {.x_label = "time since the first impact [s]", .y_label = "normal impulse [N·s]", .y = {0, no_number}}};
   const std::vector<std::string> names = striking_corners(run);
   std::vector<std::string> legends(names);
   std::sort(legends.begin(), legends.end());
@@ -332,7 +469,7 @@ void show_all(Picture& picture, double end) {
 
 Picture sequence_picture(const PreparedScene& prepared, const DiscreteRun& found, const TimeWindow& window) {
   const Run& run = found.run;
-  Picture picture{.what = "Impact sequence, discrete model", .scene = words_of(prepared.scene), .panels = {}};
+  Picture picture{.what = "Impact sequence, discrete model", .scene = words_of(prepared.scene)};
   if (const auto* const drop = std::get_if<analytic::Drop>(&prepared.drop)) {
     const auto& sequence = std::get<Sequence>(found.sequence);
     picture.panels = {height_panel(*drop, sequence, window), impulse_panel(drop->body, sequence)};

@@ -3,8 +3,8 @@
 #pragma once
 
 #include "validation/output/picture.hpp"
-#include "validation/run/discrete_run.hpp"
-#include "validation/run/time_window.hpp"
+#include "validation/run/discrete_scene.hpp"
+#include "validation/run/history_file.hpp"
 #include "validation/scene/scene.hpp"
 
 namespace clatter::validation {

@@ -8,16 +8,15 @@
 #include <map>
 #include <numbers>
 #include <optional>
-#include <utility>
 #include <vector>
 
 #include "analytic/base/errors.hpp"
 #include "analytic/space/sustained_contact.hpp"
 #include "validation/output/number.hpp"
 #include "validation/run/impact_rows.hpp"
+#include "validation/run/run.hpp"
 #include "validation/run/scene_value.hpp"
 #include "validation/run/shortfall.hpp"
-#include "validation/run/totals.hpp"
 #include "validation/scene/body_properties.hpp"
 
 namespace clatter::validation {
@@ -107,21 +106,18 @@ void add_contact_notes(const Scene& scene, const space::Body& body, const space:
     notes.push_back(fmt::format("after impact {}{}: {}", contacts[i].rows, contacts[i].tail ? " and its hops" : "",
                                 contact_words(scene, body, contacts[i], scene.accuracy.digits)));
   }
-  if (contacts.size() > most) {
+  if (contacts.size() > most)
     notes.push_back(fmt::format("{} further contacts like these are in JSON", contacts.size() - most));
-  }
 }
 
 /// Which corners stay on the ground, on which face and by when the body settles, and how far it slides there.
 void add_end_notes(const Scene& scene, const space::Drop& drop, const space::Sequence& sequence,
                    std::vector<std::string>& notes) {
-  if (sequence.tail && drop.body.rims.empty() && drop.body.ellipsoids.empty()) {
+  if (sequence.tail && drop.body.rims.empty() && drop.body.ellipsoids.empty())
     notes.push_back("the further impacts are those of " + names_of(scene, drop.body, sequence.tail->corners));
-  }
   add_contact_notes(scene, drop.body, sequence, notes);
-  if (const auto contact = lasting_contact(scene, drop, sequence)) {
+  if (const auto contact = lasting_contact(scene, drop, sequence))
     notes.push_back(contact_words(scene, drop.body, *contact, scene.accuracy.digits));
-  }
   if (!sequence.rest) return;
   const std::string face = names_of(scene, drop.body, sequence.rest->corners);
   const double latest = sequence.rest->latest;
@@ -188,9 +184,8 @@ std::vector<std::string> notes_of(const PreparedScene& prepared, const DiscreteR
   std::vector<std::string> notes;
   add_group_notes(found, sets, notes);
   if (run.tail) notes.push_back(tail_words(digits, *run.tail));
-  if (const auto* const sequence = std::get_if<space::Sequence>(&found.sequence)) {
+  if (const auto* const sequence = std::get_if<space::Sequence>(&found.sequence))
     add_end_notes(prepared.scene, std::get<space::Drop>(prepared.drop), *sequence, notes);
-  }
   for (const std::string& words :
        {trust_words(run),
         fmt::format("Sum of normal impulses: {} N·s", known_text(totals(run).normal_impulse, {.digits = digits})),
@@ -238,9 +233,8 @@ Value outcome_fields(const Scene& scene, const space::ImpactRow& row, const spac
   constexpr double degree = std::numbers::pi / 180;
   const space::GroupImpact& impact = outcome.impact;
   Value::List sectors;
-  for (const space::TiltSector& sector : outcome.sectors) {
+  for (const space::TiltSector& sector : outcome.sectors)
     sectors.emplace_back(std::vector<double>{sector.from / degree, (sector.from + sector.width) / degree});
-  }
   return Value::Fields{{"share", outcome.share},
                        {"tilt_direction_deg", outcome.tilt_direction / degree},
                        {"tilt_sectors_deg", sectors},
@@ -318,9 +312,8 @@ void add_end(const Scene& scene, const space::Drop& drop, const space::Sequence&
   if (sequence.tail) fields["tail"]["corners"] = names_of(scene, drop.body, sequence.tail->corners);
   fields["energy_losses"] = losses_by_contact(sequence);
   fields["energy_at_end"] = sequence.energy_at_end;
-  if (const auto contact = lasting_contact(scene, drop, sequence)) {
+  if (const auto contact = lasting_contact(scene, drop, sequence))
     fields["contact"] = contact_value(scene, drop, *contact);
-  }
   if (scene.until_rest) {
     Value::List contacts;
     for (const space::SustainedContact& contact : sequence.contacts) {
@@ -436,9 +429,8 @@ Report SequenceRows::begun() const {
   report.grid.columns = columns_of(prepared_, run);
   report.fields["impacts"] = Value::List{};
   add_results(scene, run, report.fields);
-  if (const auto* const sequence = std::get_if<space::Sequence>(&found_.sequence)) {
+  if (const auto* const sequence = std::get_if<space::Sequence>(&found_.sequence))
     add_end(scene, std::get<space::Drop>(prepared_.drop), *sequence, report.fields);
-  }
   return report;
 }
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "validation/output/report.hpp"
-#include "validation/run/discrete_run.hpp"
+#include "validation/run/discrete_scene.hpp"
 
 namespace clatter::validation {
 

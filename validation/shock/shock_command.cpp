@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <fmt/format.h>
-
-#include <memory>
 
 #include "validation/command/command.hpp"
 #include "validation/output/bad_input.hpp"
 #include "validation/output/interrupt.hpp"
+#include "validation/shock/shock_history.hpp"
 #include "validation/shock/shock_options.hpp"
+#include "validation/shock/shock_pulses.hpp"
 #include "validation/shock/shock_report.hpp"
 
 namespace clatter::validation {
@@ -50,28 +49,30 @@ int run_shock_command(const ShockCommandInput& input) {
 }  // namespace
 
 Command shock_command() {
-  auto input = std::make_shared<ShockCommandInput>();
-  Command command;
-  add_shock_options(command, *input);
-  command.add(choice_argument("--rows", input->rows, {"impact", "spectrum", "pulse"},
-                              "of table and CSV: impacts, response spectra, or impacts as test pulses (impact)",
-                              "Shock"));
-  command.add(number_argument("--rate", input->view.rate, {1e-3, 1e9, false, "from 0.001 to 1e9 Hz"}, "HZ",
-                              "rows are the history at this rate, with each peak: force, torque, pressure, probes",
-                              "Shock"));
-  add_output_options(command, input->output);
-  add_plot_options(command, input->plot);
-  command.footer =
-      "Example: clatter shock phone-damped --impacts 2 --probe camera:0.048,0.016,0.0095\n"
-      "Example: clatter shock phone-damped --impacts 2 --probe camera:0.048,0.016,0.0095 --rows pulse --part 300:500 "
-      "--plot camera.svg\n"
-      "Example: clatter shock phone-damped --impacts 2 --probe camera:0.048,0.016,0.0095 --rate 1e6 --format csv "
-      "--output camera.csv\n"
-      "The change of velocity is what a fragile part inside feels of a blow that is short to it; the peak depends on "
-      "the floor.\n"
-      "Peaks are specific forces, what an accelerometer reads, of a rigid body: parts that bend are left out.";
-  command.run = [input] { return run_shock_command(*input); };
-  return command;
+  return command_of<ShockCommandInput>(run_shock_command, [](Command& command, ShockCommandInput& input) {
+    add_shock_options(command, input);
+    command.add(choice_argument("--rows", input.rows, {"impact", "spectrum", "pulse"},
+                                "of table and CSV: impacts, response spectra, or impacts as test pulses (impact)",
+                                "Shock"));
+    command.add(number_argument("--rate", input.view.rate, {1e-3, 1e9, false, "from 0.001 to 1e9 Hz"}, "HZ",
+                                "rows are the history at this rate, with each peak: force, torque, pressure, probes",
+                                "Shock"));
+    add_output_options(command, input.output);
+    add_plot_options(command, input.plot);
+    command.footer =
+        "Example: clatter shock phone-damped --impacts 2 --probe camera:0.048,0.016,0.0095\n"
+        "Example: clatter shock phone-damped --impacts 2 --probe camera:0.048,0.016,0.0095 --rows pulse --part 300:500 "
+        "--plot camera.svg\n"
+        "Example: clatter shock phone-damped --impacts 2 --probe camera:0.048,0.016,0.0095 --rate 1e6 --format csv "
+        "--output camera.csv\n"
+        "The change of velocity is what a fragile part inside feels of a blow that is short to it; the peak depends on "
+        "the floor.\n"
+        "Peaks are specific forces, what an accelerometer reads, of a rigid body: parts that bend are left out.";
+    command.columns = {{"shock", shock_columns},
+                       {"shock-spectrum", spectrum_columns},
+                       {"shock-pulse", pulse_columns},
+                       {"shock-history", [] { return shock_history_columns({"probe"}); }}};
+  });
 }
 
 }  // namespace clatter::validation

@@ -43,9 +43,8 @@ Row row_of(const ShockRun& run, const ShockRow& blow, const std::optional<Fragil
   add(pulse.height(restitution), 2 * of_v);
   row.emplace_back(std::string(1, covering_condition(velocity.value, peak.value)));
   // ln of a response changes by no more than ln of f T does.
-  for (const PulseShape shape : shapes) {
+  for (const PulseShape shape : shapes)
     add(part ? margin(*part, shape, velocity.value, peak.value) : std::nan(""), of_v + 2 * of_a);
-  }
   row.emplace_back(restitution, 4);
   if (!std::isfinite(restitution)) row.back() = Cell();
   row.insert(row.end(), errors.begin(), errors.end());
@@ -156,7 +155,7 @@ Value pulse_fields(const Grid& grid, const std::optional<FragilePart>& part) {
 
 std::optional<PicturePanel> boundary_panel(const ShockRun& run, const FragilePart& part) {
   if (!run.continuous || run.continuous->rows.empty()) return std::nullopt;
-  PicturePanel panel{.columns = {{"velocity", "m/s", "change of velocity"}}, .rows = {}, .plot = {}};
+  PicturePanel panel{.columns = {{"velocity", "m/s", "change of velocity"}}};
   panel.plot.x_label = "change of velocity [m/s]";
   panel.plot.y_label = "peak [g]";
   panel.plot.logarithmic_x = panel.plot.logarithmic_y = true;

@@ -265,9 +265,8 @@ std::vector<const Spectrum*> shown_spectra(const ShockRun& run, std::size_t prob
 Grid digest_of(const ShockRun& run) {
   Grid digest{{word_column("probe", "probe", ""), {"frequency", "f", "Hz"}}, {}, 2};
   std::vector<std::string> names;
-  for (const Spectrum* spectrum : shown_spectra(run, 0)) {
+  for (const Spectrum* spectrum : shown_spectra(run, 0))
     digest.columns.push_back({part_words(*spectrum), part_words(*spectrum), "m/s"});
-  }
   for (std::size_t probe = 0; probe < run.probes.size(); ++probe) {
     const std::vector<const Spectrum*> shown = shown_spectra(run, probe);
     for (std::size_t i = 0; !shown.empty() && i < shown.front()->points.size(); ++i) {
@@ -426,9 +425,7 @@ void add_severity(double severity, PicturePanel& panel) {
 
 std::string probe_words(const std::vector<Probe>& probes) {
   std::string words;
-  for (const Probe& probe : probes) {
-    words += (words.empty() ? "probes: " : "; ") + place_words(probe);
-  }
+  for (const Probe& probe : probes) words += (words.empty() ? "probes: " : "; ") + place_words(probe);
   return words + ", body frame";
 }
 
@@ -531,14 +528,13 @@ Report shock_report(const ShockRun& run, const ShockView& view) {
 
 Picture shock_picture(const ShockRun& run, const ShockView& view) {
   Picture picture{.what = fmt::format("pseudo-velocity over natural frequency, {}", quality_words(run.request.quality)),
-                  .scene = run.scene.summary(run.continuous ? Model::continuous : Model::discrete),
-                  .panels = {}};
+                  .scene = run.scene.summary(run.continuous ? Model::continuous : Model::discrete)};
   for (std::size_t probe = 0; probe < run.probes.size(); ++probe) {
     std::vector<const Spectrum*> shown = shown_spectra(run, probe);
     if (shown.empty()) continue;
     const Spectrum* const discrete = run.whole(probe, false);
     if (run.continuous && discrete && run.parted.are_one(discrete->impacts)) shown.push_back(discrete);
-    PicturePanel panel{.columns = {{"frequency", "Hz", "natural frequency"}}, .rows = {}, .plot = {}};
+    PicturePanel panel{.columns = {{"frequency", "Hz", "natural frequency"}}};
     panel.plot.logarithmic_x = panel.plot.logarithmic_y = true;
     panel.plot.y_label = fmt::format("{} along {} [m/s]", run.probes[probe].name, axis_names[shown.front()->axis]);
     for (std::size_t i = 0; i < shown.front()->points.size(); ++i)
@@ -548,9 +544,8 @@ Picture shock_picture(const ShockRun& run, const ShockView& view) {
       const bool is_other = run.continuous && !spectrum->continuous;
       const std::string legend = part_words(*spectrum) + (is_other ? ", discrete model" : "");
       panel.columns.push_back({name, "m/s", legend});
-      for (std::size_t i = 0; i < panel.rows.size(); ++i) {
+      for (std::size_t i = 0; i < panel.rows.size(); ++i)
         panel.rows[i].push_back(spectrum->points[i].whole().pseudo_velocity.maximax());
-      }
       panel.plot.curves.push_back({.x = "frequency",
                                    .y = name,
                                    .legend = legend,

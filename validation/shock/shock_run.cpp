@@ -94,9 +94,8 @@ void add_discrete(const std::vector<ShockRow>& rows, const ShockRequest& request
     spectrum.blows = begun.blows == Blows::flat ? Blows::flat : blows;
     spectrum.impacts = impacts;
     const std::span<const VelocityStep> part(steps.data(), static_cast<std::size_t>(impacts));
-    for (const double frequency : frequencies(request.low, request.high, request.count)) {
+    for (const double frequency : frequencies(request.low, request.high, request.count))
       spectrum.points.push_back(response(part, frequency, request.quality));
-    }
     spectra.push_back(std::move(spectrum));
   }
 }
@@ -143,9 +142,8 @@ void add_flat(const numeric::Body* body, const numeric::Observer& observer, Shoc
   if (!run.discrete.empty()) static_cast<void>(run_discrete_side(flat, run.probes, rows, nullptr));
   std::optional<ContinuousShock> shock;
   const std::vector<Vector3> places = places_of(flat, run.probes, body ? Model::continuous : Model::discrete);
-  if (body) {
+  if (body)
     static_cast<void>(failure_of_scene([&] { shock = continuous_shock(flat, *body, places, false, observer); }));
-  }
   for (std::size_t i = 0; i < places.size(); ++i) {
     Spectrum begun{.probe = i, .blows = Blows::flat, .points = {}};
     const std::vector<ShockRow>& first = shock ? shock->rows : rows;
@@ -211,9 +209,8 @@ ShockRun run_shock(const Scene& scene, const std::vector<Probe>& probes, const S
     add_discrete(run.discrete, request, begun, run.spectra);
     const std::vector<VelocityStep> steps = steps_of(run.discrete, i, begun.axis);
     run.envelopes.emplace_back();
-    if (known_impacts(run.discrete) >= 2) {
+    if (known_impacts(run.discrete) >= 2)
       run.envelopes.back() = envelope(steps[0].delta_v, steps[1].delta_v, request.quality);
-    }
   }
   add_flat(body ? &*body : nullptr, observer, run);
   return run;

@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "validation/compare/same_blow.hpp"
+#include "validation/compare/discrete_side.hpp"
 #include "validation/scene/probes.hpp"
-#include "validation/shock/discrete_shock.hpp"
 #include "validation/shock/response_spectrum.hpp"
+#include "validation/shock/shock_rows.hpp"
 
 namespace clatter::validation {
 

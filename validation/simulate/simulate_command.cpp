@@ -2,12 +2,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <memory>
 #include <optional>
 
 #include "validation/command/command.hpp"
 #include "validation/command/options.hpp"
-#include "validation/command/progress.hpp"
 #include "validation/output/bad_input.hpp"
 #include "validation/output/interrupt.hpp"
 #include "validation/output/json.hpp"
@@ -16,7 +14,6 @@
 #include "validation/run/history_file.hpp"
 #include "validation/run/scene_value.hpp"
 #include "validation/run/shortfall.hpp"
-#include "validation/run/time_window.hpp"
 #include "validation/scene/body_properties.hpp"
 #include "validation/scene/failure.hpp"
 #include "validation/simulate/simulation_picture.hpp"
@@ -173,17 +170,16 @@ int run_simulate(const SimulateInput& input) {
 }  // namespace
 
 Command simulate_command() {
-  auto input = std::make_shared<SimulateInput>();
-  Command command;
-  add_scene_flags(command, input->scene);
-  add_output_options(command, input->output);
-  add_plot_options(command, input->plot);
-  add_window_option(command, input->window, "of pictures and histories");
-  command.footer =
-      "Example: clatter simulate phone-damped --digits 8\n"
-      "clatter keys explains the keys of scene files, clatter init writes one with all of them.";
-  command.run = [input] { return run_simulate(*input); };
-  return command;
+  return command_of<SimulateInput>(run_simulate, [](Command& command, SimulateInput& input) {
+    add_scene_flags(command, input.scene);
+    add_output_options(command, input.output);
+    add_plot_options(command, input.plot);
+    add_window_option(command, input.window, "of pictures and histories");
+    command.footer =
+        "Example: clatter simulate phone-damped --digits 8\n"
+        "clatter keys explains the keys of scene files, clatter init writes one with all of them.";
+    command.columns = {{"simulate", simulation_columns}, {"history", history_columns}};
+  });
 }
 
 }  // namespace clatter::validation

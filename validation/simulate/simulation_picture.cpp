@@ -45,10 +45,9 @@ ShownHistory shown_history(const PictureHistory& history, const TimeWindow& wind
 }
 
 PicturePanel history_panel(const ShownHistory& history, const std::string& label, std::vector<FigureCurve> curves) {
-  return {
-      .columns = history_columns(),
-      .rows = history.rows,
-      .plot = {.title = "", .x_label = "", .y_label = label, .curves = std::move(curves), .x = history.time, .y = {}}};
+  return {.columns = history_columns(),
+          .rows = history.rows,
+          .plot = {.y_label = label, .curves = std::move(curves), .x = history.time}};
 }
 
 /// The impacts of a sweep's picture: as many as each panel has colours for.
@@ -65,9 +64,8 @@ Range2 loss_range(const std::vector<SweptRun>& runs) {
   for (const SweptRun& swept : runs) {
     const std::vector<numeric::ImpactRecord>& impacts = swept.planned.run.impacts;
     if (!impacts.empty()) energy = std::max(energy, swept.planned.run.energy_start);
-    for (std::size_t i = 0; i < std::min(impacts.size(), drawn_impacts(runs)); ++i) {
+    for (std::size_t i = 0; i < std::min(impacts.size(), drawn_impacts(runs)); ++i)
       loss = std::max(loss, std::fabs(impacts[i].value.energy_loss));
-    }
   }
   return loss < 0.01 * energy ? Range2{-0.01 * energy, 0.01 * energy} : Range2{};
 }
@@ -91,13 +89,7 @@ PicturePanel swept_panel(const Scene& scene, const std::vector<SweptRun>& runs, 
   const std::size_t impacts = drawn_impacts(runs);
   PicturePanel panel{
       .columns = {{"value", swept_column(*scene.sweep).unit.empty() ? "1" : "°", swept_words(*scene.sweep)}},
-      .rows = {},
-      .plot = {.title = "",
-               .x_label = "",
-               .y_label = quantity.label,
-               .curves = {},
-               .x = swept_range(scene.sweep->from, scene.sweep->to),
-               .y = {}}};
+      .plot = {.y_label = quantity.label, .x = swept_range(scene.sweep->from, scene.sweep->to)}};
   for (std::size_t i = 0; i < impacts; ++i) {
     const std::string of_impact = impacts == 1 ? "" : fmt::format(", impact {}", i + 1);
     const std::string column = fmt::format("{}{}", quantity.column, i + 1);
@@ -105,8 +97,7 @@ PicturePanel swept_panel(const Scene& scene, const std::vector<SweptRun>& runs, 
     panel.plot.curves.push_back({.x = "value",
                                  .y = column,
                                  .legend = i == 0 || impacts == 1 ? quantity.legend + of_impact : of_impact.substr(2),
-                                 .style = Style::line_points,
-                                 .where = {}});
+                                 .style = Style::line_points});
   }
   for (const SweptRun& swept : runs) {
     auto& row = panel.rows.emplace_back(std::vector<double>{swept.value});
@@ -194,8 +185,7 @@ Picture simulation_picture(const Scene& scene, const PictureHistory& kept, const
 
 Picture sweep_picture(const Scene& scene, const std::vector<SweptRun>& runs) {
   Picture picture{.what = drawn_impacts(runs) == 1 ? "First impact, continuous contact" : "Impacts, continuous contact",
-                  .scene = scene.summary(),
-                  .panels = {}};
+                  .scene = scene.summary()};
   for (const SweptQuantity& quantity : swept_quantities) picture.panels.push_back(swept_panel(scene, runs, quantity));
   picture.panels.back().plot.y = loss_range(runs);
   const std::string unit = swept_column(*scene.sweep).unit;

@@ -7,7 +7,7 @@
 #include "numeric/body.hpp"
 #include "numeric/drop/history.hpp"
 #include "validation/output/picture.hpp"
-#include "validation/run/time_window.hpp"
+#include "validation/run/history_file.hpp"
 #include "validation/simulate/simulation_report.hpp"
 
 namespace clatter::validation {

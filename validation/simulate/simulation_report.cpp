@@ -9,10 +9,10 @@
 #include "validation/output/number.hpp"
 #include "validation/run/discrete_scene.hpp"
 #include "validation/run/impact_rows.hpp"
+#include "validation/run/run.hpp"
 #include "validation/run/scene_value.hpp"
 #include "validation/run/shortfall.hpp"
 #include "validation/run/swept_column.hpp"
-#include "validation/run/totals.hpp"
 #include "validation/scene/body_properties.hpp"
 #include "validation/scene/facet_words.hpp"
 #include "validation/scene/names.hpp"
@@ -42,9 +42,8 @@ std::string doubt(const Scene& scene, const Simulation& run, const ImpactRecord&
                ? "a second, finer run has other contacts, or does not get as far"
                : fmt::format("an error of the start has grown {} times by then", significant(row.amplification, 2));
   }
-  if (is_ledger_open(scene, run, row)) {
+  if (is_ledger_open(scene, run, row))
     return fmt::format("the ledger of energy stays open by {}", significant(std::fabs(row.ledger_gap), 1));
-  }
   const bool is_known = !scene.request.error_estimates || row.error.impulse.norm() <= 0.05 * row.value.impulse.norm();
   return is_known ? "" : "after it a second run goes another way";
 }
@@ -93,9 +92,8 @@ std::string accuracy_words(const Scene& scene, const PlannedRun& planned) {
   if (std::isnan(planned.achieved)) return "";
   const int known = planned.known_impacts, impacts = static_cast<int>(planned.run.impacts.size());
   const std::string of = known < impacts ? fmt::format(" of the first {} impacts", known) : "";
-  if (!std::isfinite(planned.achieved)) {
+  if (!std::isfinite(planned.achieved))
     return fmt::format("asked {} digits{}: a second run goes another way", scene.accuracy.digits, of);
-  }
   return fmt::format("asked {} digits, achieved {:.1f}{}: largest estimated error {} of the sequence's sizes",
                      scene.accuracy.digits, std::max(-std::log10(planned.achieved), 0.0), of,
                      significant(planned.achieved, 1));
@@ -246,9 +244,8 @@ void add_run(const SweptRun& swept, const Scene& scene, Report& report) {
   }
   if (run.impacts.empty())
     report.digest->rows.push_back({Cell(swept.value, 6), Cell("–"), Cell(outcome_name(run.outcome))});
-  if (run.impacts.empty() || is_cut_short(run.outcome)) {
+  if (run.impacts.empty() || is_cut_short(run.outcome))
     report.remarks.push_back(fmt::format("{}: {}: {}", shortest(swept.value), outcome_name(run.outcome), run.message));
-  }
 }
 
 }  // namespace

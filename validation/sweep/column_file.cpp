@@ -9,7 +9,6 @@
 #include "validation/output/bad_input.hpp"
 
 namespace clatter::validation {
-
 namespace {
 
 using Open = ColumnFile* (*)(const std::string&, const ColumnFileHead&);

@@ -1,21 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <memory>
 #include <optional>
 
 #include "validation/command/command.hpp"
 #include "validation/command/options.hpp"
-#include "validation/command/progress.hpp"
 #include "validation/output/bad_input.hpp"
 #include "validation/output/gnuplot.hpp"
 #include "validation/output/interrupt.hpp"
 #include "validation/output/sink.hpp"
 #include "validation/scene/failure.hpp"
 #include "validation/sweep/map_picture.hpp"
-#include "validation/sweep/processes.hpp"
 #include "validation/sweep/sweep_file.hpp"
+#include "validation/sweep/sweep_run.hpp"
 
 namespace clatter::validation {
 namespace {
@@ -97,9 +94,8 @@ class MapOutput {
     const long long open = image_.open();
     const long long pixels = plan_.columns * plan_.rows, without = image_.without_drop();
     if (open > 0) say(fmt::format("{} of {} pixels are left open by rounding or a fold", open, pixels));
-    if (without > 0) {
+    if (without > 0)
       say(fmt::format("{} of {} pixels have no drop: refused, outside the model or not computed", without, pixels));
-    }
     Sink sink(path_);
     sink.write(made);
     sink.commit();
@@ -132,9 +128,8 @@ class MapOutput {
 void check_map_output(const MapInput& input) {
   if (input.output.empty()) throw BadInput("--output: must be given, FILE.png, FILE.npy or FILE.csv");
   if (file_kind(input.output) == MapFile::png) require_gnuplot("--output " + input.output, "pngcairo");
-  if (destination_of({"--output", input.output}).is_stream) {
+  if (destination_of({"--output", input.output}).is_stream)
     throw BadInput(fmt::format("--output {}: must be a file, which a map is written to as it grows", input.output));
-  }
   note_written({"--output", input.output});
   for (const RunFile& file : SweepFile::files_beside(input.output)) note_written(file);
 }
@@ -190,26 +185,27 @@ constexpr const char* map_footer =
 }  // namespace
 
 Command map_command() {
-  auto input = std::make_shared<MapInput>();
-  Command command;
-  MapRequest& request = input->request;
-  add_scene_argument(command, request.file, false);
-  command.add({.name = "--over",
-               .target = &request.over,
-               .type = "KEY=LOW:HIGH[:log]",
-               .help = "range of a key of the scene file; given twice, across and upward",
-               .repeats = true});
-  command.add({.name = "--set",
-               .target = &request.sets,
-               .type = "KEY=VALUE|LOW:HIGH",
-               .help = "value of another key; with --samples a range, too, or drop.attitude=uniform",
-               .repeats = true});
-  command.add(map_arguments(request));
-  command.add_text("--output", input->output, "FILE", ".png (needs gnuplot), .npy or .csv");
-  add_process_options(command, input->restart, input->threads);
-  command.footer = map_footer;
-  command.run = [input] { return run_in_processes([&](Ranks& ranks) { return run_map(*input, ranks); }); };
-  return command;
+  return command_of<MapInput>(
+      [](const MapInput& input) { return run_in_processes([&](Ranks& ranks) { return run_map(input, ranks); }); },
+      [](Command& command, MapInput& input) {
+        MapRequest& request = input.request;
+        add_scene_argument(command, request.file, false);
+        command.add({.name = "--over",
+                     .target = &request.over,
+                     .type = "KEY=LOW:HIGH[:log]",
+                     .help = "range of a key of the scene file; given twice, across and upward",
+                     .repeats = true});
+        command.add({.name = "--set",
+                     .target = &request.sets,
+                     .type = "KEY=VALUE|LOW:HIGH",
+                     .help = "value of another key; with --samples a range, too, or drop.attitude=uniform",
+                     .repeats = true});
+        command.add(map_arguments(request));
+        command.add_text("--output", input.output, "FILE", ".png (needs gnuplot), .npy or .csv");
+        add_process_options(command, input.restart, input.threads);
+        command.footer = map_footer;
+        command.columns = {{"map", map_columns}};
+      });
 }
 
 }  // namespace clatter::validation

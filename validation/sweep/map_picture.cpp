@@ -15,7 +15,6 @@
 
 #include "analytic/plane/contact_angles.hpp"
 #include "validation/output/gnuplot.hpp"
-#include "validation/output/number.hpp"
 #include "validation/output/palette.hpp"
 
 namespace clatter::validation {
@@ -30,9 +29,8 @@ struct Colour {
   std::array<std::uint8_t, 3> parts{};
 
   explicit Colour(const char* hex) {
-    for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t i = 0; i < 3; ++i)
       parts[i] = static_cast<std::uint8_t>(std::strtol(std::string(hex + 1 + 2 * i, 2).c_str(), nullptr, 16));
-    }
   }
 };
 
@@ -175,9 +173,8 @@ std::string axis_text(const SweepAxis& axis, char name) {
   if (!axis.logarithmic) return text;
   std::string tics;
   const int first = static_cast<int>(std::ceil(placed(axis, axis.first) - 1e-9));
-  for (int k = first; k <= placed(axis, axis.last) + 1e-9; ++k) {
+  for (int k = first; k <= placed(axis, axis.last) + 1e-9; ++k)
     tics += fmt::format("{}'10^{{{}}}' {}", tics.empty() ? "" : ", ", k, k);
-  }
   return text + fmt::format("set {}tics ({})\n", name, tics);
 }
 
@@ -189,9 +186,8 @@ std::string heading(const MapPlan& plan) {
 
 std::string colour_bar(const MapPlan& plan, const Span& span) {
   std::string steps;
-  for (std::size_t i = 0; i < palette::numbers.size(); ++i) {
+  for (std::size_t i = 0; i < palette::numbers.size(); ++i)
     steps += fmt::format("{}{} '{}'", i == 0 ? "" : ", ", i, palette::numbers[i]);
-  }
   return fmt::format("set palette defined ({})\nset cbrange [{}:{}]\nset cblabel {} noenhanced\n", steps, span.low,
                      span.high, gnuplot_quoted(heading(plan) + (span.is_clipped ? ", ends clipped" : "")));
 }

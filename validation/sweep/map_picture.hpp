@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "validation/sweep/map_run.hpp"
+#include "validation/sweep/map_plan.hpp"
 
 namespace clatter::validation {
 

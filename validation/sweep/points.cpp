@@ -67,9 +67,8 @@ SweepAxis read_listed_axis(const std::string& key, const std::string& text, bool
 SweepAxis read_ratio_axis(const AxisText& given, const std::string& key, bool whole) {
   SweepAxis axis{.key = key, .first = given.number(0, "FROM"), .last = given.number(1, "TO"), .logarithmic = true};
   if (whole) given.refuse("a key of whole numbers has no logarithmic grid");
-  if (axis.first == 0 || axis.last == 0 || (axis.first > 0) != (axis.last > 0)) {
+  if (axis.first == 0 || axis.last == 0 || (axis.first > 0) != (axis.last > 0))
     given.refuse("FROM and TO of a logarithmic grid must have one sign, and not be 0");
-  }
   const double count = given.number(3, "COUNT");
   if (!(count >= 2) || count != std::floor(count)) given.refuse("COUNT must be a whole number from 2 on");
   if (!(count <= static_cast<double>(most_scenes))) given.refuse(too_many());
@@ -194,9 +193,8 @@ SweepAxis read_grid_axis(const std::string& key, const std::string& text, bool w
 SweepAxis read_random_axis(const std::string& key, const std::string& text, bool whole) {
   const AxisText given(key, text, whole);
   const std::size_t parts = given.parts().size();
-  if (parts < 2 || parts > 3 || (parts == 3 && given.parts()[2] != "log")) {
+  if (parts < 2 || parts > 3 || (parts == 3 && given.parts()[2] != "log"))
     given.refuse("must be VALUE, LOW:HIGH or LOW:HIGH:log with --random");
-  }
   const SweepAxis axis{.key = key,
                        .first = given.number(0, "LOW"),
                        .last = given.number(1, "HIGH"),

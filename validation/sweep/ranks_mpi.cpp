@@ -120,9 +120,8 @@ void Ranks::hand_out(RangeQueue& queue, const MakeCompute& make, const SweepHook
     crew.write_next();
   }
   crew.finish();
-  if (!hooks.stop() && !queue.is_complete()) {
+  if (!hooks.stop() && !queue.is_complete())
     throw std::runtime_error("the other processes of the sweep ended before its scenes were done");
-  }
 }
 
 void Ranks::serve(const ComputeRange& compute) {

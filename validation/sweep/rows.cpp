@@ -4,14 +4,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <limits>
 #include <optional>
 #include <string_view>
 
 #include "validation/output/bad_input.hpp"
 #include "validation/output/number.hpp"
 #include "validation/run/impact_rows.hpp"
-#include "validation/run/totals.hpp"
+#include "validation/run/run.hpp"
 #include "validation/shock/damage_boundary.hpp"
 
 namespace clatter::validation {
@@ -142,9 +141,8 @@ class AskedColumns {
     const std::size_t cut = name.rfind('_');
     long long number = 0;
     if (name == "hardest") return add(name, find("n"), 0);
-    if (name.starts_with(prefix) && has(name.substr(prefix.size()))) {
+    if (name.starts_with(prefix) && has(name.substr(prefix.size())))
       return add(name, find(name.substr(prefix.size())), 0);
-    }
     if (has(name)) {
       for (int n = 1; n <= impacts_; ++n) add(fmt::format("{}_{}", name, n), find(name), n);
       return;
@@ -363,9 +361,7 @@ void read_impact_columns(const std::string& names, int impacts, RowLayout& layou
 
 std::vector<Column> sweep_columns(const RowLayout& layout) {
   std::vector<Column> columns{{"index", "index", "", "number of the scene, from 0"}};
-  for (const std::string& key : layout.swept) {
-    columns.push_back({key, key, "", "swept key; clatter keys explains it"});
-  }
+  for (const std::string& key : layout.swept) columns.push_back({key, key, "", "swept key; clatter keys explains it"});
   const std::vector<Column> results = result_columns(layout);
   columns.insert(columns.end(), results.begin(), results.end());
   return columns;

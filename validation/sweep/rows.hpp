@@ -8,7 +8,7 @@
 
 #include "validation/output/cells.hpp"
 #include "validation/output/report.hpp"
-#include "validation/run/impact_quantities.hpp"
+#include "validation/run/impact_rows.hpp"
 #include "validation/run/shortfall.hpp"
 #include "validation/scene/probes.hpp"
 #include "validation/scene/scene.hpp"

@@ -10,13 +10,13 @@
 #include <set>
 
 #include "validation/output/bad_input.hpp"
-#include "validation/output/digest.hpp"
 #include "validation/output/number.hpp"
-#include "validation/output/shell_word.hpp"
+#include "validation/output/report.hpp"
 #include "validation/run/discrete_scene.hpp"
 #include "validation/run/scene_value.hpp"
 #include "validation/scene/body_properties.hpp"
 #include "validation/scene/orientation.hpp"
+#include "validation/sweep/sweep_file.hpp"
 
 namespace clatter::validation {
 namespace {
@@ -126,9 +126,8 @@ Setting read_setting(const std::string& given, const Drawing& drawing) {
     if (setting.axis) return setting;
   }
   setting.number = find_number_key(setting.key);
-  if (setting.text.find(':') != std::string::npos && is_list(setting.key)) {
+  if (setting.text.find(':') != std::string::npos && is_list(setting.key))
     throw BadInput(fmt::format("--set {}={}: a list cannot be swept; give one value", setting.key, setting.text));
-  }
   if (setting.number == nullptr || setting.text.find_first_of(":,") == std::string::npos) return setting;
   setting.axis = drawing.random ? read_random_axis(setting.key, setting.text, setting.number->is_whole())
                                 : read_grid_axis(setting.key, setting.text, setting.number->is_whole());
@@ -147,9 +146,8 @@ std::vector<Setting> read_settings(const std::vector<std::string>& given, const 
     settings.push_back(std::move(setting));
   }
   for (const std::string& side : box_sides) {
-    if (sets(settings, side) && sets(settings, box_size)) {
+    if (sets(settings, side) && sets(settings, box_size))
       throw BadInput(fmt::format("--set {} and --set {}: give one of them, not both", box_size, side));
-    }
   }
   return settings;
 }
@@ -232,9 +230,8 @@ void number_attitudes(const Scene& scene, std::vector<Setting>& settings) {
   const auto is_numbered = [](const Setting& one) { return one.key == attitude_key && one.text == numbered_attitudes; };
   const auto setting = std::find_if(settings.begin(), settings.end(), is_numbered);
   if (setting == settings.end()) return;
-  if (scene.body.shape != BodyScene::Shape::box) {
+  if (scene.body.shape != BodyScene::Shape::box)
     throw BadInput(fmt::format("--set {}={}: is for a box", attitude_key, numbered_attitudes));
-  }
   for (const Setting& other : settings) {
     if (!other.axis || !other.key.starts_with(box_size)) continue;
     throw BadInput(
@@ -243,9 +240,8 @@ void number_attitudes(const Scene& scene, std::vector<Setting>& settings) {
   }
   std::vector<SweptAttitude>& attitudes = setting->axis->attitudes;
   attitudes.resize(orientation_count);
-  for (int n = 1; n <= orientation_count; ++n) {
+  for (int n = 1; n <= orientation_count; ++n)
     std::ranges::copy(orientation_attitude(n, scene.body.size), attitudes[static_cast<std::size_t>(n - 1)].begin());
-  }
 }
 
 void read_scene(const SweepRequest& request, std::vector<Setting>& settings, SceneValues& values, SweepPlan& plan) {
@@ -260,9 +256,8 @@ void read_scene(const SweepRequest& request, std::vector<Setting>& settings, Sce
         fmt::format("{}: sweep: must be left out here; give --set drop.angle_deg=FROM:TO:STEP", request.file));
   }
   if (!plan.scene.history.empty()) values.refuse("run.history", "left out in a sweep");
-  if (plan.scene.require_digits && !plan.scene.request.error_estimates) {
+  if (plan.scene.require_digits && !plan.scene.request.error_estimates)
     throw BadInput("run.require_digits: needs run.errors, without which no digit is known");
-  }
 }
 
 void read_points(const SweepRequest& request, const std::vector<Setting>& settings, SweepPlan& plan) {
@@ -343,9 +338,8 @@ void choose_columns(const SweepRequest& request, SweepPlan& plan) {
   if (columns.empty() && request.summary && attitudes && layout.rows == RowKind::scene)
     columns = layout.in_space ? "hardest,hardest_impulse_normal,hardest_corners" : "hardest,hardest_impulse_normal";
   if (columns.empty()) return;
-  if (layout.rows == RowKind::impact) {
+  if (layout.rows == RowKind::impact)
     throw BadInput(fmt::format("--columns {}: is for --rows scene; rows of impacts have every column", columns));
-  }
   int impacts = plan.scene.request.impacts;
   for (const SweepAxis& axis : plan.points.axes()) {
     if (axis.key == "run.impacts") impacts = static_cast<int>(std::max(axis.first, axis.last));
@@ -363,9 +357,8 @@ void choose_probes(const SweepRequest& request, const SceneValues& values, Sweep
   }
   if (layout.rows == RowKind::scene)
     layout.probes = request.probes.empty() ? read_probes(values) : read_probes("--probe", request.probes);
-  for (const Probe& probe : layout.probes) {
+  for (const Probe& probe : layout.probes)
     plan.words.push_back(fmt::format("probe: {}, body frame", place_words(probe)));
-  }
 }
 
 /// @throws BadInput for a probe whose columns have the names of others
@@ -497,12 +490,10 @@ Report SweepPlan::report() const {
   forget(unsettled, report.fields["scene"]);
   if (body_values.empty()) report.fields["body"] = body_value(scene, model);
   report.fields["sweep"] = words;
-  if (!scene.body.file.empty()) {
+  if (!scene.body.file.empty())
     report.remarks.push_back(fmt::format("mesh: CRC-64/XZ {:016x}", file_digest(scene.body.file)));
-  }
-  for (const RunFile& file : attitude_files) {
+  for (const RunFile& file : attitude_files)
     report.remarks.push_back(fmt::format("attitudes: CRC-64/XZ {:016x}", file_digest(file.path)));
-  }
   report.remarks.insert(report.remarks.end(), words.begin(), words.end());
   report.grid.columns = sweep_columns(layout);
   return report;

@@ -12,8 +12,8 @@
 
 #include "interruptible.hpp"
 #include "validation/output/report.hpp"
+#include "validation/scene/argument.hpp"
 #include "validation/scene/keys.hpp"
-#include "validation/scene/named_texts.hpp"
 #include "validation/scene/scene.hpp"
 
 namespace clatter::python {

@@ -17,7 +17,6 @@
 #include "validation/output/bad_input.hpp"
 #include "validation/rod/angles_report.hpp"
 #include "validation/rod/regimes_report.hpp"
-#include "validation/run/discrete_run.hpp"
 #include "validation/run/discrete_scene.hpp"
 #include "validation/sequence/sequence_report.hpp"
 

@@ -11,7 +11,7 @@
 #include "numeric/drop/history.hpp"
 #include "validation/compare/swept_comparison_report.hpp"
 #include "validation/output/bad_input.hpp"
-#include "validation/output/csv_line.hpp"
+#include "validation/output/numeric_table.hpp"
 #include "validation/plan/plan_report.hpp"
 #include "validation/plan/planned_run.hpp"
 #include "validation/plan/tradeoff_report.hpp"

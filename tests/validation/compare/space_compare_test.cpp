@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "validation/compare/prediction.hpp"
-#include "validation/compare/random_space_scenes.hpp"
+#include "validation/compare/discrete_side.hpp"
+#include "validation/compare/random_scenes.hpp"
 #include "validation/run/discrete_scene.hpp"
 
 namespace {

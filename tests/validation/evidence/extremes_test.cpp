@@ -12,7 +12,6 @@
 #include <string>
 
 #include "numeric/motion/free_rotation.hpp"
-#include "validation/evidence/extremes.hpp"
 #include "validation/evidence/extremes_report.hpp"
 #include "validation/evidence/oracles.hpp"
 

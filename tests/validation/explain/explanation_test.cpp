@@ -12,9 +12,8 @@
 #include <vector>
 
 #include "analytic/base/errors.hpp"
-#include "validation/explain/explanation.hpp"
 #include "validation/explain/explanation_report.hpp"
-#include "validation/explain/formula_text.hpp"
+#include "validation/explain/formula.hpp"
 #include "validation/output/bad_input.hpp"
 #include "validation/run/discrete_scene.hpp"
 

@@ -9,7 +9,7 @@
 
 #include "analytic/space/free_flight.hpp"
 #include "analytic/space/sequence.hpp"
-#include "validation/measured/forecast.hpp"
+#include "validation/measured/score.hpp"
 #include "validation/sweep/counter_random.hpp"
 
 namespace clatter::validation::synthetic {

@@ -9,10 +9,10 @@
 #include <sstream>
 
 #include "validation/output/bad_input.hpp"
-#include "validation/output/csv_line.hpp"
 #include "validation/output/estimated.hpp"
 #include "validation/output/json.hpp"
 #include "validation/output/number.hpp"
+#include "validation/output/numeric_table.hpp"
 #include "validation/output/report.hpp"
 #include "validation/output/symbols.hpp"
 

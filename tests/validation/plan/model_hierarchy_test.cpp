@@ -5,9 +5,7 @@
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 
-#include "validation/plan/closed_form.hpp"
 #include "validation/plan/model_hierarchy.hpp"
-#include "validation/plan/symmetry.hpp"
 
 using namespace clatter;
 using namespace clatter::validation;

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "validation/compare/number_pair.hpp"
-#include "validation/run/totals.hpp"
+#include "validation/run/run.hpp"
 
 using namespace clatter::validation;
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The keys that a scene has to say so that others read the same scene again.
-#include "validation/scene/scene_text.hpp"
+#include "validation/scene/keys.hpp"
 
 #include <algorithm>
 #include <boost/test/unit_test.hpp>

@@ -1,12 +1,58 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "validation/scene/rod_parameters.hpp"
+#include "validation/rod/rod_parameters.hpp"
 
 #include <fmt/format.h>
+
+#include <cmath>
+#include <utility>
 
 #include "validation/output/bad_input.hpp"
 #include "validation/output/number.hpp"
 
 namespace clatter::validation {
+
+double Sweep::value(long long i) const {
+  if (i == count - 1 && step == 0) return to;
+  if (step > 0) return std::fmin(clean_step(from, step, i), to);
+  const double part = static_cast<double>(i) / static_cast<double>(count - 1);
+  if (logarithmic) return from * std::pow(to / from, part);
+  return from + (to - from) * part;
+}
+
+Arguments range_arguments(RangeRequest& r, const std::string& what) {
+  const char* const group = "Range";
+  return {
+      number_argument("--from", r.from, any_number, "X", "first " + what, group),
+      number_argument("--to", r.to, any_number, "X", "last " + what, group),
+      number_argument("--step", r.step, positive_number, "X", "step from one to the next", group),
+      whole_argument("--count", r.count, 1, 100'000'000, "N", "or the number of values, both ends included", group)};
+}
+
+Sweep sweep_of(const RangeRequest& request, const SweepDefault& fallback, const Range& allowed) {
+  Sweep sweep{.from = request.from.value_or(fallback.from), .to = request.to.value_or(fallback.to)};
+  for (const auto& [option, value] : {std::pair{"--from", sweep.from}, std::pair{"--to", sweep.to}}) {
+    if (!allowed.holds(value))
+      throw BadInput(fmt::format("{} '{}': must be {}", option, shortest(value), allowed.allowed()));
+  }
+  if (!(sweep.from <= sweep.to)) {
+    throw BadInput(
+        fmt::format("--from {}: must not be greater than --to {}", shortest(sweep.from), shortest(sweep.to)));
+  }
+  if (request.step && request.count) {
+    throw BadInput(
+        fmt::format("--step {} and --count {}: give one of them, not both", shortest(*request.step), *request.count));
+  }
+  if (request.count) {
+    sweep.count = *request.count;
+    if (sweep.count == 1) sweep.to = sweep.from;
+    return sweep;
+  }
+  sweep.step = request.step.value_or(fallback.step);
+  const double steps = (sweep.to - sweep.from) / sweep.step;
+  if (!(steps < 1e8)) throw BadInput(fmt::format("--step {}: more than 100000000 values", sweep.step));
+  sweep.count = count_of_steps(steps);
+  return sweep;
+}
 
 Arguments rod_arguments(RodRequest& r) {
   const char* const group = "Rod";
@@ -25,9 +71,8 @@ Arguments rod_arguments(RodRequest& r) {
 analytic::RodParameters rod_parameters(const RodRequest& r) {
   if (r.gravity_number && r.gravity) throw BadInput("--gravity-number and --gravity: give one of them, not both");
   const double of_gravity = r.gravity.value_or(0) / r.speed * r.length / r.speed;
-  if (!(of_gravity <= largest_number)) {
+  if (!(of_gravity <= largest_number))
     throw BadInput("--gravity, --length, --speed: the gravity number g L/v_n^2 overflows");
-  }
   analytic::RodParameters rod;
   rod.gravity_number = r.gravity_number.value_or(of_gravity);
   rod.restitution = r.restitution;
