@@ -38,17 +38,19 @@ struct SlidingFace {
 struct FaceFriction {
   Vector2 impulse = Vector2::Zero();  ///< ∫F dP [N·s]
   double couple = 0;                  ///< ∫K dP, about the vertical through the centre of mass [N·m·s]
+  Vector2 moment = Vector2::Zero();   ///< of the pushes beside that of the rebound as a whole [N·m·s]
   double spin_after = 0;              ///< ω_z [rad/s]
+  bool has_pressure = true;           ///< false: it asks for pushes outside the area, as it does without friction
   PathKind path = PathKind::turning_slip;
 };
 
 /// Whether all of the face slips, or is about to, in one direction to rounding, through the pressure point: friction
 /// then has no couple, and all of it may as well act below the centre of mass.
-[[nodiscard]] bool slides_straight(const SlidingFace& face);
+[[nodiscard]] bool slides_straight(const SlidingFace& face, const ContactArea& area);
 
 /// Friction of a face; nothing where (2) asks at any moment for a point that pushes on the area cannot have, or one so
 /// near to its edge that less than 1e-4 of the area is pushed.
 /// Accuracy: 1e-12 of μN and of what (U, w) does to m, J.
-[[nodiscard]] std::optional<FaceFriction> face_friction(const SlidingFace& face, const ContactArea& area);
+[[nodiscard]] FaceFriction face_friction(const SlidingFace& face, const ContactArea& area);
 
 }  // namespace clatter::analytic::space

@@ -77,6 +77,14 @@ class StrikingGroup {
 
   /// Strikes with these points as a whole; false, and nothing done, if pushes alone cannot do it.
   bool strike(const Points& group);
+  /// Strikes with all that approach, unless something then approaches that is not what friction has tilted.
+  bool strikes_as_a_whole() {
+    StrikingGroup group = *this;
+    if (!group.strike(approaching())) return false;
+    if (!group.approaching().empty() && !group.result().tilts) return false;
+    struck_.take(group.struck_);
+    return true;
+  }
   void strike_corner(const Point& p) { struck_.strike_at(p.place, {p.index}); }
   [[nodiscard]] bool converges(StrikeSeries& series) { return series.converges(struck_); }
   [[nodiscard]] GroupImpact result() const { return struck_.result(); }
@@ -139,7 +147,7 @@ bool StrikingGroup::strike_face(const Points& group, const std::vector<int>& hul
   ContactArea area;
   for (const int i : hull) area.corners.emplace_back(group[static_cast<std::size_t>(i)].arm.head<2>());
   const auto face = struck_.face_rebound(depth, area);
-  if (!face || !area.contains(face->pressure_point)) return false;
+  if (!face) return false;
   struck_.push(*face, indices_of(group));
   return true;
 }
@@ -152,21 +160,27 @@ std::optional<GroupImpact> rebound_as_a_whole(const Body& body, const State& bef
   StrikingGroup group(body, before, touching, law);
   if (!group.strike(group.approaching()) || !group.approaching().empty()) return {};
   GroupImpact result = group.result();
-  result.is_whole = true;
+  result.is_whole = !result.tilts;
   return result;
 }
 
 GroupImpact strike_together(const Body& body, const State& before, std::span<const Corner> touching, const Law& law) {
   if (const Corner* rim = level_rim(touching)) return LevelRim(body, before, *rim, law).strike();
-  if (auto whole = rebound_as_a_whole(body, before, touching, law)) return *whole;
   StrikingGroup group(body, before, touching, law);
   StrikeSeries series;
+  while (group.strikes_as_a_whole()) {
+    check_number_of_strikes(group.strikes());
+    if (getenv("DBG2")) { auto r = group.result(); fprintf(stderr, "stage n %zu pts %zu V %.15g %.15g %.15g w %.15g %.15g %.15g path %d\n", group.strikes(), r.order.back().size(), r.velocity_after.x(), r.velocity_after.y(), r.velocity_after.z(), r.angular_velocity_after.x(), r.angular_velocity_after.y(), r.angular_velocity_after.z(), (int)r.path); }
+  }
+  const bool is_whole = group.strikes() == 1 && group.approaching().empty();
   for (auto fastest = group.fastest(); !fastest.empty(); fastest = group.fastest()) {
     check_number_of_strikes(group.strikes());
     if (group.converges(series)) continue;
     if (!group.strike(fastest)) group.strike_corner(fastest.front());
   }
-  return group.result();
+  GroupImpact result = group.result();
+  result.is_whole = is_whole && !result.tilts;
+  return result;
 }
 
 GroupImpact strike_beside(const Body& body, const State& before, std::span<const Corner> arriving,

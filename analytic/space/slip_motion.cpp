@@ -2,6 +2,8 @@
 #include "analytic/space/slip_motion.hpp"
 
 #include <cmath>
+#include <cstdio>
+#include <cstdlib>
 #include <limits>
 
 #include "analytic/base/limits.hpp"
@@ -22,6 +24,9 @@ constexpr double sure_stop = 1e-4;
 constexpr double shortest_step = 1e-13;
 /// Slip that has fallen to this part of the largest, turning or not, has stopped: its direction is rounding.
 constexpr double stopped_part = 1e-13, little_stopped_part = 1e-6;
+
+/// Nothing goes along with slip.
+bool is_alone(const SlipMotion::Values& rates) { return rates.tail(rates.size() - 3).isZero(0); }
 
 /// Where slip will stop, by its size and growth now and as it was when it was at least twice as large.
 struct StopForecast {
@@ -57,12 +62,12 @@ double SlipMotion::error_along(const Values& next, const Values& error) {
   return error.tail(others).lpNorm<1>() / std::fmax(1, next.tail(others).lpNorm<1>());
 }
 
-void SlipMotion::go_straight_to(double stop) {
+void SlipMotion::go_straight_to(double stop, const Values& now) {
   constexpr double shortest = 1e-3;
   const double whole = stop - spent_;
   double length = whole;
   holds_direction_ = true;
-  while (y_.size() > 3 && spent_ < stop) {
+  while (!is_alone(now) && spent_ < stop) {
     const bool is_last = length >= stop - spent_;
     const double taken = is_last ? stop - spent_ : length;
     Values next = y_, error = y_;
@@ -86,6 +91,7 @@ SlipMotion::End SlipMotion::slide(bool from_rest) {
   for (int i = 0; i < most_steps; ++i) {
     const Values now = rate(y_);
     if (!now.allFinite()) return End::no_pressure;
+    keep();
     const double left = impulse_left(now);
     if (std::fabs(left) <= 4 * detail::epsilon * spent_) {
       if (end_stage()) return End::impulse_spent;
@@ -97,8 +103,8 @@ SlipMotion::End SlipMotion::slide(bool from_rest) {
     if (scale > most_little) forecast.agreement = stop_agreement;
     const double stop = spent_ - size / growth;
     const bool is_rounding = size <= (scale > most_little ? stopped_part : little_stopped_part) * scale;
-    if (growth < 0 && (is_rounding || forecast.agrees(spent_, left, size, stop, only_friction_))) {
-      go_straight_to(stop);
+    if (growth < 0 && (is_rounding || forecast.agrees(spent_, left, size, stop, is_alone(now) && only_friction_))) {
+      go_straight_to(stop, now);
       return End::stopped;
     }
     length = std::fmin(length, size / std::fmax(-growth / 0.9, now.head<3>().norm() / 8));
@@ -108,9 +114,18 @@ SlipMotion::End SlipMotion::slide(bool from_rest) {
     const double wrong = (error.head<3>().norm() / scale + error_along(next, error)) / slip_step_error;
     const bool is_shortest = std::fabs(taken) * now.head<3>().norm() <= shortest_step * size;
     if (is_shortest && !next.allFinite()) return End::no_pressure;
+    static const bool dbg = getenv("DBG");
+    if (dbg) fprintf(stderr, "%d spent %.17g left %.3g size %.6g dir %.6f %.6f %.6f growth %.4g taken %.3g wrong %.3g %s\n", i, spent_, left, size, y_[0]/size,y_[1]/size,y_[2]/size, growth, taken, wrong, wrong<=1?"ok":is_shortest?"SHORT":"rej");
+    if (wrong <= 1 && !may_step_to(next, taken * now.head<3>().norm() / size)) {
+      go_back();
+      length = taken / 4;
+      continue;
+    }
     if (wrong <= 1 || is_shortest) {
       y_ = next;
       spent_ += taken;
+    } else {
+      go_back();
     }
     length = std::fabs(taken) * (wrong >= 0 ? std::fmin(std::fmax(0.9 * std::pow(wrong, -0.125), 0.1), 4) : 0.1);
   }

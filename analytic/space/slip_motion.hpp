@@ -31,6 +31,12 @@ class SlipMotion {
   virtual double impulse_left(const Values& rate) = 0;
   /// Whether the impulse ends where impulse_left() is zero.
   virtual bool end_stage() = 0;
+  /// What rate() goes on from later, of several solutions: that of the last point, and back to it where a step fails.
+  virtual void keep() {}
+  virtual void go_back() {}
+  /// Whether a step to there is short enough for what rate() holds on to.
+  /// @param part  of slip that the step may change
+  virtual bool may_step_to(const Values&, double) { return true; }
 
   /// Follows slip until it stops, as successive forecasts of the stop agree, or until the impulse is spent.
   /// @param from_rest  slip is first_slip, which dies out if friction holds the contact
@@ -48,7 +54,8 @@ class SlipMotion {
   /// Error of a step in what goes along with slip, relative to its size or to 1.
   static double error_along(const Values& next, const Values& error);
   /// What goes along with slip, up to where it stops without turning.
-  void go_straight_to(double stop);
+  /// @param now  rate(y_)
+  void go_straight_to(double stop, const Values& now);
 
   std::size_t size_;
   bool holds_direction_ = false;

@@ -20,6 +20,7 @@ struct GroupImpact {
   double approach_speed = 0;                         ///< largest of the corners [m/s]
   double energy_loss = 0;                            ///< −[P·(V + V′) + M·(ω + ω′)]/2 [J]
   bool is_whole = false;                             ///< the body rebounds as a whole, in one strike
+  bool tilts = false;                                ///< friction has tilted it beside that
   /// Indices (Corner::index) of the corners of each strike, in order.
   std::vector<std::vector<int>> order;
   PathKind path = PathKind::frictionless;  ///< of the first strike
@@ -32,6 +33,7 @@ struct FaceRebound {
   Vector2 pressure_point = Vector2::Zero();  ///< of (2) in simultaneous.hpp, from the centre of mass [m]
   PathKind path = PathKind::frictionless;
   std::optional<double> spin_after = {};  ///< ω_z, where friction has a couple about the vertical [rad/s]
+  bool tilts = false;                     ///< the turning is not that of the rebound as a whole
 };
 
 /// Bound on the rounding of a point's normal velocity u during an impact [m/s].  With 2E/m = V² + ω·Iω/m, which bounds
