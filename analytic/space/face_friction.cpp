@@ -103,8 +103,9 @@ bool FacePath::may_step_to(const Values& next, double part) {
   const Values then = rate(next);
   if (!pressure_.is_at_side()) return false;
   constexpr double ahead = 1e-5;
+  const double share = pressure_.share();
   (void)rate(next + ahead * next.head<3>().norm() / then.head<3>().norm() * then);
-  return pressure_.is_at_side();
+  return pressure_.share() <= share;
 }
 
 /// Without slip tilting has the inertia of the body about the points that stay where they are, by which C is nearest.

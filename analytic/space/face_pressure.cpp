@@ -38,7 +38,6 @@ void FacePressure::begin() {
   now_ = {};
   now_.place = {.point = without_friction_, .pressure = Vector3(1 / whole_moments_(0, 0), 0, 0)};
   kept_ = now_;
-  is_at_side_ = false;
 }
 
 FacePressure::Side FacePressure::side(const Vector2& point, std::size_t i) const {
@@ -156,8 +155,8 @@ bool FacePressure::settle_within() {
   constexpr double rounding = 64 * std::numeric_limits<double>::epsilon();
   Place& now = now_.place;
   const double most_share = kept_.place.share;
-  is_at_side_ = is_bounded_ && is_at_side_ && now.share <= most_share;
-  if (!is_at_side_) {
+  now.is_at_side = is_bounded_ && now.is_at_side && now.share <= most_share;
+  if (!now.is_at_side) {
     now.share = most_share;
     if (!settle({})) return false;
     if (!is_bounded_) return true;
@@ -165,18 +164,18 @@ bool FacePressure::settle_within() {
   for (std::size_t tried = 0; tried <= corners_.size(); ++tried) {
     const std::size_t most = outermost(now.point);
     const double beyond = side(now.point, most).beyond;
-    if (!is_at_side_) {
+    if (!now.is_at_side) {
       if (beyond <= rounding) return true;
       const double inside = side(without_friction_, most).beyond;
       const double part = std::fmax(inside / (inside - beyond), 0);
       now.share *= part;
       now.point = without_friction_ + part * (now.point - without_friction_);
     }
-    is_at_side_ = true;
+    now.is_at_side = true;
     if (!settle(most)) return false;
     if (now.share > most_share) {
       now.share = most_share;
-      is_at_side_ = false;
+      now.is_at_side = false;
       if (!settle({})) return false;
       continue;
     }
@@ -211,7 +210,7 @@ void FacePressure::grow_from_no_friction() {
     const Vector2 point = next.head<2>();
     const bool is_beyond = is_bounded_ && side(point, outermost(point)).beyond > 0;
     if (is_beyond || next.z() >= most_share) {
-      is_at_side_ = is_beyond;
+      now.is_at_side = is_beyond;
       now.point = point;
       now.share = is_beyond ? std::fmin(next.z(), most_share) : most_share;
       if (settle_within() && (Vector3(now.point.x(), now.point.y(), now.share) - x).norm() <= 4 * step) return;
@@ -276,7 +275,7 @@ FacePressure::Push FacePressure::against(const Vector2& slip, double spin) {
   return {.friction = friction_now_, .beyond = unit() * (beyond * (shift_ * friction_now_))};
 }
 
-void FacePressure::debug() const { fprintf(stderr, "   share %.15g kept %.12g pt %.6f %.6f side %d whole %d f %.6f %.6f %.6f\n", now_.place.share, kept_.place.share, now_.place.point.x(), now_.place.point.y(), is_at_side_, is_whole_, friction_now_.x(), friction_now_.y(), friction_now_.z()); }
+void FacePressure::debug() const { fprintf(stderr, "   share %.15g kept %.12g pt %.6f %.6f side %d whole %d f %.6f %.6f %.6f\n", now_.place.share, kept_.place.share, now_.place.point.x(), now_.place.point.y(), now_.place.is_at_side, is_whole_, friction_now_.x(), friction_now_.y(), friction_now_.z()); }
 void FacePressure::keep() {
   kept_ = now_;
   if (!is_bounded_) has_left_ = has_left_ || side(now_.place.point, outermost(now_.place.point)).beyond > 0;

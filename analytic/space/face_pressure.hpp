@@ -45,7 +45,8 @@ class FacePressure {
   void keep();
   void go_back() { now_ = kept_; }
   /// x̂ is on the boundary of C, where λ becomes less.
-  [[nodiscard]] bool is_at_side() const { return is_at_side_; }
+  [[nodiscard]] bool is_at_side() const { return now_.place.is_at_side; }
+  [[nodiscard]] double share() const { return now_.place.share; }  ///< λ
   /// R₀ is outside C, and R was so, too, at one that was kept.
   [[nodiscard]] bool has_left() const { return has_left_; }
 
@@ -62,6 +63,7 @@ class FacePressure {
     Vector2 point = Vector2::Zero();
     double share = 1;
     Vector3 pressure = Vector3::UnitX();
+    bool is_at_side = false;
   };
   struct Known {
     Place place, before;  ///< at two directions of slip
@@ -96,7 +98,7 @@ class FacePressure {
   std::vector<Vector2> corners_;
   PressedArea pushed_;
   Vector2 without_friction_;  ///< R₀ in units
-  bool is_bounded_, has_left_ = false, is_at_side_ = false;
+  bool is_bounded_, has_left_ = false;
   Eigen::Matrix<double, 2, 3> shift_;
   NearestInArea nearest_;
   Matrix3 rubbing_, whole_moments_, moments_;

@@ -88,10 +88,15 @@ SlipMotion::End SlipMotion::slide(bool from_rest) {
   double scale = y_.head<3>().norm(), length = std::numeric_limits<double>::infinity();
   const double most_little = from_rest ? little * scale : 0;
   StopForecast forecast{.begin = spent_, .size_then = scale, .agreement = little_agreement};
+  Values now;
+  bool is_new = true;
   for (int i = 0; i < most_steps; ++i) {
-    const Values now = rate(y_);
-    if (!now.allFinite()) return End::no_pressure;
-    keep();
+    if (is_new) {
+      now = rate(y_);
+      if (!now.allFinite()) return End::no_pressure;
+      keep();
+    }
+    is_new = true;
     const double left = impulse_left(now);
     if (std::fabs(left) <= 4 * detail::epsilon * spent_) {
       if (end_stage()) return End::impulse_spent;
@@ -118,6 +123,7 @@ SlipMotion::End SlipMotion::slide(bool from_rest) {
     if (dbg) fprintf(stderr, "%d spent %.17g left %.3g size %.6g dir %.6f %.6f %.6f growth %.4g taken %.3g wrong %.3g %s\n", i, spent_, left, size, y_[0]/size,y_[1]/size,y_[2]/size, growth, taken, wrong, wrong<=1?"ok":is_shortest?"SHORT":"rej");
     if (wrong <= 1 && !may_step_to(next, taken * now.head<3>().norm() / size)) {
       go_back();
+      is_new = false;
       length = taken / 4;
       continue;
     }
@@ -126,6 +132,7 @@ SlipMotion::End SlipMotion::slide(bool from_rest) {
       spent_ += taken;
     } else {
       go_back();
+      is_new = false;
     }
     length = std::fabs(taken) * (wrong >= 0 ? std::fmin(std::fmax(0.9 * std::pow(wrong, -0.125), 0.1), 4) : 0.1);
   }
