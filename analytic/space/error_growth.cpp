@@ -63,7 +63,7 @@ double bound(const Image& image) {
 /// Rounding of the row's impulse by its path, relative, as a standard deviation.
 double path_rounding(const ImpactRow& row) {
   if (row.impact.path == PathKind::frictionless) return 8 * epsilon;
-  return row.group ? face_rounding : friction_rounding;
+  return row.group ? std::fmax(face_rounding, row.group->path_error) : friction_rounding;
 }
 
 /// Whether the row's corner has returned from a hop with an approach speed of relative accuracy.
@@ -273,6 +273,7 @@ void ErrorGrowth::strike(const Strike& strike, const StrikeDerivatives& closed, 
   const bool turns = row.before.angular_velocity.norm() > 0;
   // What comes down beside corners on the ground does so in neighbours, too: stay() has seen to that.
   if (row.group && row.start > 0 && turns && row.held == 0) predictable_ = false;
+  if (row.group && row.group->is_open) predictable_ = false;
   if (!predictable_) return;
   if (!(row.approach_speed > 0) || row.impact.impulse.norm() == 0) return give_up();
   append(is_hop(row)

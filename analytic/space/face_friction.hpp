@@ -41,6 +41,7 @@ struct FaceFriction {
   Vector2 moment = Vector2::Zero();   ///< of the pushes beside that of the rebound as a whole [N·m·s]
   double spin_after = 0;              ///< ω_z [rad/s]
   bool has_pressure = true;           ///< false: it asks for pushes outside the area, as it does without friction
+  double path_error = 0;              ///< of the impulse, relative, where pushes have come to the boundary of the area
   PathKind path = PathKind::turning_slip;
 };
 

@@ -3,7 +3,6 @@
 
 #include <Eigen/LU>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 
 namespace clatter::analytic::space {
@@ -186,7 +185,8 @@ bool FacePressure::settle_within() {
 }
 
 /// Follows the solutions as the share of friction grows from 0, through turns back, to the share that is wanted or to a
-/// side of C: the tangent of their curve is the cross product of the gradients of the excess, which does not turn round.
+/// side of C: the tangent of their curve is the cross product of the gradients of the excess, which does not turn
+/// round.
 void FacePressure::grow_from_no_friction() {
   constexpr int most_steps = 1000;
   constexpr double longest = 0.5, shortest = 1e-10;
@@ -264,9 +264,11 @@ FacePressure::Push FacePressure::against(const Vector2& slip, double spin) {
     now_.place.point += part * (last.point - now_.before.point);
     now_.place.pressure += part * (last.pressure - now_.before.pressure);
   }
+  has_jumped_ = false;
   if (!settle_within()) {
     now_.place = last;
-    if (!settle_within()) grow_from_no_friction();
+    has_jumped_ = !settle_within();
+    if (has_jumped_) grow_from_no_friction();
   }
   now_.before = last;
   now_.direction_before = now_.direction;
@@ -275,7 +277,6 @@ FacePressure::Push FacePressure::against(const Vector2& slip, double spin) {
   return {.friction = friction_now_, .beyond = unit() * (beyond * (shift_ * friction_now_))};
 }
 
-void FacePressure::debug() const { fprintf(stderr, "   share %.15g kept %.12g pt %.6f %.6f side %d whole %d f %.6f %.6f %.6f\n", now_.place.share, kept_.place.share, now_.place.point.x(), now_.place.point.y(), now_.place.is_at_side, is_whole_, friction_now_.x(), friction_now_.y(), friction_now_.z()); }
 void FacePressure::keep() {
   kept_ = now_;
   if (!is_bounded_) has_left_ = has_left_ || side(now_.place.point, outermost(now_.place.point)).beyond > 0;

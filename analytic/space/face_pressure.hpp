@@ -38,7 +38,6 @@ class FacePressure {
     Vector2 beyond = Vector2::Zero();    ///< R − x̂ [m]
   };
   void begin();
-  void debug() const;
   /// Against the slip U below the centre of mass and the spin w, of any size.
   [[nodiscard]] Push against(const Vector2& slip, double spin);
   /// Later solutions go on from the last one; go_back() takes those back that came after the last keep().
@@ -46,6 +45,8 @@ class FacePressure {
   void go_back() { now_ = kept_; }
   /// x̂ is on the boundary of C, where λ becomes less.
   [[nodiscard]] bool is_at_side() const { return now_.place.is_at_side; }
+  /// The last solution does not go on from the one before it.
+  [[nodiscard]] bool has_jumped() const { return has_jumped_; }
   [[nodiscard]] double share() const { return now_.place.share; }  ///< λ
   /// R₀ is outside C, and R was so, too, at one that was kept.
   [[nodiscard]] bool has_left() const { return has_left_; }
@@ -98,7 +99,7 @@ class FacePressure {
   std::vector<Vector2> corners_;
   PressedArea pushed_;
   Vector2 without_friction_;  ///< R₀ in units
-  bool is_bounded_, has_left_ = false;
+  bool is_bounded_, has_left_ = false, has_jumped_ = false;
   Eigen::Matrix<double, 2, 3> shift_;
   NearestInArea nearest_;
   Matrix3 rubbing_, whole_moments_, moments_;

@@ -77,14 +77,15 @@ class StrikingGroup {
 
   /// Strikes with these points as a whole; false, and nothing done, if pushes alone cannot do it.
   bool strike(const Points& group);
-  /// Strikes with all that approach, unless something then approaches that is not what friction has tilted.
-  bool strikes_as_a_whole() {
+  /// Strikes with all that approach, unless something then approaches that friction has not tilted.
+  bool strike_as_a_whole() {
     StrikingGroup group = *this;
-    if (!group.strike(approaching())) return false;
-    if (!group.approaching().empty() && !group.result().tilts) return false;
+    group.tilted_ = false;
+    if (!group.strike(approaching()) || !(group.tilted_ || group.approaching().empty())) return false;
     struck_.take(group.struck_);
     return true;
   }
+  void leave_open() { struck_.leave_open(); }
   void strike_corner(const Point& p) { struck_.strike_at(p.place, {p.index}); }
   [[nodiscard]] bool converges(StrikeSeries& series) { return series.converges(struck_); }
   [[nodiscard]] GroupImpact result() const { return struck_.result(); }
@@ -96,6 +97,7 @@ class StrikingGroup {
 
   StrikingBody struck_;
   Points points_;
+  bool tilted_ = false;
 };
 
 std::vector<int> indices_of(const StrikingGroup::Points& group) {
@@ -149,6 +151,7 @@ bool StrikingGroup::strike_face(const Points& group, const std::vector<int>& hul
   const auto face = struck_.face_rebound(depth, area);
   if (!face) return false;
   struck_.push(*face, indices_of(group));
+  tilted_ = face->tilts;
   return true;
 }
 
@@ -158,7 +161,7 @@ std::optional<GroupImpact> rebound_as_a_whole(const Body& body, const State& bef
                                               const Law& law) {
   if (const Corner* rim = level_rim(touching)) return LevelRim(body, before, *rim, law).rebound_as_a_whole();
   StrikingGroup group(body, before, touching, law);
-  if (!group.strike(group.approaching()) || !group.approaching().empty()) return {};
+  if (!group.strike_as_a_whole()) return {};
   GroupImpact result = group.result();
   result.is_whole = !result.tilts;
   return result;
@@ -168,15 +171,14 @@ GroupImpact strike_together(const Body& body, const State& before, std::span<con
   if (const Corner* rim = level_rim(touching)) return LevelRim(body, before, *rim, law).strike();
   StrikingGroup group(body, before, touching, law);
   StrikeSeries series;
-  while (group.strikes_as_a_whole()) {
-    check_number_of_strikes(group.strikes());
-    if (getenv("DBG2")) { auto r = group.result(); fprintf(stderr, "stage n %zu pts %zu V %.15g %.15g %.15g w %.15g %.15g %.15g path %d\n", group.strikes(), r.order.back().size(), r.velocity_after.x(), r.velocity_after.y(), r.velocity_after.z(), r.angular_velocity_after.x(), r.angular_velocity_after.y(), r.angular_velocity_after.z(), (int)r.path); }
-  }
+  while (group.strike_as_a_whole()) check_number_of_strikes(group.strikes());
   const bool is_whole = group.strikes() == 1 && group.approaching().empty();
   for (auto fastest = group.fastest(); !fastest.empty(); fastest = group.fastest()) {
     check_number_of_strikes(group.strikes());
     if (group.converges(series)) continue;
-    if (!group.strike(fastest)) group.strike_corner(fastest.front());
+    if (group.strike(fastest)) continue;
+    if (fastest.size() > 1 && law.law.rubs()) group.leave_open();
+    group.strike_corner(fastest.front());
   }
   GroupImpact result = group.result();
   result.is_whole = is_whole && !result.tilts;
@@ -193,6 +195,9 @@ GroupImpact strike_beside(const Body& body, const State& before, std::span<const
   touching.insert(touching.end(), held.begin(), held.end());
   const GroupImpact then = strike_together(body, between, touching, law);
   all.is_whole = false;
+  all.tilts = all.tilts || then.tilts;
+  all.is_open = all.is_open || then.is_open;
+  all.path_error = std::fmax(all.path_error, then.path_error);
   if (then.order.empty()) return all;
   all.impulse += then.impulse;
   all.moment += then.moment;

@@ -2,8 +2,6 @@
 #include "analytic/space/slip_motion.hpp"
 
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
 #include <limits>
 
 #include "analytic/base/limits.hpp"
@@ -88,19 +86,16 @@ SlipMotion::End SlipMotion::slide(bool from_rest) {
   double scale = y_.head<3>().norm(), length = std::numeric_limits<double>::infinity();
   const double most_little = from_rest ? little * scale : 0;
   StopForecast forecast{.begin = spent_, .size_then = scale, .agreement = little_agreement};
-  Values now;
-  bool is_new = true;
+  Values now = rate(y_);
+  keep();
   for (int i = 0; i < most_steps; ++i) {
-    if (is_new) {
-      now = rate(y_);
-      if (!now.allFinite()) return End::no_pressure;
-      keep();
-    }
-    is_new = true;
+    if (!now.allFinite()) return End::no_pressure;
     const double left = impulse_left(now);
     if (std::fabs(left) <= 4 * detail::epsilon * spent_) {
       if (end_stage()) return End::impulse_spent;
       length = std::numeric_limits<double>::infinity();
+      now = rate(y_);
+      keep();
       continue;
     }
     const double size = y_.head<3>().norm(), growth = y_.head<3>().dot(now.head<3>()) / size;
@@ -119,20 +114,17 @@ SlipMotion::End SlipMotion::slide(bool from_rest) {
     const double wrong = (error.head<3>().norm() / scale + error_along(next, error)) / slip_step_error;
     const bool is_shortest = std::fabs(taken) * now.head<3>().norm() <= shortest_step * size;
     if (is_shortest && !next.allFinite()) return End::no_pressure;
-    static const bool dbg = getenv("DBG");
-    if (dbg) fprintf(stderr, "%d spent %.17g left %.3g size %.6g dir %.6f %.6f %.6f growth %.4g taken %.3g wrong %.3g %s\n", i, spent_, left, size, y_[0]/size,y_[1]/size,y_[2]/size, growth, taken, wrong, wrong<=1?"ok":is_shortest?"SHORT":"rej");
-    if (wrong <= 1 && !may_step_to(next, taken * now.head<3>().norm() / size)) {
+    if (!(wrong <= 1 || is_shortest)) {
       go_back();
-      is_new = false;
-      length = taken / 4;
-      continue;
-    }
-    if (wrong <= 1 || is_shortest) {
+    } else if (const Values then = rate(next); is_shortest || may_step_to(next, then, taken)) {
       y_ = next;
       spent_ += taken;
+      now = then;
+      keep();
     } else {
       go_back();
-      is_new = false;
+      length = taken / 4;
+      continue;
     }
     length = std::fabs(taken) * (wrong >= 0 ? std::fmin(std::fmax(0.9 * std::pow(wrong, -0.125), 0.1), 4) : 0.1);
   }

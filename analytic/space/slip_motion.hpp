@@ -34,9 +34,9 @@ class SlipMotion {
   /// What rate() goes on from later, of several solutions: that of the last point, and back to it where a step fails.
   virtual void keep() {}
   virtual void go_back() {}
-  /// Whether a step to there is short enough for what rate() holds on to.
-  /// @param part  of slip that the step may change
-  virtual bool may_step_to(const Values&, double) { return true; }
+  /// Whether a step is short enough for what rate() holds on to.
+  /// @param then  rate(next), the last one
+  virtual bool may_step_to(const Values& /*next*/, const Values& /*then*/, double /*length*/) { return true; }
 
   /// Follows slip until it stops, as successive forecasts of the stop agree, or until the impulse is spent.
   /// @param from_rest  slip is first_slip, which dies out if friction holds the contact

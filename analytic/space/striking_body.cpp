@@ -96,6 +96,7 @@ std::optional<FaceRebound> StrikingBody::face_rebound(double depth, const Contac
   rebound->tilts = friction.moment != Vector2::Zero();
   const Vector2 without_friction(-rebound->moment.y(), rebound->moment.x());
   if (!friction.has_pressure || (rebound->tilts && !area.contains(without_friction / rebound->impulse.z()))) return {};
+  rebound->path_error = friction.path_error;
   rebound->path = friction.path;
   if (friction.path == PathKind::stick && friction.couple == 0 && !rebound->tilts) return rebound;
   const Matrix2 inertia = inverse_inertia_.topLeftCorner<2, 2>().inverse();
@@ -135,6 +136,7 @@ bool StrikingBody::strike_along(const EdgeContact& edge, const Vector3& from, co
 void StrikingBody::push(const FaceRebound& face, const std::vector<int>& points) {
   push(face.impulse, face.moment, face.path, points);
   impact_.tilts = impact_.tilts || face.tilts;
+  impact_.path_error = std::fmax(impact_.path_error, face.path_error);
   if (face.spin_after) state_.angular_velocity.z() = *face.spin_after;
 }
 

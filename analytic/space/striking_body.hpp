@@ -21,6 +21,8 @@ struct GroupImpact {
   double energy_loss = 0;                            ///< −[P·(V + V′) + M·(ω + ω′)]/2 [J]
   bool is_whole = false;                             ///< the body rebounds as a whole, in one strike
   bool tilts = false;                                ///< friction has tilted it beside that
+  bool is_open = false;   ///< the law leaves open which of several corners strikes first: an index decided
+  double path_error = 0;  ///< of the impulse, relative, where it is more than that of paths without tilting
   /// Indices (Corner::index) of the corners of each strike, in order.
   std::vector<std::vector<int>> order;
   PathKind path = PathKind::frictionless;  ///< of the first strike
@@ -34,6 +36,7 @@ struct FaceRebound {
   PathKind path = PathKind::frictionless;
   std::optional<double> spin_after = {};  ///< ω_z, where friction has a couple about the vertical [rad/s]
   bool tilts = false;                     ///< the turning is not that of the rebound as a whole
+  double path_error = 0;                  ///< as GroupImpact's
 };
 
 /// Bound on the rounding of a point's normal velocity u during an impact [m/s].  With 2E/m = V² + ω·Iω/m, which bounds
@@ -90,6 +93,7 @@ class StrikingBody {
   void take(const StrikingBody& other);
   void push(const FaceRebound& face, const std::vector<int>& points);
 
+  void leave_open() { impact_.is_open = true; }
   /// Adds an impulse to the last strike.
   void add(const Vector3& impulse, const Vector3& moment);
   [[nodiscard]] const GroupImpact& impact() const { return impact_; }

@@ -297,7 +297,9 @@ void SectorSearch::settle(StrikingBody& struck) {
 }
 
 void SectorSearch::settle_once(StrikingBody& struck) {
-  if (strike_whole(struck, level_)) return;
+  while (!is_spent() && strike_whole(struck, level_)) {
+    if (!find_approach(struck)) return;
+  }
   StrikeSeries series(12);
   std::vector<std::size_t> fastest;
   while (!is_spent() && find_approach(struck)) {
