@@ -4,11 +4,14 @@
 // To turn as the rebound as a whole asks, the face needs its pushes at
 //     R = R₀ + S f,   f = (F, K) = −μ (∫q d dA, ∫q x × d dA),                                         (1)
 // which lies up to μh ahead of R₀, h the depth of the ground.  Where that is outside the area C the ground pushes at
-//     x̂ = R₀ + λ S f,   λ <= 1 the largest with x̂ in C;                                              (2)
-// the moment of the rest, R − x̂, tilts the body.  Friction is that of the linear pressure without tension whose centre
-// is x̂, or, where x̂ is near a side, the point nearest to it of C shrunk about its middle by the part η: pressure at an
-// edge or a corner alone would have a friction that changes at once with the slip there.
-// f, x̂ and λ change continuously with the direction of slip, μ and h; no index of a corner decides.
+//     x̂ = R₀ + λ S f,                                                                                 (2)
+// λ <= 1 the largest with x̂ in C that is no larger than before; the moment of the rest, R − x̂, tilts the body. Friction
+// is that of the linear pressure without tension whose centre is R₀ + λ² S f, or the point nearest to it of C shrunk
+// about its middle by the part η: pressure at an edge or a corner alone would have a friction that changes at once with
+// slip. So friction does not lead by more than C has room for, and slip whose direction turns again and again has no
+// corner of its path after the first turn.  If R₀ is outside, λ stays 1, and has_left() says whether R has been so,
+// too. A solution goes on from the last one.  At the start, and where that one ends, it is the one that the solution
+// without friction becomes as λ grows from 0: f, x̂ and λ depend on no index of a corner.
 #pragma once
 
 #include <optional>

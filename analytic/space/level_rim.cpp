@@ -67,7 +67,7 @@ bool LevelRim::whole() {
   if (!face) return false;
   const Vector2 x = face->pressure_point - arm_.head<2>();
   const bool all_approach = before.rise + radius_ * before.slope.norm() <= rounding_;
-  if (!(face->tilts || x.norm() <= radius_) || !(all_approach || before.at(x) <= 0)) return false;
+  if (!(all_approach || before.at(x) <= 0)) return false;
   StrikingBody struck = struck_;
   struck.push(*face, {index_});
   struck_.take(struck);
