@@ -14,9 +14,9 @@ ROOT = Path(__file__).resolve().parent.parent
 ORDERS = {
     "analytic": ("base", "law", "near_flat", "plane", "space", "batch"),
     "numeric": ("base", "mesh", "surface", "files", "body", "motion", "contact", "stepping", "drop", "."),
-    "validation": ("embedded", "oracles", "output", "record", "tables", "scene", "benchmark", "compare",
-                   "figures", "plan", "shock", "sweep", "map", "tradeoff", "measured", "verify", "extremes", "explain",
-                   "reports", "demo", "cli"),
+    "validation": ("embedded", "oracles", "output", "scene", "run", "command", "sequence", "rod", "explain", "gradient", "atlas",
+                   "benchmark", "compare", "plan", "simulate", "shock", "sweep", "report", "measured", "evidence", "demo",
+                   "program"),
 }
 APART = {"benchmark/engines/native"}  # programs of their own, which include nothing from here
 INCLUDE = re.compile(r'^\s*#include "((\w+)/(?:(.+)/)?[^/"]+)"', re.MULTILINE)

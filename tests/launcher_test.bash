@@ -44,7 +44,9 @@ case $* in
     [[ ! -e build/release/configured || $(<build/release/configured) == "$PWD" ]]
     echo "$PWD" >build/release/configured ;;
   --build*)
-    cp "$SETTINGS/program" build/release/validation/clatter
+    made=clatter
+    [[ $* != *"--target clatter-first"* ]] || made=clatter-first
+    cp "$SETTINGS/program" "build/release/validation/$made"
     [[ ! -e $SETTINGS/save_while_building ]] || touch -d "now + 1 minute" analytic/a.cpp
     [[ ! -e $SETTINGS/build_waits ]] || cat "$SETTINGS/build_waits"
     [[ ! -e $SETTINGS/build_fails ]] ;;
@@ -119,7 +121,11 @@ launch_as() {  # LAUNCHER ARGS...; leaves $status, the files out and err, and ca
   with_stubs "$@" >"$settings/out" 2>"$settings/err" </dev/null || status=$?
 }
 
-launch() { launch_as "$tree/clatter" "$@"; }
+# Without arguments a command of the whole program.
+launch() {
+  (($#)) || set -- verify
+  launch_as "$tree/clatter" "$@"
+}
 
 build_first() {
   launch
@@ -130,7 +136,10 @@ build_first() {
 # Built an hour ago, from sources of an hour before: what is saved from now on is newer by any file system's clock.
 age_tree() {
   find "$tree" -path "$tree/build" -prune -o -exec touch -d "2 hours ago" {} +
-  touch -d "1 hour ago" "$tree/build/release/built"
+  local stamp
+  for stamp in built first_built; do
+    [[ ! -e $tree/build/release/$stamp ]] || touch -d "1 hour ago" "$tree/build/release/$stamp"
+  done
 }
 
 expect() {  # WHAT WANTED FOUND
@@ -172,13 +181,44 @@ END
 # ---- the claims ------------------------------------------------------------
 
 test_first_launch_builds_and_runs() {
-  launch sequence
+  launch
   expect "exit status" 0 "$status"
   expect_calls 1 "cmake --preset release"
-  expect_calls 1 "cmake --build --preset release"
+  expect_calls 1 "cmake --build --preset release$"
   expect_calls 0 "apt-get"
   expect "standard error" "clatter: building (first run, a few minutes) ..." \
     "$(<"$settings/err")"
+}
+
+test_first_table_takes_the_first_program() {
+  launch sequence
+  expect "exit status" 0 "$status"
+  expect_calls 1 "cmake --build --preset release --target clatter-first"
+  expect "standard error" "clatter: building (first run, a few minutes) ..." "$(<"$settings/err")"
+  age_tree
+  launch explain
+  expect "calls" "" "$(<"$settings/calls")"
+}
+
+test_other_commands_build_the_whole_program_which_then_serves_all() {
+  launch sequence
+  age_tree
+  launch simulate
+  expect_calls 1 "cmake --build --preset release$"
+  expect "standard error" "clatter: building (the whole program, a few minutes) ..." "$(<"$settings/err")"
+  age_tree
+  launch sequence
+  expect "calls" "" "$(<"$settings/calls")"
+  expect "standard error" "" "$(<"$settings/err")"
+}
+
+test_first_program_is_built_anew_where_a_source_is_newer_than_both() {
+  launch sequence
+  launch simulate
+  age_tree
+  touch "$tree/analytic/a.cpp"
+  launch sequence
+  expect_calls 1 "cmake --build --preset release --target clatter-first"
 }
 
 test_nothing_is_called_when_nothing_changed() {
@@ -427,6 +467,8 @@ what_is_installed() { sed -n 's/^apt-get .*--no-install-recommends //p' "$settin
 
 test_gnuplot_comes_when_a_picture_is_first_asked_for() {
   build_first
+  launch sequence
+  expect "calls" "" "$(<"$settings/calls")"
   launch sequence --plot a.svg
   expect "what is installed" "gnuplot-nox" "$(what_is_installed)"
   stub gnuplot </dev/null

@@ -59,8 +59,8 @@ void ContactMotion::take(State s) {
   const Vector3 u = slip_of(s, points_[0]);
   motion_ << s.attitude.w(), s.attitude.vec(), s.angular_velocity, u.head<2>();
   if (points_[0].sticks) motion_.tail<2>().setZero();
-  if (points_.size() != 2 || !std::ranges::all_of(points_, &GroundPoint::sticks)) return;
-  const Vector3 edge = (s.attitude * (points_[1].place - points_[0].place)).normalized();  // a hinge
+  if (!is_hinge()) return;
+  const Vector3 edge = (s.attitude * (points_[1].place - points_[0].place)).normalized();
   motion_.segment<3>(4) = s.angular_velocity.dot(edge) * edge;
 }
 
@@ -284,6 +284,12 @@ bool ContactMotion::digs_in() const {
   return push > without_bound * drop_.body.mass * speed_scale() * speed_scale() / reach_;
 }
 
+/// An edge that sticks is a hinge: what the errors of steps have turned it off its axis would be slip at the next
+/// impact, which friction would rub against however little it is.
+void ContactMotion::keep_hinge() {
+  if (is_hinge()) take(state());
+}
+
 /// One step, or part of one up to the first event in it.
 void ContactMotion::step() {
   const Motion from = motion_;
@@ -388,6 +394,7 @@ std::optional<SustainedContact> ContactMotion::pass_event() {
 /// Steps on; whether what friction does thereafter is known.
 bool ContactMotion::go_on() {
   step();
+  keep_hinge();
   return law_.friction() == 0 || event_ != Event::none || stop_slips();
 }
 

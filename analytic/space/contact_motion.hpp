@@ -87,6 +87,11 @@ class ContactMotion {
   [[nodiscard]] State levelled(State s) const;
   void take(State s);
   void hold(const State& s);
+  /// Whether an edge sticks, about which the body turns.
+  [[nodiscard]] bool is_hinge() const {
+    return points_.size() == 2 && std::ranges::all_of(points_, &GroundPoint::sticks);
+  }
+  void keep_hinge();
   void stick_where_slow();
   void leave(std::size_t number);
   [[nodiscard]] std::optional<SustainedContact> pass_event();

@@ -64,14 +64,14 @@ bool LevelRim::whole() {
   const Motion before = motion();
   if (!(slowest_rise(before) < -rounding_)) return false;
   const auto face = struck_.face_rebound(-arm_.z(), {.corners = {arm_.head<2>()}, .radius = radius_});
-  if (!face) return false;
+  if (!face || face->tilts) return false;
   const Vector2 x = face->pressure_point - arm_.head<2>();
   const bool all_approach = before.rise + radius_ * before.slope.norm() <= rounding_;
-  if (!(all_approach || before.at(x) <= 0)) return false;
+  if (!(x.norm() <= radius_) || !(all_approach || before.at(x) <= 0)) return false;
   StrikingBody struck = struck_;
   struck.push(*face, {index_});
   struck_.take(struck);
-  return face->tilts || slowest_rise(motion()) >= -rounding_;
+  return slowest_rise(motion()) >= -rounding_;
 }
 
 void LevelRim::strike_at(const Vector2& x, const Law& law) {
@@ -99,23 +99,15 @@ std::optional<GroupImpact> LevelRim::rebound_as_a_whole() const {
   LevelRim rim = *this;
   if (!rim.whole()) return {};
   GroupImpact result = rim.struck_.result();
-  result.is_whole = !result.tilts;
+  result.is_whole = true;
   return result;
 }
 
 GroupImpact LevelRim::strike() const {
+  if (auto whole = rebound_as_a_whole()) return *whole;
   LevelRim rim = *this;
-  while (rim.struck_.strikes() == 0 || rim.slowest_rise(rim.motion()) < -rim.rounding_) {
-    check_number_of_strikes(rim.struck_.strikes());
-    LevelRim next = rim;
-    if (!next.whole()) break;
-    rim.struck_.take(next.struck_);
-  }
-  const bool is_whole = rim.struck_.strikes() == 1 && !rim.struck_.impact().tilts;
   rim.one_after_the_other();
-  GroupImpact result = rim.struck_.result();
-  result.is_whole = is_whole && result.order.size() == 1;
-  return result;
+  return rim.struck_.result();
 }
 
 /// Turns the tilt to what it is when the rim touches again, by (2); false if the rim does not.

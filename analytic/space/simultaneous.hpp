@@ -19,7 +19,9 @@
 // without friction, −V_z + ω·Mω/(m (−V_z)) with M the inverse of the horizontal part of I⁻¹: there the landing is that
 // of one contact.
 // Otherwise corners strike one after the other, the fastest approach first; those equally fast to rounding strike as an
-// edge or a face if they can.  A corner whose approach is below the rounding of its velocity is at rest.
+// edge or a face if they can.  If they cannot, and there is friction, the law leaves open which of them is first: the
+// lowest index is, and GroupImpact::is_open says so.  A corner whose approach is below the rounding of its velocity is
+// at rest.
 //
 // What small tilts make of it: tilted_outcomes.hpp.
 //

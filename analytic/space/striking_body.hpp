@@ -21,7 +21,7 @@ struct GroupImpact {
   double energy_loss = 0;                            ///< −[P·(V + V′) + M·(ω + ω′)]/2 [J]
   bool is_whole = false;                             ///< the body rebounds as a whole, in one strike
   bool tilts = false;                                ///< friction has tilted it beside that
-  bool is_open = false;   ///< the law leaves open which of several corners strikes first: an index decided
+  bool is_open = false;   ///< of corners that are equally fast an index decided which strikes first
   double path_error = 0;  ///< of the impulse, relative, where it is more than that of paths without tilting
   /// Indices (Corner::index) of the corners of each strike, in order.
   std::vector<std::vector<int>> order;

@@ -59,6 +59,15 @@ BodySlip body_slip(const Vector3& origin, const GroundView& view, const SlipFiel
           view.north_speed + field.north + north_slope.dot(origin), east_slope, north_slope};
 }
 
+void take_ground(const Ground& ground, const LoadIntegrals& pressing, ContactLoad& load) {
+  const double k = ground.stiffness, c = ground.damping;
+  load.force = k * pressing.depth + c * pressing.depth_rate;
+  load.first_moment = k * pressing.depth_position + c * pressing.depth_rate_position;
+  load.energy *= k / 2;
+  load.damping_power = c * pressing.depth_rate_squared;
+  load.release_power *= -k;
+}
+
 void SlipRange::add(double east, double north) {
   low_east = std::min(low_east, east);
   high_east = std::max(high_east, east);
@@ -113,14 +122,8 @@ ContactLoad ContactLoader::load(const GroundView& view, LoadRates* rates, std::v
   body_.hierarchy().visit_below(view.plane(), margin, [&](int facet) {
     add_facet(body_.facets().facets[static_cast<std::size_t>(facet)], sums);
   });
-  const double k = ground_.stiffness, c = ground_.damping;
-  const LoadIntegrals& all = sums.pressing;
-  sums.load.force = k * all.depth + c * all.depth_rate;
-  sums.load.first_moment = k * all.depth_position + c * all.depth_rate_position;
-  sums.load.energy *= k / 2;
-  sums.load.damping_power = c * all.depth_rate_squared;
-  sums.load.release_power *= -k;
-  if (rates) rates->load = all;
+  take_ground(ground_, sums.pressing, sums.load);
+  if (rates) rates->load = sums.pressing;
   return sums.load;
 }
 

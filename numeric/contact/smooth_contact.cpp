@@ -123,14 +123,8 @@ ContactLoad SmoothContact::load(const GroundView& view, LoadRates* rates, std::v
     add_end(end, depth, shared, sums);
   }
   if (shape_.straight > 0 && sums.load.deepest > 0) add_mantle(depths, shared, sums);
-  const double k = ground_.stiffness, c = ground_.damping;
-  const LoadIntegrals& all = sums.pressing;
-  sums.load.force = k * all.depth + c * all.depth_rate;
-  sums.load.first_moment = k * all.depth_position + c * all.depth_rate_position;
-  sums.load.energy *= k / 2;
-  sums.load.damping_power = c * all.depth_rate_squared;
-  sums.load.release_power *= -k;
-  if (rates) rates->load = all;
+  take_ground(ground_, sums.pressing, sums.load);
+  if (rates) rates->load = sums.pressing;
   return sums.load;
 }
 
@@ -177,7 +171,7 @@ void SmoothContact::add_end(int end, double depth, const Shared& shared, Sums& s
     if (!(beyond.value > -varies)) return;
     if (!(beyond.value > varies)) piece.parts.add(beyond);
   }
-  add_piece(piece, shared, sums);
+  add_piece(piece, sums);
 }
 
 void SmoothContact::add_mantle(const std::array<double, 2>& depths, const Shared& shared, Sums& sums) {
@@ -199,7 +193,7 @@ void SmoothContact::add_mantle(const std::array<double, 2>& depths, const Shared
   Matrix3 normal_change = turn;
   normal_change.col(0).setZero();
   complete(piece, down, normal_change, shared);
-  add_piece(piece, shared, sums);
+  add_piece(piece, sums);
 }
 
 /// As fine as the square root of the measure asks for: it is analytic where |Im ψ| and |Im φ| < arsinh(κ/ρ), κ the
@@ -258,7 +252,7 @@ void SmoothContact::over_part_of_mantle(const Piece& piece, const HalfSpaces& pa
   Slices(piece.mantle.length, all).visit(visit);
 }
 
-void SmoothContact::add_piece(Piece& piece, const Shared& shared, Sums& sums) {
+void SmoothContact::add_piece(Piece& piece, Sums& sums) {
   const double k = ground_.stiffness, c = ground_.damping;
   const bool projected = ground_.area == AreaMeasure::projected;
   const SpaceLinear pressure{k + c * piece.rate.value, c * piece.rate.slope};
@@ -297,7 +291,6 @@ void SmoothContact::add_piece(Piece& piece, const Shared& shared, Sums& sums) {
                      place(local.depth, local.depth_place), place(local.depth_rate, local.depth_rate_place)},
                     1);
   if (ground_.has_friction()) pieces_[static_cast<std::size_t>(count_++)] = piece;
-  static_cast<void>(shared);
   if (!sums.rates) return;
   const Vector3 moved = piece.axes * local.depth_place;
   const Matrix3 mixed = piece.origin * moved.transpose();
@@ -313,7 +306,7 @@ void SmoothContact::add_piece(Piece& piece, const Shared& shared, Sums& sums) {
 namespace {
 
 constexpr double most_variation = 0.45;  ///< of the slip over a cell, from its middle, in parts of it
-constexpr int most_around = 256;
+constexpr int most_around = 48;          ///< beyond it, graded parts take fewer
 
 /// Slip over a piece, in its coordinates, and what presses there.
 struct PieceSlip {
@@ -403,20 +396,136 @@ int places_around(const PieceSlip& slip, const SphereArc& rim) {
   return wanted < most_around ? 8 + 2 * static_cast<int>(std::ceil(wanted / 2)) : most_around + 1;
 }
 
-/// Along a ray from a resting place: the direction hardly varies but for v_r, below which it fades.
-template <class Add>
-void along_ray(const PieceSlip& slip, const SphereRay& ray, double speed, Add&& add) {
-  const double fades = slip.rounding > 0 && speed > 0 ? slip.rounding / speed : 1;
-  const int order = slip.rounding > 0 ? 16 : trigonometric_order(ray.half_angle()) + 2;
-  double from = 0, to = std::min(2 * fades, 1.0);
-  if (slip.rounding == 0) to = 1;
+/// Gauss's rule on a part of a curve, by how much the slip varies over it.
+struct PartRule {
+  bool is_smooth;  ///< enough for one rule
+  double digits, square, varies;
+
+  PartRule(const PieceSlip& slip, const SlipVector& middle, const SlipVector& from, const SlipVector& to)
+      : digits(slip.digits), square(middle.square() + slip.rounding * slip.rounding) {
+    const auto change = [&](const SlipVector& other) {
+      return SlipVector{other.east - middle.east, other.north - middle.north}.square();
+    };
+    varies = std::max(change(from), change(to));
+    is_smooth = varies <= most_variation * most_variation * square;
+  }
+  /// @param half  of the angle that the part spans [rad]
+  [[nodiscard]] int order(double half) const {
+    if (!is_smooth) return 2;
+    const double inverse = std::sqrt(square / std::max(varies, 1e-12 * square));
+    return std::max(gauss_order(inverse + std::sqrt(inverse * inverse - 1), digits), trigonometric_order(half) + 2);
+  }
+};
+
+/// A cap, or a part of one, as rays from the place where nothing slips, along which the direction hardly varies, to its
+/// boundary; their areas have signs, so that the place may lie outside.
+class RestingFan {
+ public:
+  /// @param centre  of find_resting_place()
+  RestingFan(const PieceSlip& slip, const Vector3& centre, DirectionSums& sums);
+  /// False, and nothing added, where the slip turns round along the rays.
+  bool add_up();
+
+ private:
+  /// Parts of the rim, halved until the slip varies little along each.
+  struct Part {
+    double from, to;
+    SlipVector at_from, at_to;
+    int level;
+  };
+  void add_ray(const SphereArc& arc, double angle, double step);
+  void add_graded(const SphereArc& arc);
+
+  const PieceSlip& slip_;
+  Vector3 centre_;
+  SphereArc rim_;  ///< of the whole cap
+  DirectionSums& sums_;
+  int order_ = 0;       ///< along a ray
+  bool is_low_ = true;  ///< of SphereRay
+};
+
+RestingFan::RestingFan(const PieceSlip& slip, const Vector3& centre, DirectionSums& sums)
+    : slip_(slip), centre_(centre), sums_(sums) {
+  const double height = slip.piece.height, rho = std::sqrt(height * (2 - height));
+  rim_ = {{0, 0, height}, {rho, 0, 0}, {0, rho, 0}, 0, 2 * std::numbers::pi};
+}
+
+/// Along a ray v = λ v₁ + λ² v₂, v₂ by the heights: the direction is analytic up to |v₁/v₂|.
+bool RestingFan::add_up() {
+  constexpr double nearest = 1.5;
+  const Vector3 &e = slip_.east.slope, &n = slip_.north.slope;
+  const double determinant = std::fabs(e.x() * n.y() - e.y() * n.x());
+  const double size = e.head<2>().squaredNorm() + n.head<2>().squaredNorm();
+  const double least = determinant / std::sqrt(size);  // not above √2 × the lesser singular value
+  const double length = std::hypot(centre_.x(), centre_.y()) + rim_.a.x();
+  const double root = least / (std::hypot(e.z(), n.z()) * length / 2 + 1e-3 * least);
+  if (!(root > nearest)) return false;
+  const double bend = 2 * root - 1;
+  const double highest = std::max(slip_.piece.height, centre_.z());
+  is_low_ = highest < SphereRay::low;
+  order_ =
+      std::max(ray_order(highest, length, slip_.digits), gauss_order(bend + std::sqrt(bend * bend - 1), slip_.digits));
+  if (order_ >= most_gauss_nodes) return false;
+  if (slip_.piece.parts.count() > 0) {
+    HalfSpaces all = slip_.piece.parts;
+    all.add({slip_.piece.height, {0, 0, -1}});
+    const SphereBoundary boundary(all);
+    for (int i = 0; i < boundary.count; ++i) add_graded(boundary.arcs[static_cast<std::size_t>(i)]);
+    return true;
+  }
+  const int around = places_around(slip_, rim_);
+  if (around > most_around) return add_graded(rim_), true;
+  for (int i = 0; i < around; ++i) add_ray(rim_, 2 * std::numbers::pi * i / around, 2 * std::numbers::pi / around);
+  return true;
+}
+
+/// Below v_r the direction fades like λ/√(λ² + f²): by the roots ±if on [0, 2f] and, from five times the end of one
+/// part to that of the next, on [a, 5a], a >= 2f.  That, and all within 2f, is no more than f² of the whole.
+void RestingFan::add_ray(const SphereArc& arc, double angle, double step) {
+  static constexpr double first_ellipse = 2.89, next_ellipse = 2.6, least_digits = 3;
+  const Vector3 end = arc.at(angle);
+  const SphereRay ray(centre_, end, arc.rate(angle), is_low_);
+  const double fades = slip_.rounding > 0 ? std::min(slip_.rounding / std::sqrt(slip_.at(end).square()), 1.0) : 0;
+  const double digits = fades > 0 ? std::max(slip_.digits + 2 * std::log10(fades), least_digits) : 0;
+  double from = 0, to = fades > 0 ? std::min(2 * fades, 1.0) : 1;
   while (from < 1) {
+    int order = to == 1 ? order_ : std::min(order_, 5);
+    if (fades > 0) order = std::max(order, gauss_order(from > 0 ? next_ellipse : first_ellipse, digits));
     for (const GaussNode& node : gauss_rule(order)) {
-      const double part = (from + to) / 2 + (to - from) / 2 * node.at;
-      add(ray.at(part), (to - from) / 2 * node.weight * ray.area(part));
+      const auto [place, area] = ray.at((from + to) / 2 + (to - from) / 2 * node.at);
+      add_at(slip_, place, (to - from) / 2 * node.weight * area * step, sums_);
     }
     from = to;
-    to = std::min(3 * to, 1.0);
+    to = std::min(5 * to, 1.0);
+  }
+}
+
+/// Where the resting place lies so near the boundary that the direction turns there within a short way.
+void RestingFan::add_graded(const SphereArc& arc) {
+  constexpr double longest = std::numbers::pi / 2;
+  std::array<Part, 128> stack;
+  int top = 0;
+  const auto slip_at = [&](double angle) { return slip_.at(arc.at(angle)); };
+  const double length = arc.to - arc.from;
+  const int begins = std::max(1, static_cast<int>(std::ceil(length / longest)));
+  for (int i = 0; i < begins; ++i) {
+    const double from = arc.from + length * i / begins, to = arc.from + length * (i + 1) / begins;
+    stack[static_cast<std::size_t>(top++)] = {from, to, slip_at(from), slip_at(to), 0};
+  }
+  const int deepest = std::min(60, static_cast<int>(slip_.digits / std::log10(2.0)) + 2);
+  while (top > 0) {
+    const Part part = stack[static_cast<std::size_t>(--top)];
+    const double middle = (part.from + part.to) / 2, half = (part.to - part.from) / 2;
+    const SlipVector v = slip_at(middle);
+    const PartRule rule(slip_, v, part.at_from, part.at_to);
+    if (!rule.is_smooth && part.level < deepest) {
+      stack[static_cast<std::size_t>(top++)] = {part.from, middle, part.at_from, v, part.level + 1};
+      stack[static_cast<std::size_t>(top++)] = {middle, part.to, v, part.at_to, part.level + 1};
+      continue;
+    }
+    for (const GaussNode& node : gauss_rule(rule.order(half))) {
+      add_ray(arc, middle + half * node.at, half * node.weight);
+    }
   }
 }
 
@@ -437,33 +546,25 @@ void along_slice(const PieceSlip& slip, const Slices& slices, const Slices::Slic
                  double weight, DirectionSums& sums) {
   struct Part {
     double from, to;
+    SlipVector at_from, at_to;
     int level;
   };
+  const auto slip_at = [&](double angle) { return slip.at(slices.place(slice, angle)); };
   std::array<Part, 128> stack;
   int top = 0;
-  stack[static_cast<std::size_t>(top++)] = {begin, end, 0};
+  stack[static_cast<std::size_t>(top++)] = {begin, end, slip_at(begin), slip_at(end), 0};
   const int deepest = std::min(60, static_cast<int>(slip.digits / std::log10(2.0)) + 2);
   while (top > 0) {
     const Part part = stack[static_cast<std::size_t>(--top)];
     const double middle = (part.from + part.to) / 2, half = (part.to - part.from) / 2;
-    const SlipVector v = slip.at(slices.place(slice, middle));
-    const auto change = [&](double angle) {
-      const SlipVector other = slip.at(slices.place(slice, angle));
-      return std::hypot(other.east - v.east, other.north - v.north);
-    };
-    const double size = std::sqrt(v.square() + slip.rounding * slip.rounding);
-    const double varies = std::max(change(part.from), change(part.to));
-    const bool is_smooth = varies <= most_variation * size;
-    if (!is_smooth && part.level < deepest) {
-      stack[static_cast<std::size_t>(top++)] = {part.from, middle, part.level + 1};
-      stack[static_cast<std::size_t>(top++)] = {middle, part.to, part.level + 1};
+    const SlipVector v = slip_at(middle);
+    const PartRule rule(slip, v, part.at_from, part.at_to);
+    if (!rule.is_smooth && part.level < deepest) {
+      stack[static_cast<std::size_t>(top++)] = {part.from, middle, part.at_from, v, part.level + 1};
+      stack[static_cast<std::size_t>(top++)] = {middle, part.to, v, part.at_to, part.level + 1};
       continue;
     }
-    const double inverse = size / std::max(varies, 1e-6 * size);
-    const int least = half < 0.3 ? 7 : 12;
-    const int order =
-        is_smooth ? std::max(gauss_order(inverse + std::sqrt(inverse * inverse - 1), slip.digits), least) : 2;
-    for (const GaussNode& node : gauss_rule(order)) {
+    for (const GaussNode& node : gauss_rule(rule.order(half))) {
       add_at(slip, slices.place(slice, middle + half * node.at), weight * half * node.weight, sums);
     }
   }
@@ -484,30 +585,18 @@ void over_slices(const PieceSlip& slip, HalfSpaces parts, DirectionSums& sums) {
   });
 }
 
-/// The whole cap, where one rule serves; false: none does.
-bool over_whole_cap(const PieceSlip& slip, DirectionSums& sums) {
+/// The cap, or its part, where one rule serves; false: none does.
+bool over_cap(const PieceSlip& slip, DirectionSums& sums) {
   const Variation change = variation(slip);
   const double part =
       (change.along + change.up) / std::sqrt(slip.at(Vector3::Zero()).square() + slip.rounding * slip.rounding);
-  if (part < 0.5) {
+  if (part < 0.5 && slip.piece.parts.count() == 0) {
     over_zone({0, slip.piece.height}, rule_of_variation(slip, part),
               [&](const Vector3& p, double area) { add_at(slip, p, area, sums); });
     return true;
   }
   Vector3 centre;
-  if (!find_resting_place(slip, centre)) return false;
-  const double height = slip.piece.height, rho = std::sqrt(height * (2 - height));
-  const SphereArc rim{{0, 0, height}, {rho, 0, 0}, {0, rho, 0}};
-  const int around = places_around(slip, rim);
-  if (around > most_around) return false;
-  for (int i = 0; i < around; ++i) {
-    const double angle = 2 * std::numbers::pi * i / around, step = 2 * std::numbers::pi / around;
-    const Vector3 end = rim.at(angle);
-    const SphereRay ray(centre, end, rim.rate(angle));
-    along_ray(slip, ray, std::sqrt(slip.at(end).square()),
-              [&](const Vector3& p, double area) { add_at(slip, p, area * step, sums); });
-  }
-  return true;
+  return find_resting_place(slip, centre) && RestingFan(slip, centre, sums).add_up();
 }
 
 /// The whole strip, if the slip varies by less than a third of its size.
@@ -612,7 +701,7 @@ DirectionSums SmoothContact::directions(const Piece& piece, const GroundView& vi
   const bool is_whole = piece.parts.count() == 0;
   if (field.rough) {
     over(piece, piece.parts, [&](const Vector3& p, double area) { add_at(slip, p, area, sums); });
-  } else if (!is_whole || !(piece.is_mantle ? over_whole_strip(slip, width, sums) : over_whole_cap(slip, sums))) {
+  } else if (!(piece.is_mantle ? is_whole && over_whole_strip(slip, width, sums) : over_cap(slip, sums))) {
     over_slices(slip, piece.parts, sums);
   }
   return sums;

@@ -16,10 +16,10 @@ struct DirectionSums {
   Vector3 east_place = Vector3::Zero(), north_place = Vector3::Zero();
 
   void add(const Vector3& p, double load, const SlipVector& direction) {
-    east += load * direction.east;
-    north += load * direction.north;
-    east_place += load * direction.east * p;
-    north_place += load * direction.north * p;
+    const double e = load * direction.east, n = load * direction.north;
+    east += e;
+    north += n;
+    for (int i = 0; i < 3; ++i) east_place[i] += e * p[i], north_place[i] += n * p[i];
   }
 };
 
@@ -63,7 +63,7 @@ class SmoothContact final : public ContactSurface {
   struct Shared;
   void add_end(int end, double depth, const Shared& shared, Sums& sums);
   void add_mantle(const std::array<double, 2>& depths, const Shared& shared, Sums& sums);
-  void add_piece(Piece& piece, const Shared& shared, Sums& sums);
+  void add_piece(Piece& piece, Sums& sums);
   void complete(Piece& piece, const Vector3& normal_at_origin, const Matrix3& normal_change,
                 const Shared& shared) const;
   [[nodiscard]] CapRule rule_for(double height) const;

@@ -50,6 +50,37 @@ Vector3 SphereArc::at(double angle) const {
   return p;
 }
 
+SphereRay::SphereRay(const Vector3& from, const Vector3& end, const Vector3& rate, bool is_low)
+    : from_(from), end_(end), way_(end - from), is_low_(is_low) {
+  if (is_low_) {
+    area_ = way_.x() * rate.y() - way_.y() * rate.x();
+    return;
+  }
+  half_ = std::asin(std::min(way_.norm() / 2, 1.0));
+  const double sine = std::sin(2 * half_);
+  inverse_sine_ = sine > 0 ? 1 / sine : 0;
+  area_ = -(from - Vector3::UnitZ()).dot(way_.cross(rate)) * (sine > 0 ? 2 * half_ * inverse_sine_ : 1);
+}
+
+int ray_order(double highest, double length, double digits) {
+  if (!(highest < SphereRay::low)) return trigonometric_order(std::asin(std::min(std::sqrt(highest / 2), 1.0)));
+  // The roots of (1 − p_z)² = 1 − |p_xy|² lie no nearer, in units of half the ray from its middle.
+  const double rho = std::sqrt(highest * (2 - highest)), nearest = 1 + 2 * (1 - rho) / std::max(length, 1e-3);
+  return gauss_order(nearest + std::sqrt(nearest * nearest - 1), digits);
+}
+
+SurfacePoint SphereRay::at(double part) const {
+  if (is_low_) {
+    const double x = from_.x() + part * way_.x(), y = from_.y() + part * way_.y(), square = x * x + y * y;
+    const double root = std::sqrt(1 - square);
+    return {{x, y, square / (1 + root)}, area_ * part / root};
+  }
+  const double forward = towards_end(part);
+  SurfacePoint point{towards_end(1 - part) * from_ + forward * end_, area_ * forward};
+  point.place.z() -= 2 * std::sin(part * half_) * std::sin((1 - part) * half_) / std::cos(half_);
+  return point;
+}
+
 SphereBoundary::SphereBoundary(const HalfSpaces& half_spaces) {
   has_top = half_spaces.contain({0, 0, 2});
   for (int i = 0; i < half_spaces.count(); ++i) {
@@ -199,9 +230,10 @@ void Slices::add_corners(const SpaceLinear& one, const SpaceLinear& other) {
 }
 
 Vector3 Slices::place(const Slice& slice, double angle) const {
-  const double half = std::sin(angle / 2);
-  Vector3 p = slice.x * along_ + slice.radius * std::sin(angle) * across_;
-  p.z() = 2 * slice.radius * half * half;
+  const double half = std::sin(angle / 2), square = half * half;
+  const double across = 2 * slice.radius * half * std::sqrt(std::max(1 - square, 0.0));  // |angle| <= π
+  Vector3 p = slice.x * along_ + across * across_;
+  p.z() = 2 * slice.radius * square;
   if (is_sphere_) p.z() += slice.x * slice.x / (1 + slice.radius);
   return p;
 }

@@ -58,36 +58,39 @@ struct SphereBoundary {
   explicit SphereBoundary(const HalfSpaces& half_spaces);
 };
 
-/// Where the curves from a point of the sphere to a point of its boundary lie, and what area they sweep: along the
-/// great circle from c to b, φ = the angle between them,
-///     p(λ) = [sin((1 − λ)φ) c + sin(λφ) b]/sin φ,   dA = (sin λφ/sin φ)(φ/sin φ) |c, b, db| dλ,        seen from the
-///     centre.
+/// A point of a surface and what area it stands for.
+struct SurfacePoint {
+  Vector3 place;
+  double area;
+};
+
+/// Where the curves from a point of the sphere to a point of its boundary lie, and what area they sweep.  Low on the
+/// sphere those are over a line along the ground, which needs no trigonometric function,
+///     p(λ) = (c + λ(b − c))_xy,   dA = λ [(b − c) × db]_z dλ/(1 − p_z);                                (1)
+/// elsewhere they lie along the great circle from c to b, φ = the angle between them, seen from the centre
+///     p(λ) = [sin((1 − λ)φ) c + sin(λφ) b]/sin φ,   dA = (sin λφ/sin φ)(φ/sin φ) |c, b, db| dλ.        (2)
 class SphereRay {
  public:
+  static constexpr double low = 0.2;  ///< height of all points below which (1) serves
   /// @param rate  of `end` along the boundary, which has the part on its left
-  SphereRay(const Vector3& from, const Vector3& end, const Vector3& rate) : from_(from), end_(end) {
-    const Vector3 way = end - from;
-    half_ = std::asin(std::min(way.norm() / 2, 1.0));
-    const double sine = std::sin(2 * half_);
-    inverse_sine_ = sine > 0 ? 1 / sine : 0;
-    area_ = -(from - Vector3::UnitZ()).dot(way.cross(rate)) * (sine > 0 ? 2 * half_ * inverse_sine_ : 1);
-  }
-  /// Half the angle [rad].
-  [[nodiscard]] double half_angle() const { return half_; }
-  [[nodiscard]] double area(double part) const { return area_ * towards_end(part); }
-  [[nodiscard]] Vector3 at(double part) const {
-    Vector3 p = towards_end(1 - part) * from_ + towards_end(part) * end_;
-    p.z() -= 2 * std::sin(part * half_) * std::sin((1 - part) * half_) / std::cos(half_);
-    return p;
-  }
+  /// @param is_low  by (1); the same for all rays from a place, but for the lowest, where (1) and (2) are one curve
+  SphereRay(const Vector3& from, const Vector3& end, const Vector3& rate, bool is_low);
+  /// The area is that of d(part).
+  [[nodiscard]] SurfacePoint at(double part) const;
 
  private:
   [[nodiscard]] double towards_end(double part) const {
     return inverse_sine_ > 0 ? std::sin(2 * part * half_) * inverse_sine_ : part;
   }
-  Vector3 from_, end_;
-  double half_ = 0, inverse_sine_ = 0, area_ = 0;
+  Vector3 from_, end_, way_;
+  bool is_low_;
+  double half_ = 0, inverse_sine_ = 0, area_ = 0;  ///< half_: half the angle [rad]
 };
+
+/// Gauss nodes over a ray that give 10^−digits of what is smooth on the sphere.
+/// @param highest  of its points, at least
+/// @param length  along the ground, at least
+[[nodiscard]] int ray_order(double highest, double length, double digits);
 
 /// How finely a cap is integrated over: Gauss's rule along the height in equal `parts`, the trapezoidal rule around.
 struct CapRule {
@@ -139,13 +142,15 @@ void over_part(const HalfSpaces& half_spaces, Visit&& visit) {
     const int pieces = std::max(1, static_cast<int>(std::ceil((arc.to - arc.from) / piece)));
     const int around = arc.to - arc.from < small_piece ? 10 : 16;
     const double half = (arc.to - arc.from) / (2 * pieces);
+    const double highest = std::min(arc.middle.z() + std::hypot(arc.a.z(), arc.b.z()), 2.0);
+    const int order = ray_order(highest, highest < 1 ? std::sqrt(highest * (2 - highest)) : 1, 15);
     for (int j = 0; j < pieces; ++j) {
       for (const GaussNode& node : gauss_rule(around)) {
         const double angle = arc.from + half * (2 * j + 1 + node.at);
-        const SphereRay ray(Vector3::Zero(), arc.at(angle), arc.rate(angle));
-        for (const GaussNode& along : gauss_rule(trigonometric_order(ray.half_angle()))) {
-          const double part = (1 + along.at) / 2;
-          visit(ray.at(part), half * node.weight * along.weight / 2 * ray.area(part));
+        const SphereRay ray(Vector3::Zero(), arc.at(angle), arc.rate(angle), highest < SphereRay::low);
+        for (const GaussNode& along : gauss_rule(order)) {
+          const auto [place, area] = ray.at((1 + along.at) / 2);
+          visit(place, half * node.weight * along.weight / 2 * area);
         }
       }
     }
@@ -179,10 +184,13 @@ struct Mantle {
   [[nodiscard]] Strip strip() const;
 };
 
-[[nodiscard]] inline Vector3 mantle_point(double x, double angle) {
-  const double half = std::sin(angle / 2);
-  return {x, std::sin(angle), 2 * half * half};
+/// By the sine of half the angle from the lowest line, which lies between −π/2 and π/2.
+[[nodiscard]] inline Vector3 mantle_point_at(double x, double half_sine) {
+  const double square = half_sine * half_sine;
+  return {x, 2 * half_sine * std::sqrt(std::max(1 - square, 0.0)), 2 * square};
 }
+
+[[nodiscard]] inline Vector3 mantle_point(double x, double angle) { return mantle_point_at(x, std::sin(angle / 2)); }
 
 /// Calls visit(p, area) over the part of a mantle below the ground.  `around`: points where it lies below all around;
 /// `more`: nodes beside those that sines and cosines need.
@@ -192,7 +200,7 @@ void over_mantle(const Mantle& mantle, int around, int more, Visit&& visit) {
   if (const double end = mantle.full_end(); end > 0) {
     for (const GaussNode& node : gauss_rule(along)) {
       for (int i = 0; i < around; ++i) {
-        visit(mantle_point(end * (1 + node.at) / 2, 2 * std::numbers::pi * i / around),
+        visit(mantle_point(end * (1 + node.at) / 2, 2 * std::numbers::pi * i / around - std::numbers::pi),
               end / 2 * node.weight * 2 * std::numbers::pi / around);
       }
     }
@@ -201,8 +209,12 @@ void over_mantle(const Mantle& mantle, int around, int more, Visit&& visit) {
   if (strip.empty()) return;
   for (const GaussNode& node : gauss_rule(std::min(trigonometric_order(strip.wide / 2) + 2 + more, most_gauss_nodes))) {
     const double t = (1 + node.at) / 2, x = strip.x(t), half = strip.half_width(t);
-    for (const GaussNode& across : gauss_rule(std::min(trigonometric_order(half) + more, most_gauss_nodes))) {
-      visit(mantle_point(x, half * across.at), node.weight / 2 * strip.rate(t) * half * across.weight);
+    const auto rule = gauss_rule(std::min(trigonometric_order(half) + more, most_gauss_nodes));
+    const double weight = node.weight / 2 * strip.rate(t) * half;
+    for (std::size_t i = 0; 2 * i < rule.size(); ++i) {  // its nodes lie in pairs
+      const double sine = std::sin(half * rule[i].at / 2), area = weight * rule[i].weight;
+      visit(mantle_point_at(x, sine), area);
+      if (2 * i + 1 < rule.size()) visit(mantle_point_at(x, -sine), area);
     }
   }
 }

@@ -322,10 +322,6 @@ class Run {
 
 }  // namespace
 
-double HistorySample::energy_total() const {
-  return energy_translation + energy_rotation + energy_potential + energy_ground;
-}
-
 double piece_point(int j) { return (1 - std::cos(std::numbers::pi * j / (piece_points - 1))) / 2; }
 
 double mechanical_energy(const Body& body, const MotionState& state, const Gravity& gravity) {

@@ -19,7 +19,9 @@ struct HistorySample {
   bool in_contact = false;
 
   /// Energy of body and ground together [J]; only dampers, friction and release change it.
-  [[nodiscard]] double energy_total() const;
+  [[nodiscard]] double energy_total() const {
+    return energy_translation + energy_rotation + energy_potential + energy_ground;
+  }
 };
 
 /// Takes the samples in the order of time: every accepted step of a contact, its ends and peak, and points of each

@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "numeric/drop/settings.hpp"
 
-#include <cmath>
-#include <numbers>
-
 #include "numeric/base/errors.hpp"
 
 namespace clatter::numeric {
@@ -14,12 +11,6 @@ void World::validate() const {
   require(gravity >= 0, "world.gravity", gravity, "finite and at least 0");
   require(incline_deg > -90 && incline_deg < 90, "world.incline_deg", incline_deg, "above -90 and below 90 degrees");
   ground.validate();
-}
-
-Gravity World::pull() const {
-  if (incline_deg == 0) return gravity;
-  const double slope = incline_deg * (std::numbers::pi / 180);
-  return {gravity * std::cos(slope), gravity * std::sin(slope)};
 }
 
 void Request::validate() const { require(impacts >= 1, "run.impacts", impacts, "at least 1"); }

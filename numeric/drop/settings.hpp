@@ -2,7 +2,9 @@
 // What a simulation is given besides a body and its start: the world, the request, the accuracy and an observer.
 #pragma once
 
+#include <cmath>
 #include <functional>
+#include <numbers>
 
 #include "numeric/contact/ground.hpp"
 #include "numeric/drop/history.hpp"
@@ -28,7 +30,11 @@ struct World {
   /// with the patch as the ground becomes stiff, but a spinning patch that hardly slips takes very short steps.
   bool point_friction = false;
 
-  [[nodiscard]] Gravity pull() const;
+  [[nodiscard]] Gravity pull() const {
+    if (incline_deg == 0) return gravity;
+    const double slope = incline_deg * (std::numbers::pi / 180);
+    return {gravity * std::cos(slope), gravity * std::sin(slope)};
+  }
   /// @throws std::domain_error naming field, value and what is allowed.
   void validate() const;
 };

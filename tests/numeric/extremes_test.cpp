@@ -23,7 +23,7 @@ bool all_finite(const ImpactRecord& row) {
 
 /// Finite rows that close their ledger, or none and an outcome other than the good ones; and within the work allowed.
 void check(const Body& body, const Ground& ground, const MotionState& start, double gravity, const std::string& name) {
-  constexpr long limit = 20'000;
+  constexpr long limit = CLATTER_TEST_SLOW_BUILD ? 5'000 : 20'000;
   const Simulation run =
       simulate(body, {.ground = ground, .gravity = gravity}, start, {.impacts = 2}, {.evaluation_limit = limit});
   BOOST_TEST_CONTEXT(name << ": " << run.message) {

@@ -11,8 +11,8 @@
 #include <utility>
 #include <variant>
 
+#include "validation/gradient/drop_gradient.hpp"
 #include "validation/output/number.hpp"
-#include "validation/scene/drop_gradient.hpp"
 
 namespace clatter::validation {
 namespace {

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "validation/benchmark/reference.hpp"
-#include "validation/tables/numeric_table.hpp"
+#include "validation/output/numeric_table.hpp"
 
 namespace clatter::validation {
 

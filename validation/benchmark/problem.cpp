@@ -8,9 +8,9 @@
 #include "validation/embedded/embedded.hpp"
 #include "validation/output/bad_input.hpp"
 #include "validation/output/number.hpp"
-#include "validation/scene/discrete_scene.hpp"
+#include "validation/output/numeric_table.hpp"
+#include "validation/run/discrete_scene.hpp"
 #include "validation/scene/keys.hpp"
-#include "validation/tables/numeric_table.hpp"
 
 namespace clatter::validation {
 namespace {

@@ -11,7 +11,7 @@
 #include "analytic/space/free_flight.hpp"
 #include "analytic/space/impact.hpp"
 #include "validation/benchmark/problem.hpp"
-#include "validation/scene/discrete_scene.hpp"
+#include "validation/run/discrete_scene.hpp"
 
 namespace clatter::validation {
 

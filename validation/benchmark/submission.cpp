@@ -12,7 +12,7 @@
 #include "validation/benchmark/gradient_score.hpp"
 #include "validation/output/bad_input.hpp"
 #include "validation/output/number.hpp"
-#include "validation/tables/numeric_table.hpp"
+#include "validation/output/numeric_table.hpp"
 
 namespace clatter::validation {
 namespace {

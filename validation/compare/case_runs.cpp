@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include "validation/record/history_file.hpp"
+#include "validation/run/history_file.hpp"
 
 namespace clatter::validation {
 namespace {

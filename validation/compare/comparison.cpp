@@ -11,8 +11,8 @@
 #include "analytic/law/viscoelastic.hpp"
 #include "validation/compare/stiff_runs.hpp"
 #include "validation/output/number.hpp"
-#include "validation/record/names.hpp"
-#include "validation/scene/shortfall.hpp"
+#include "validation/run/shortfall.hpp"
+#include "validation/scene/names.hpp"
 
 namespace clatter::validation {
 namespace {

@@ -10,7 +10,7 @@
 #include "validation/compare/discrete_side.hpp"
 #include "validation/compare/same_blow.hpp"
 #include "validation/compare/stiff_limit.hpp"
-#include "validation/record/motion_numbers.hpp"
+#include "validation/run/motion_numbers.hpp"
 #include "validation/scene/scene.hpp"
 
 namespace clatter::validation {

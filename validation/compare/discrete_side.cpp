@@ -10,7 +10,7 @@
 
 #include "analytic/law/impact_limits.hpp"
 #include "validation/output/number.hpp"
-#include "validation/scene/discrete_scene.hpp"
+#include "validation/run/discrete_scene.hpp"
 
 namespace clatter::validation {
 namespace {

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "validation/compare/prediction.hpp"
-#include "validation/record/motion_numbers.hpp"
-#include "validation/scene/discrete_scene.hpp"
+#include "validation/run/discrete_scene.hpp"
+#include "validation/run/motion_numbers.hpp"
 
 namespace clatter::validation {
 

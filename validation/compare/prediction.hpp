@@ -6,7 +6,7 @@
 
 #include "analytic/plane/sequence.hpp"
 #include "analytic/space/sequence.hpp"
-#include "validation/record/motion_numbers.hpp"
+#include "validation/run/motion_numbers.hpp"
 
 namespace clatter::validation {
 

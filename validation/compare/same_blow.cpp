@@ -6,7 +6,7 @@
 #include <algorithm>
 
 #include "validation/compare/stiff_runs.hpp"
-#include "validation/record/names.hpp"
+#include "validation/scene/names.hpp"
 
 namespace clatter::validation {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "numeric/body.hpp"
-#include "validation/record/motion_numbers.hpp"
+#include "validation/run/motion_numbers.hpp"
 #include "validation/scene/scene.hpp"
 
 namespace clatter::validation {

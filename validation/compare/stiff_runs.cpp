@@ -9,7 +9,7 @@
 #include <numbers>
 
 #include "validation/output/number.hpp"
-#include "validation/record/names.hpp"
+#include "validation/scene/names.hpp"
 
 namespace clatter::validation {
 namespace {

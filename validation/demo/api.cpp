@@ -12,22 +12,22 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "validation/compare/comparison_report.hpp"
 #include "validation/demo/scene_exchange.hpp"
+#include "validation/explain/explanation_report.hpp"
 #include "validation/output/bad_input.hpp"
 #include "validation/output/json.hpp"
 #include "validation/output/version.hpp"
 #include "validation/plan/planned_run.hpp"
-#include "validation/plan/sequence_method.hpp"
-#include "validation/record/history_file.hpp"
-#include "validation/reports/angles_report.hpp"
-#include "validation/reports/comparison_report.hpp"
-#include "validation/reports/explanation_report.hpp"
-#include "validation/reports/sequence_report.hpp"
-#include "validation/reports/simulation_report.hpp"
-#include "validation/scene/discrete_scene.hpp"
+#include "validation/rod/angles_report.hpp"
+#include "validation/run/discrete_run.hpp"
+#include "validation/run/discrete_scene.hpp"
+#include "validation/run/history_file.hpp"
 #include "validation/scene/failure.hpp"
 #include "validation/scene/named_texts.hpp"
 #include "validation/scene/scene_text.hpp"
+#include "validation/sequence/sequence_report.hpp"
+#include "validation/simulate/simulation_report.hpp"
 
 namespace clatter::validation {
 namespace {
@@ -100,8 +100,7 @@ Value simulate(NamedTexts texts) {
   const numeric::MotionState start = scene.start(body);
   HistoryColumns history;
   if (with_history && scene.height) record_fall(history, start, body.mass(), scene.world.gravity, 20);
-  const PlannedRun planned = run_to_digits(body, scene.world, start, scene.request, scene.accuracy,
-                                           {.history = with_history ? &history : nullptr});
+  const PlannedRun planned = run_to_digits(scene, body, {.history = with_history ? &history : nullptr});
   Value fields = simulation_report(scene, planned).fields;
   if (with_history) fields["history"] = history.fields();
   return fields;

@@ -32,6 +32,8 @@ HEADERS = ("boost", "fmt", "gsl", "libqhull_r", "nlohmann", "toml++")
 ALONE = {"validation/explain/space_steps.cpp"}
 # Of two sources for one header the one that needs a library which is not here.
 LEFT_OUT = {"numeric/files/read_gmsh.cpp"}
+# The page has no command line.
+COMMAND = re.compile(r"_commands?\.cpp$")
 FLAGS = ["-O2", "-fexceptions"]
 CXX_FLAGS = ["-std=c++20", "-DNDEBUG", "-ffp-contract=off", "-DFMT_HEADER_ONLY", "-DTOML_HEADER_ONLY=1"]
 LINK_FLAGS = ["-sSINGLE_FILE=1", "-sALLOW_MEMORY_GROWTH=1", "-sMODULARIZE=1", "-sEXPORT_NAME=clatterModule",
@@ -120,7 +122,7 @@ def needed():
     def implementing(header):
         path = ROOT / header
         own = path.with_suffix(".cpp")
-        without = [source for source in path.parent.glob("*.cpp") if not source.with_suffix(".hpp").exists()]
+        without = [source for source in path.parent.glob("*.cpp") if not source.with_suffix(".hpp").exists() and not COMMAND.search(source.name)]
         return {str(source.relative_to(ROOT)) for source in {own, *without} if source.exists()} - LEFT_OUT
 
     start = str((HERE / "api.cpp").relative_to(ROOT))

@@ -8,8 +8,8 @@
 
 #include "analytic/base/angle.hpp"
 #include "validation/explain/steps.hpp"
-#include "validation/record/names.hpp"
-#include "validation/scene/shortfall.hpp"
+#include "validation/run/shortfall.hpp"
+#include "validation/scene/names.hpp"
 
 namespace clatter::validation {
 namespace {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "validation/explain/formula.hpp"
-#include "validation/scene/discrete_scene.hpp"
+#include "validation/run/discrete_scene.hpp"
 #include "validation/scene/scene.hpp"
 
 namespace clatter::validation {

@@ -10,7 +10,7 @@
 #include "analytic/base/angle.hpp"
 #include "validation/explain/steps.hpp"
 #include "validation/output/number.hpp"
-#include "validation/record/names.hpp"
+#include "validation/scene/names.hpp"
 
 namespace clatter::validation {
 namespace {

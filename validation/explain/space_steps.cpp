@@ -14,8 +14,8 @@
 #include "analytic/space/slip_field.hpp"
 #include "validation/explain/steps.hpp"
 #include "validation/output/number.hpp"
-#include "validation/record/names.hpp"
-#include "validation/scene/discrete_scene.hpp"
+#include "validation/run/discrete_scene.hpp"
+#include "validation/scene/names.hpp"
 
 namespace clatter::validation {
 namespace {

@@ -11,7 +11,7 @@
 #include "analytic/base/errors.hpp"
 #include "analytic/space/first_contact.hpp"
 #include "analytic/space/sequence.hpp"
-#include "validation/record/names.hpp"
+#include "validation/scene/names.hpp"
 #include "validation/sweep/counter_random.hpp"
 
 namespace clatter::validation {

@@ -10,7 +10,7 @@
 #include "validation/embedded/embedded.hpp"
 #include "validation/output/bad_input.hpp"
 #include "validation/output/number.hpp"
-#include "validation/tables/numeric_table.hpp"
+#include "validation/output/numeric_table.hpp"
 
 namespace clatter::validation {
 namespace {

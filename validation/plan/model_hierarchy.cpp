@@ -8,8 +8,8 @@
 #include "analytic/base/errors.hpp"
 #include "validation/plan/closed_form.hpp"
 #include "validation/plan/symmetry.hpp"
-#include "validation/record/names.hpp"
-#include "validation/scene/discrete_scene.hpp"
+#include "validation/run/discrete_scene.hpp"
+#include "validation/scene/names.hpp"
 
 namespace clatter::validation {
 namespace {

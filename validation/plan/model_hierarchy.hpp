@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "analytic/space/sequence.hpp"
-#include "validation/record/motion_numbers.hpp"
+#include "validation/run/motion_numbers.hpp"
 #include "validation/scene/scene.hpp"
 
 namespace clatter::validation {

@@ -9,7 +9,7 @@
 #include "validation/compare/prediction.hpp"
 #include "validation/plan/cost_table.hpp"
 #include "validation/plan/tolerance_search.hpp"
-#include "validation/record/names.hpp"
+#include "validation/scene/names.hpp"
 
 namespace clatter::validation {
 namespace {

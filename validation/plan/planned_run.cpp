@@ -14,9 +14,10 @@
 #include "validation/plan/cost_table.hpp"
 #include "validation/plan/symmetry.hpp"
 #include "validation/plan/tolerance_search.hpp"
-#include "validation/record/motion_numbers.hpp"
-#include "validation/record/names.hpp"
-#include "validation/scene/shortfall.hpp"
+#include "validation/run/motion_numbers.hpp"
+#include "validation/run/shortfall.hpp"
+#include "validation/scene/facet_words.hpp"
+#include "validation/scene/names.hpp"
 
 namespace clatter::validation {
 namespace {
@@ -225,17 +226,20 @@ std::string planar_warning(const numeric::Body& body, const numeric::World& worl
          "forces and moments out of the plane are left out";
 }
 
-PlannedRun run_to_digits(const numeric::Body& body, const numeric::World& world, const numeric::MotionState& start,
-                         const numeric::Request& request, const Accuracy& accuracy, const numeric::Observer& observer) {
+PlannedRun run_to_digits(const Scene& scene, const numeric::Body& body, const numeric::Observer& observer) {
+  const Accuracy& accuracy = scene.accuracy;
+  const numeric::World& world = scene.world;
+  const numeric::MotionState start = scene.start(body);
   const bool plans = accuracy.method == Method::automatic && accuracy.step == 0 && accuracy.tolerance == 0;
   PlannedRun planned;
   if (plans) {
-    planned = Runner(body, world, start, request, accuracy, observer).run();
+    planned = Runner(body, world, start, scene.request, accuracy, observer).run();
   } else {
-    planned.run = numeric::simulate(body, world, start, request, accuracy, observer);
+    planned.run = numeric::simulate(body, world, start, scene.request, accuracy, observer);
     planned.asked = std::pow(10.0, -accuracy.digits);
-    judge(body, planned);
   }
+  add_facet_errors(scene, planned.run);
+  judge(body, planned);
   const std::string out_of_plane = planar_warning(body, world, start);
   if (!out_of_plane.empty()) planned.warnings.push_back(out_of_plane);
   const std::string sunk = submersion_warning(planned.run), deep = depth_warning(body, planned.run);

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "validation/record/motion_numbers.hpp"
+#include "validation/run/motion_numbers.hpp"
 #include "validation/scene/scene.hpp"
 
 namespace clatter::validation {
@@ -33,12 +33,13 @@ struct PlannedRun {
 /// give the scene's error constant, the measured table (CostTable) the cheapest method and tolerance for the digits;
 /// if the estimated errors are then larger than asked, and a tolerance is allowed that would serve, the run is repeated
 /// with a tighter one, at most thrice.
-/// The count of evaluations includes all of these.  Otherwise as numeric::simulate.
+/// The count of evaluations includes all of these.  Otherwise as numeric::simulate, with what facets may add to the
+/// errors (add_facet_errors()).
 /// `observer.history` takes the last run only, by a repetition that does not count.
+/// @param body  scene.make_body()
 /// @throws as numeric::simulate.
-[[nodiscard]] PlannedRun run_to_digits(const numeric::Body& body, const numeric::World& world,
-                                       const numeric::MotionState& start, const numeric::Request& request,
-                                       const numeric::Accuracy& accuracy, const numeric::Observer& observer = {});
+[[nodiscard]] PlannedRun run_to_digits(const Scene& scene, const numeric::Body& body,
+                                       const numeric::Observer& observer = {});
 
 /// As shortfall() of a sequence.
 [[nodiscard]] std::string shortfall(const Scene& scene, const PlannedRun& planned);

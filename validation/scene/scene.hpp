@@ -66,7 +66,9 @@ struct BodyScene {
   [[nodiscard]] double meshed_radius() const { return is_thin_rod() ? 0.01 * length : radius; }
   /// The sectors of a mesh around an axis: the paper's 16, but 64 where a rod's rim is so wide beside the length that
   /// its corners turn the body noticeably otherwise than the rim does.
-  [[nodiscard]] int meshed_sectors() const;
+  [[nodiscard]] int own_sectors() const;
+  /// Those that the scene gives, or else these.
+  [[nodiscard]] int meshed_sectors() const { return sectors > 0 ? sectors : own_sectors(); }
   [[nodiscard]] int meshed_rings() const { return rings > 0 ? rings : 4; }
   /// Whether the continuous model takes the round shape itself: where no mesh is given for it.
   [[nodiscard]] bool is_smooth() const { return is_round() && sectors == 0 && rings == 0; }
@@ -90,6 +92,9 @@ struct SceneSweep {
 
 /// The model that a scene is read for.  The discrete one needs no ground.
 enum class Model { discrete, continuous };
+/// In the order of Model.
+inline const std::vector<std::string> model_names{"discrete", "continuous"};
+[[nodiscard]] inline const std::string& name_of(Model model) { return model_names[static_cast<std::size_t>(model)]; }
 
 /// Names of keys of which nothing is to be said, since their values are not those of every scene of a sweep.
 using KeyNames = std::vector<std::string>;

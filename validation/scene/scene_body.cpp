@@ -10,8 +10,8 @@
 #include "numeric/motion/free_flight.hpp"
 #include "validation/output/bad_input.hpp"
 #include "validation/output/number.hpp"
-#include "validation/record/names.hpp"
 #include "validation/scene/body_properties.hpp"
+#include "validation/scene/names.hpp"
 #include "validation/scene/scene.hpp"
 
 namespace clatter::validation {
@@ -28,10 +28,7 @@ bool BodyScene::is_stl() const {
   return extension == ".stl";
 }
 
-int BodyScene::meshed_sectors() const {
-  if (sectors > 0) return sectors;
-  return shape == Shape::rod && meshed_radius() > length / 20 ? 64 : 16;
-}
+int BodyScene::own_sectors() const { return shape == Shape::rod && meshed_radius() > length / 20 ? 64 : 16; }
 
 numeric::Vector3 BodyScene::extents(double of_radius) const {
   if (has_size()) return size;

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "validation/plan/sequence_method.hpp"
+#include "validation/run/discrete_run.hpp"
 #include "validation/shock/shock_rows.hpp"
 
 namespace clatter::validation {

@@ -278,8 +278,7 @@ std::vector<ShockRow> shock_rows(const MotionRecorder& motion, const std::vector
 ContinuousShock continuous_shock(const Scene& scene, const numeric::Body& body, const std::vector<Vector3>& places,
                                  bool with_sensitivity, const numeric::Observer& observer) {
   ContinuousShock shock;
-  shock.planned = run_to_digits(body, scene.world, scene.start(body), scene.request, scene.accuracy,
-                                {.progress = observer.progress});
+  shock.planned = run_to_digits(scene, body, {.progress = observer.progress});
   const numeric::Simulation& run = shock.planned.run;
   const int impacts = static_cast<int>(run.impacts.size());
   if (impacts == 0) return shock;

@@ -10,10 +10,10 @@
 
 #include "validation/output/bad_input.hpp"
 #include "validation/output/number.hpp"
+#include "validation/output/numeric_table.hpp"
 #include "validation/scene/keys.hpp"
 #include "validation/scene/orientation.hpp"
 #include "validation/sweep/counter_random.hpp"
-#include "validation/tables/numeric_table.hpp"
 
 namespace clatter::validation {
 namespace {
@@ -95,7 +95,7 @@ std::vector<SweptAttitude> attitudes_of_file(const std::string& path) {
 }
 
 /// The number that a text is; NaN: none.
-double number_in(const std::string& text) {
+double parameter_in(const std::string& text) {
   double number = 0;
   return read_number(text, number) ? number : std::nan("");
 }
@@ -107,7 +107,7 @@ SweptAttitude read_attitude(const std::string& text) {
   for (double& parameter : q) {
     const bool is_last = &parameter == &q.back();
     const std::size_t end = is_last ? text.size() : std::min(text.find(',', begin), text.size());
-    parameter = number_in(text.substr(std::min(begin, text.size()), end - std::min(begin, text.size())));
+    parameter = parameter_in(text.substr(std::min(begin, text.size()), end - std::min(begin, text.size())));
     begin = end + 1;
   }
   return q;

@@ -10,8 +10,8 @@
 
 #include "validation/output/bad_input.hpp"
 #include "validation/output/number.hpp"
-#include "validation/record/impact_rows.hpp"
-#include "validation/record/totals.hpp"
+#include "validation/run/impact_rows.hpp"
+#include "validation/run/totals.hpp"
 #include "validation/shock/damage_boundary.hpp"
 
 namespace clatter::validation {

@@ -8,10 +8,10 @@
 
 #include "validation/output/cells.hpp"
 #include "validation/output/report.hpp"
-#include "validation/record/impact_quantities.hpp"
+#include "validation/run/impact_quantities.hpp"
+#include "validation/run/shortfall.hpp"
 #include "validation/scene/probes.hpp"
 #include "validation/scene/scene.hpp"
-#include "validation/scene/shortfall.hpp"
 #include "validation/shock/shock_rows.hpp"
 
 namespace clatter::validation {

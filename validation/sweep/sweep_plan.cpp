@@ -13,10 +13,10 @@
 #include "validation/output/digest.hpp"
 #include "validation/output/number.hpp"
 #include "validation/output/shell_word.hpp"
+#include "validation/run/discrete_scene.hpp"
+#include "validation/run/scene_value.hpp"
 #include "validation/scene/body_properties.hpp"
-#include "validation/scene/discrete_scene.hpp"
 #include "validation/scene/orientation.hpp"
-#include "validation/scene/scene_value.hpp"
 
 namespace clatter::validation {
 namespace {
@@ -51,7 +51,6 @@ const Key* find_number_key(const std::string& name) {
   return nullptr;
 }
 
-const std::vector<std::string> model_names{"discrete", "continuous"};
 const std::vector<std::string> row_names{"scene", "impact"};
 
 /// One --set KEY=TEXT.
@@ -84,8 +83,7 @@ Drawing read_drawing(const SweepRequest& request) {
   Drawing drawing{.random = request.random.has_value()};
   if (!request.scatter) return drawing;
   if (!drawing.random) throw BadInput(fmt::format("--scatter {}: needs --random N", *request.scatter));
-  constexpr Range allowed{0, 180, false, "from 0 to 180 degrees"};
-  drawing.scatter = read_number_option("--scatter", *request.scatter, allowed) * std::numbers::pi / 180;
+  drawing.scatter = *request.scatter * std::numbers::pi / 180;
   return drawing;
 }
 
@@ -208,7 +206,7 @@ bool is_both_frictions(const Setting& setting, const SceneValues& values, const 
 }
 
 Model read_model(const SweepRequest& request, const SceneValues& values, const std::vector<Setting>& settings) {
-  if (request.model) return static_cast<Model>(read_name_option("--model", *request.model, model_names));
+  if (request.model) return *request.model;
   const bool ground =
       values.has_table("ground") ||
       std::any_of(settings.begin(), settings.end(), [](const Setting& one) { return one.key.starts_with("ground."); });
@@ -223,10 +221,9 @@ void require_effects(const std::vector<Setting>& settings, Model model) {
     const bool has_effect =
         model == Model::continuous ? !setting.key.starts_with("impact.") : setting.number->is_for(model);
     if (has_effect) continue;
-    throw BadInput(fmt::format(
-        "--set {}={}: changes nothing in the {} model; give --model {}", setting.key, setting.text,
-        model_names[static_cast<std::size_t>(model)],
-        model_names[static_cast<std::size_t>(model == Model::continuous ? Model::discrete : Model::continuous)]));
+    throw BadInput(fmt::format("--set {}={}: changes nothing in the {} model; give --model {}", setting.key,
+                               setting.text, name_of(model),
+                               name_of(model == Model::continuous ? Model::discrete : Model::continuous)));
   }
 }
 
@@ -282,10 +279,9 @@ void read_points(const SweepRequest& request, const std::vector<Setting>& settin
     return;
   }
   if (axes.empty()) throw BadInput(fmt::format("--random {}: needs a --set KEY=LOW:HIGH", *request.random));
-  const int count = read_integer_option("--random", *request.random, 1, most_scenes);
-  const int seed = request.seed ? read_integer_option("--seed", *request.seed, 0, std::numeric_limits<int>::max()) : 1;
-  plan.points = SweepPoints(std::move(axes), count, static_cast<std::uint64_t>(seed));
-  plan.words.push_back(fmt::format("scenes: {} random ones, seed {}", count, seed));
+  const int seed = request.seed.value_or(1);
+  plan.points = SweepPoints(std::move(axes), *request.random, static_cast<std::uint64_t>(seed));
+  plan.words.push_back(fmt::format("scenes: {} random ones, seed {}", *request.random, seed));
   if (request.scatter) {
     plan.words.push_back(
         fmt::format("scatter: each attitude in its turn, turned about each axis by a normally "
@@ -334,28 +330,28 @@ bool may_leave_its_plane(const SweepPlan& plan) {
 
 void choose_rows(const SweepRequest& request, SweepPlan& plan) {
   RowLayout& layout = plan.layout;
-  if (request.rows) layout.rows = static_cast<RowKind>(read_name_option("--rows", *request.rows, row_names));
+  layout.rows = request.rows.value_or(layout.rows);
   layout.in_space = layout.model == Model::discrete && may_leave_its_plane(plan);
 }
 
 void choose_columns(const SweepRequest& request, SweepPlan& plan) {
   RowLayout& layout = plan.layout;
-  std::optional<std::string> columns = request.columns;
+  std::string columns = request.columns;
   const std::vector<SweepAxis>& axes = plan.points.axes();
   const bool attitudes =
       std::any_of(axes.begin(), axes.end(), [](const SweepAxis& axis) { return axis.is_attitude(); });
-  if (!columns && request.summary && attitudes && layout.rows == RowKind::scene)
+  if (columns.empty() && request.summary && attitudes && layout.rows == RowKind::scene)
     columns = layout.in_space ? "hardest,hardest_impulse_normal,hardest_corners" : "hardest,hardest_impulse_normal";
-  if (!columns) return;
+  if (columns.empty()) return;
   if (layout.rows == RowKind::impact) {
-    throw BadInput(fmt::format("--columns {}: is for --rows scene; rows of impacts have every column", *columns));
+    throw BadInput(fmt::format("--columns {}: is for --rows scene; rows of impacts have every column", columns));
   }
   int impacts = plan.scene.request.impacts;
   for (const SweepAxis& axis : plan.points.axes()) {
     if (axis.key == "run.impacts") impacts = static_cast<int>(std::max(axis.first, axis.last));
   }
-  read_impact_columns(*columns, impacts, layout);
-  plan.words.push_back(fmt::format("columns: {}", *columns));
+  read_impact_columns(columns, impacts, layout);
+  plan.words.push_back(fmt::format("columns: {}", columns));
 }
 
 /// The points of flags, else of the scene's file, where rows have columns for them.
@@ -419,6 +415,23 @@ void name_own_attitude(const SweepRequest& request, const SceneValues& values, s
 
 }  // namespace
 
+Arguments sweep_arguments(SweepRequest& request) {
+  return {whole_argument("--random", request.random, 1, static_cast<int>(most_scenes), "N",
+                         "N scenes with random values, --set KEY=LOW:HIGH or LOW:HIGH:log"),
+          whole_argument("--seed", request.seed, 0, std::numeric_limits<int>::max(), "S", "of the random values (1)"),
+          number_argument("--scatter", request.scatter, {0, 180, false, "from 0 to 180 degrees"}, "DEG",
+                          "with --random: attitudes about the scene's own, those of drop.attitude=26 or a list, each "
+                          "in its turn, turned about each axis by a normally distributed angle with this standard "
+                          "deviation"),
+          choice_argument("--model", request.model, model_names, "(continuous if the scene has a ground)"),
+          choice_argument("--rows", request.rows, row_names, "one row per scene or per impact (scene)"),
+          {.name = "--columns",
+           .target = &request.columns,
+           .type = "NAME,...",
+           .help = "more columns of rows of scenes: QUANTITY_N of impact N, QUANTITY of each, hardest, "
+                   "hardest_QUANTITY"}};
+}
+
 SweepPlan read_sweep_plan(const SweepRequest& request) {
   SweepPlan plan;
   SceneValues values =
@@ -430,7 +443,7 @@ SweepPlan read_sweep_plan(const SweepRequest& request) {
   if (drawing.scatter) name_own_attitude(request, values, sets);
   std::vector<Setting> settings = read_settings(sets, drawing);
   read_scene(request, settings, values, plan);
-  plan.fixed_words = shell_word(request.file) + " --model " + model_names[static_cast<std::size_t>(plan.layout.model)];
+  plan.fixed_words = shell_word(request.file) + " --model " + name_of(plan.layout.model);
   for (const Setting& setting : settings) {
     plan.words.push_back(fmt::format("set: {} = {}", setting.key, setting.text));
     if (!setting.axis) plan.fixed_words += " --set " + shell_word(setting.key + "=" + setting.text);
@@ -475,7 +488,7 @@ std::string SweepPlan::attitude_name(long long place) const {
 
 Report SweepPlan::report() const {
   const Model model = layout.model;
-  const std::string& name = model_names[static_cast<std::size_t>(model)];
+  const std::string& name = name_of(model);
   Report report = begun_report(
       "sweep", fmt::format("{} model, one row per {}", name, row_names[static_cast<std::size_t>(layout.rows)]));
   report.head = scene_head(scene, model, {}, unsettled);

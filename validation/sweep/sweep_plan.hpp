@@ -10,6 +10,7 @@
 
 #include "validation/output/report.hpp"
 #include "validation/output/sink.hpp"
+#include "validation/scene/argument.hpp"
 #include "validation/scene/keys.hpp"
 #include "validation/scene/scene.hpp"
 #include "validation/sweep/points.hpp"
@@ -17,16 +18,23 @@
 
 namespace clatter::validation {
 
-/// What was typed, empty where not given.
+/// What is asked of a sweep.
 struct SweepRequest {
   std::string file;
   std::optional<std::string> text;  ///< of the scene that `file` then only names in messages
   std::vector<std::string> sets, probes;
-  std::optional<std::string> random, seed, scatter, model, rows, columns;
+  std::optional<int> random, seed;
+  std::optional<double> scatter;  ///< [°]
+  std::optional<Model> model;     ///< else the continuous one where there is a ground
+  std::optional<RowKind> rows;
+  std::string columns;          ///< empty: no more than rows have anyway
   bool no_errors = false;       ///< as --set run.errors=false
   bool require_digits = false;  ///< as --set run.require_digits=true
   bool summary = false;         ///< of attitudes: the hardest impact's number, impulse and corners without being asked
 };
+
+/// The options that fill it, but for values, points and flags.
+[[nodiscard]] Arguments sweep_arguments(SweepRequest& request);
 
 struct SweepPlan {
   Scene scene;  ///< the swept keys have their first values

@@ -9,8 +9,8 @@
 
 #include "analytic/plane/summed_sequence.hpp"
 #include "validation/plan/planned_run.hpp"
+#include "validation/run/shortfall.hpp"
 #include "validation/scene/failure.hpp"
-#include "validation/scene/shortfall.hpp"
 #include "validation/shock/discrete_shock.hpp"
 
 namespace clatter::validation {
@@ -206,8 +206,7 @@ PlannedRun SceneRunner::planned(std::vector<LargestShock>& shocks) {
   const numeric::Observer observer{.progress = [this](int, long) { return !stop_(); }};
   const numeric::Body& body = *body_->solid;
   const std::vector<Probe>& probes = plan_.layout.probes;
-  if (probes.empty())
-    return run_to_digits(body, scene_.world, scene_.start(body), scene_.request, scene_.accuracy, observer);
+  if (probes.empty()) return run_to_digits(scene_, body, observer);
   const std::vector<numeric::Vector3> places = places_from(body_properties(scene_, Model::continuous).centre, probes);
   ContinuousShock shock = continuous_shock(scene_, body, places, false, observer);
   shocks = LargestShock::of(shock.rows, probes.size());

@@ -16,7 +16,7 @@
 #include <vector>
 
 #include "numeric/body.hpp"
-#include "validation/scene/discrete_scene.hpp"
+#include "validation/run/discrete_scene.hpp"
 #include "validation/sweep/sweep_plan.hpp"
 
 namespace clatter::validation {

@@ -12,14 +12,14 @@
 #include "analytic/batch/rod_batch.hpp"
 #include "analytic/plane/sequence.hpp"
 #include "binding.hpp"
+#include "validation/explain/explanation_report.hpp"
+#include "validation/gradient/gradient_report.hpp"
 #include "validation/output/bad_input.hpp"
-#include "validation/plan/sequence_method.hpp"
-#include "validation/reports/angles_report.hpp"
-#include "validation/reports/explanation_report.hpp"
-#include "validation/reports/gradient_report.hpp"
-#include "validation/reports/regimes_report.hpp"
-#include "validation/reports/sequence_report.hpp"
-#include "validation/scene/discrete_scene.hpp"
+#include "validation/rod/angles_report.hpp"
+#include "validation/rod/regimes_report.hpp"
+#include "validation/run/discrete_run.hpp"
+#include "validation/run/discrete_scene.hpp"
+#include "validation/sequence/sequence_report.hpp"
 
 namespace clatter::python {
 namespace {

@@ -7,14 +7,14 @@
 #include <algorithm>
 
 #include "binding.hpp"
-#include "validation/cli/measured_command.hpp"
-#include "validation/figures/figure.hpp"
+#include "validation/benchmark/benchmark_report.hpp"
+#include "validation/benchmark/score_report.hpp"
+#include "validation/evidence/check.hpp"
+#include "validation/evidence/extremes_report.hpp"
+#include "validation/evidence/figure.hpp"
+#include "validation/evidence/verify_report.hpp"
+#include "validation/measured/measured_command.hpp"
 #include "validation/output/bad_input.hpp"
-#include "validation/reports/benchmark_report.hpp"
-#include "validation/reports/extremes_report.hpp"
-#include "validation/reports/score_report.hpp"
-#include "validation/reports/verify_report.hpp"
-#include "validation/verify/check.hpp"
 
 namespace clatter::python {
 namespace {

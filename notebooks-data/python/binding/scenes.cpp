@@ -9,16 +9,16 @@
 
 #include "binding.hpp"
 #include "numeric/drop/history.hpp"
+#include "validation/compare/swept_comparison_report.hpp"
 #include "validation/output/bad_input.hpp"
+#include "validation/output/csv_line.hpp"
+#include "validation/plan/plan_report.hpp"
 #include "validation/plan/planned_run.hpp"
-#include "validation/record/history_file.hpp"
-#include "validation/reports/plan_report.hpp"
-#include "validation/reports/simulation_report.hpp"
-#include "validation/reports/swept_comparison_report.hpp"
-#include "validation/reports/tradeoff_report.hpp"
+#include "validation/plan/tradeoff_report.hpp"
+#include "validation/run/history_file.hpp"
+#include "validation/simulate/simulation_report.hpp"
 #include "validation/sweep/rows.hpp"
 #include "validation/sweep/sweep_run.hpp"
-#include "validation/tables/csv_line.hpp"
 
 namespace clatter::python {
 namespace {
@@ -95,7 +95,7 @@ PlannedRun run_scene(const Scene& scene, const std::function<bool(int)>& seen, n
   const numeric::Observer observer{.history = history, .progress = [&](int impacts, long) { return seen(impacts); }};
   const numeric::MotionState start = scene.start(body);
   if (history && scene.height) validation::record_fall(*history, start, body.mass(), scene.world.gravity, 20);
-  return validation::run_to_digits(body, scene.world, start, scene.request, scene.accuracy, observer);
+  return validation::run_to_digits(scene, body, observer);
 }
 
 Report single_report(const Scene& scene, const Watch& watch, numeric::HistoryRecorder* history) {
@@ -210,16 +210,11 @@ std::string swept_rows(const validation::SweepPlan& plan, const Watch& watch) {
 /// (report, how many scenes fall short and why the first, or "")
 py::tuple sweep(const std::string& name, const std::optional<std::string>& text, const std::vector<std::string>& sets,
                 const NamedTexts& options, const py::object& progress) {
-  const validation::SweepRequest request{.file = name,
-                                         .text = text,
-                                         .sets = sets,
-                                         .probes = {},
-                                         .random = given(options, "random"),
-                                         .seed = given(options, "seed"),
-                                         .scatter = given(options, "scatter"),
-                                         .model = given(options, "model"),
-                                         .rows = given(options, "rows"),
-                                         .columns = given(options, "columns")};
+  validation::SweepRequest request;
+  request.file = name;
+  request.text = text;
+  request.sets = sets;
+  take(sweep_arguments(request), options);
   const auto work = [request](const Watch& watch) {
     const validation::SweepPlan plan = validation::read_sweep_plan(request);
     const std::string rows = swept_rows(plan, watch);

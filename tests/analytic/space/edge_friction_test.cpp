@@ -232,7 +232,7 @@ BOOST_AUTO_TEST_CASE(a_rod_that_slides_to_a_stop_rebounds_by_its_law_however_lit
 BOOST_AUTO_TEST_CASE(rubbing_along_an_edge_is_the_integral_over_its_pressed_part) {
   constexpr double tolerance = 1e-13;  // of the sum over 4000 panels, whose x and pressure lose digits
   Random random(5);
-  for (int i = 0; i < 300; ++i) {
+  for (int i = 0; i < (CLATTER_TEST_SLOW_BUILD ? 30 : 300); ++i) {
     const Vector3 slip = random.vector(1).cwiseProduct(Vector3(std::pow(10, random.uniform(-8, 0)), 1, 1));
     if (slip.head<2>().norm() > 5 * std::fabs(slip[2])) continue;  // the sum loses digits
     const double point = random.uniform(-0.999, 0.999);
@@ -313,8 +313,9 @@ BOOST_AUTO_TEST_CASE(an_edge_that_friction_can_hold_sticks_by_however_little_or_
 
 BOOST_AUTO_TEST_CASE(stronges_law_takes_energy_from_edges_both_ends_of_which_keep_the_ratio_of_their_speeds) {
   Random random(12);
+  constexpr int landings = CLATTER_TEST_SLOW_BUILD ? 150 : 1500;
   int whole = 0, both = 0;
-  for (int i = 0; i < 3000; ++i) {
+  for (int i = 0; i < landings; ++i) {
     EdgeLanding l = rod({random.uniform(-1, 1), random.uniform(-1, 1), -1}, random.uniform(-30, 30));
     const Matrix3 turn = random.attitude().toRotationMatrix();
     l.inertia = turn * leaning_box(0.14, random.uniform(0.01, 0.1), random.uniform(0.01, 0.1)) * turn.transpose();
@@ -337,6 +338,6 @@ BOOST_AUTO_TEST_CASE(stronges_law_takes_energy_from_edges_both_ends_of_which_kee
     const double b_after = normal_velocity(impact->velocity_after, impact->angular_velocity_after, l.to);
     BOOST_TEST(std::fabs(a_after * b - b_after * a) <= 1e-12 * (std::fabs(a) + std::fabs(b)));
   }
-  BOOST_TEST(whole > 1000);
-  BOOST_TEST(both > 500);
+  BOOST_TEST(3 * whole > landings);
+  BOOST_TEST(6 * both > landings);
 }

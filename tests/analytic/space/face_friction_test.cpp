@@ -430,6 +430,29 @@ BOOST_AUTO_TEST_CASE(a_tall_box_that_slides_straight_is_pushed_at_its_leading_ed
   }
 }
 
+/// Without friction the pressure point would lie outside; Newton's method finds none at once.
+BOOST_AUTO_TEST_CASE(a_pressure_that_exists_is_found_where_friction_alone_brings_its_point_inside) {
+  Body body = box(1.89607, {.size = {0.0479805, 0.0645238, 0.173962}});
+  for (Vector3& vertex : body.vertices) vertex -= Vector3(-0.00501888, -0.00274527, -0.00766566);
+  body.inertia << 0.00391973, 3.22889e-05, 0.000884811, 3.22889e-05, 0.00406159, -0.000107616, 0.000884811,
+      -0.000107616, 0.00103071;
+  State before;
+  before.attitude = Quaternion(-0.5423779736709029, 0, 0, 0.8401345925961181).normalized();
+  before.velocity = {-0.3285, 0, -0.7446};
+  before.angular_velocity = {-5.819, 9.295, -41.47};
+  std::vector<Corner> corners;
+  for (std::size_t i = 0; i < body.vertices.size(); ++i) {
+    if (body.vertices[i].z() < 0) corners.push_back({static_cast<int>(i), body.vertices[i]});
+  }
+  const auto whole = rebound_as_a_whole(body, before, corners, coulomb(0.413, 0.762));
+  BOOST_TEST_REQUIRE(whole.has_value());
+  // By an independent integration, five digits.
+  BOOST_TEST((whole->velocity_after - Vector3(0.02655, 0.21052, 0.30752)).norm() <= 1e-5);
+  BOOST_TEST(std::fabs(whole->angular_velocity_after.z() + 20.969) <= 1e-3);
+  const Vector3 changed = body.mass * (whole->velocity_after - before.velocity);
+  BOOST_TEST((whole->impulse - changed).norm() <= 1e-13);
+}
+
 /// Sliding as fast as friction may it would tip; held, it needs next to none.
 BOOST_AUTO_TEST_CASE(a_high_box_that_friction_has_stopped_sticks_however_little_it_turns_over) {
   Landing high{.name = "high",

@@ -271,6 +271,24 @@ BOOST_AUTO_TEST_CASE(a_level_landing_mirrored_or_with_its_corners_in_another_ord
   }
 }
 
+BOOST_AUTO_TEST_CASE(a_landing_of_which_an_index_decides_the_first_corner_has_no_error_bars) {
+  Drop drop;
+  drop.body = box(1, {.size = {0.1, 0.1, 0.4}});
+  drop.velocity = {0.1, 0.05, -1};
+  drop.angular_velocity = {0, 0, 1e-6};
+  drop.law.law.restitution = 0.66;
+  drop.law.law.friction = FrictionKind::coulomb;
+  drop.law.law.friction_value = 0.1;
+  const ImpactRow flat = impact_sequence(drop, {.impacts = 1}).rows.at(0);
+  BOOST_TEST(flat.group.value().is_whole);
+  BOOST_TEST(!flat.group->is_open);
+  BOOST_TEST(flat.error.predictable);
+  drop.law.law.friction_value = 0.4;
+  const ImpactRow tipped = impact_sequence(drop, {.impacts = 1}).rows.at(0);
+  BOOST_TEST(tipped.group.value().is_open);
+  BOOST_TEST(!tipped.error.predictable);
+}
+
 namespace {
 
 /// A box that lands flat on one of its sides, so high for its base that friction tips it in half of the landings.
@@ -397,6 +415,39 @@ BOOST_AUTO_TEST_CASE(a_wheel_that_rolls_over_its_feet_loses_at_each_what_its_clo
         const double margin = std::fmax(1e-9, row.error.angular_velocity_after);
         BOOST_TEST(std::fabs(row.impact.angular_velocity_after.y() - rate) <= margin);
         BOOST_TEST(std::fabs(row.impact.impulse.y()) <= 1e-8);
+      }
+    }
+  }
+}
+
+// Turned about the vertical, so that no number of its motion is zero.  A spoke's turn about its foot keeps the energy.
+BOOST_AUTO_TEST_CASE(a_wheel_under_its_weight_rolls_over_its_feet_by_the_closed_form_until_it_falls_back) {
+  for (const double inertia : {1e-5, 1e-3}) {
+    for (const double yaw : {0.0, 0.7}) {
+      const Wheel wheel(inertia, 0.5);
+      const Eigen::AngleAxisd turn(yaw, Vector3::UnitZ());
+      Drop drop{.body = wheel.body,
+                .attitude = Quaternion(turn),
+                .velocity = turn * wheel.before.velocity,
+                .angular_velocity = turn * wheel.before.angular_velocity,
+                .gravity = 1.4,
+                .law = {}};
+      drop.law.law.restitution = 0;
+      drop.law.law.friction = FrictionKind::coulomb;
+      drop.law.law.friction_value = 10;
+      drop.velocity *= 1.5, drop.angular_velocity *= 1.5;
+      const double lost = (inertia + std::cos(2 * half_angle)) / (inertia + 1);
+      const double climb = 2 * drop.gravity * (1 - std::cos(half_angle)) / (inertia + 1);
+      const Sequence sequence = impact_sequence(drop, {.impacts = 20, .until_rest = true});
+      BOOST_TEST_CONTEXT("inertia " << inertia << ", yaw " << yaw << ": " << sequence.message) {
+        double rate = 1.5 * lost;
+        for (std::size_t n = 0;; rate *= lost, ++n) {
+          BOOST_REQUIRE(sequence.rows.size() > n);
+          const ImpactRow& row = sequence.rows[n];
+          BOOST_TEST(std::fabs(row.impact.angular_velocity_after.head<2>().norm() - rate) <= 1e-9);
+          BOOST_TEST(std::fabs(row.impact.angular_velocity_after.z()) <= 1e-9);
+          if (rate * rate < climb) break;
+        }
       }
     }
   }

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <random>
 
+#include "numeric/contact/gauss_rules.hpp"
 #include "tests/numeric/bodies.hpp"
 
 namespace {
@@ -206,6 +207,70 @@ BOOST_AUTO_TEST_CASE(load_rates_and_friction_are_those_of_ever_finer_facets) {
       BOOST_TEST(std::fabs(smooth[n] - limit[n]) <= 0.15 * std::fabs(fine[n] - coarse[n]) + 2e-4 * size,
                  "shape " << i << ", number " << n << ": " << smooth[n] << " for " << limit[n] << ", meshes "
                           << coarse[n] << ", " << fine[n]);
+    }
+  }
+}
+
+namespace {
+
+/// ∫f v/√(v² + v_r²) over a cap, f the pressure times the measure: heights by Gauss's rule, places around by
+/// trapezoids.
+SlipLoad summed(const SmoothShape& shape, const Ground& ground, const GroundView& view, const SlipField& field) {
+  constexpr int heights = 60, around = 800, nodes = 10;
+  const Vector3 normal = view.normal(), a = shape.semiaxes, stretched = a.cwiseProduct(normal);
+  const Vector3 up = stretched.normalized(), one = up.unitOrthogonal(), other = up.cross(one);
+  const double height = -view.sink / stretched.norm();
+  SlipLoad load;
+  for (int k = 0; k < heights * nodes; ++k) {
+    const GaussNode node = gauss_rule(nodes)[static_cast<std::size_t>(k % nodes)];
+    const double t = (k / nodes + (1 + node.at) / 2) / heights, z = height * t * t, rho = std::sqrt(z * (2 - z));
+    for (int i = 0; i < around; ++i) {
+      const double angle = 2 * pi * i / around;
+      const Vector3 on_ball = rho * std::cos(angle) * one + rho * std::sin(angle) * other + (z - 1) * up;
+      const Vector3 u = a.cwiseProduct(on_ball), area = a.prod() * a.cwiseInverse().cwiseProduct(on_ball);
+      const double weight = ground.area == AreaMeasure::projected ? -area.dot(normal) : area.norm();
+      const double rate = -(view.vertical_speed + normal.cross(view.angular_velocity).dot(u));
+      const double force = stretched.norm() * (height - z) * (ground.stiffness + ground.damping * rate) * weight * 2 *
+                           t * height * node.weight / 2 / heights * 2 * pi / around;
+      const Vector3 turning = view.angular_velocity.cross(u);
+      const double east = view.east_speed + turning.dot(view.east), north = view.north_speed + turning.dot(view.north);
+      const double size = std::hypot(std::hypot(east, north), field.regularisation);
+      load.east -= force * east / size;
+      load.north -= force * north / size;
+    }
+  }
+  return load;
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(a_cap_that_spins_rubs_as_the_sum_over_its_surface_wherever_nothing_slips) {
+  constexpr double tolerance = 1e-10, spin = 10;
+  Uniform random(4);
+  for (const Vector3& semiaxes : {Vector3(1, 1, 1), Vector3(0.5, 0.8, 1)}) {
+    const SmoothShape shape{semiaxes, 0, Vector3::Zero()};
+    for (const double part : {0.0, 0.4, 0.75, 0.97, 1.0, 1.03, 2.0}) {
+      const Vector3 normal = random.direction();
+      const double depth = std::pow(10, random(-4, -1)), width = std::sqrt(2 * depth);
+      GroundView view = pressed(shape, normal, depth);
+      view.vertical_speed = -0.3;
+      view.angular_velocity = spin * normal + random.vector(1);
+      const Vector3 lowest = view.angular_velocity.cross(shape.lowest(0, normal));
+      view.east_speed = 0.6 * spin * part * width - lowest.dot(view.east);
+      view.north_speed = 0.8 * spin * part * width - lowest.dot(view.north);
+      const Ground ground{.stiffness = 1,
+                          .damping = 0.1,
+                          .static_friction = 1,
+                          .sliding_friction = 1,
+                          .area = part < 1 ? AreaMeasure::projected : AreaMeasure::surface};
+      const SlipField field{.kind = SlipField::Kind::points, .digits = 11, .regularisation = 0.03 * spin * width};
+      const auto surface = contact_surface(body_of(shape), ground);
+      const double force = surface->load(view).force;
+      const SlipLoad load = surface->slip_load(view, field), sum = summed(shape, ground, view, field);
+      BOOST_TEST_CONTEXT("semiaxes " << semiaxes.transpose() << ", nothing slips at " << part << " of the width") {
+        check_close(load.east, sum.east, tolerance * force);
+        check_close(load.north, sum.north, tolerance * force);
+      }
     }
   }
 }

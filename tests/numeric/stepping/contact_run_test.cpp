@@ -196,7 +196,7 @@ BOOST_AUTO_TEST_CASE(a_late_release_does_not_depend_on_the_steps) {
 
 /// Deep in the bed the faces that look up were once driven along their slip.
 BOOST_AUTO_TEST_CASE(friction_over_faces_that_look_up_from_below_the_ground_never_drives) {
-  const auto grounds = CLATTER_TEST_SLOW_BUILD ? std::vector{1e5, 1e7} : std::vector{1e5, 3e5, 1e6, 1e7};
+  const auto grounds = CLATTER_TEST_SLOW_BUILD ? std::vector{1e5} : std::vector{1e5, 3e5, 1e6, 1e7};
   for (const FrictionLaw law : {FrictionLaw::regularised, FrictionLaw::coulomb}) {
     for (const double stiffness : grounds) {
       for (const double tilt : {0.0, 20.0}) {

@@ -12,7 +12,7 @@
 #include "analytic/space/sequence.hpp"
 #include "numeric/simulate.hpp"
 #include "validation/benchmark/reference.hpp"
-#include "validation/scene/discrete_scene.hpp"
+#include "validation/run/discrete_scene.hpp"
 
 namespace {
 

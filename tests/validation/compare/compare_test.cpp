@@ -7,7 +7,7 @@
 #include "analytic/base/errors.hpp"
 #include "validation/compare/comparison.hpp"
 #include "validation/compare/random_scenes.hpp"
-#include "validation/scene/discrete_scene.hpp"
+#include "validation/run/discrete_scene.hpp"
 
 namespace {
 

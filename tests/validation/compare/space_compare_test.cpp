@@ -7,7 +7,7 @@
 
 #include "validation/compare/prediction.hpp"
 #include "validation/compare/random_space_scenes.hpp"
-#include "validation/scene/discrete_scene.hpp"
+#include "validation/run/discrete_scene.hpp"
 
 namespace {
 

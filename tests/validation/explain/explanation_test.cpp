@@ -13,10 +13,10 @@
 
 #include "analytic/base/errors.hpp"
 #include "validation/explain/explanation.hpp"
+#include "validation/explain/explanation_report.hpp"
+#include "validation/explain/formula_text.hpp"
 #include "validation/output/bad_input.hpp"
-#include "validation/reports/explanation_report.hpp"
-#include "validation/reports/formula_text.hpp"
-#include "validation/scene/discrete_scene.hpp"
+#include "validation/run/discrete_scene.hpp"
 
 namespace {
 

@@ -9,12 +9,12 @@
 #include <sstream>
 
 #include "validation/output/bad_input.hpp"
+#include "validation/output/csv_line.hpp"
 #include "validation/output/estimated.hpp"
 #include "validation/output/json.hpp"
 #include "validation/output/number.hpp"
 #include "validation/output/report.hpp"
 #include "validation/output/symbols.hpp"
-#include "validation/tables/csv_line.hpp"
 
 using namespace clatter::validation;
 

@@ -157,7 +157,7 @@ class Help(unittest.TestCase):
 
     def test_a_plan_and_the_verification_name_commands_that_run_in_any_folder(self):
         line = re.search(r"Run it: clatter (.*)", re.sub(r"\n +", " ", printed("plan", "phone-damped", "--impacts", "1"))).group(1)
-        checks = re.findall(r'^command = "clatter (.*)"', open(os.path.join(ROOT, "validation", "verify", "checks.toml"),
+        checks = re.findall(r'^command = "clatter (.*)"', open(os.path.join(ROOT, "validation", "evidence", "checks.toml"),
                                                                encoding="utf-8").read(), re.M)
         self.assertGreater(len(checks), 40)
         for command in [line, *checks]:

@@ -10,8 +10,8 @@
 
 #include "tests/validation/plan/planned_scene.hpp"
 #include "validation/plan/cost_table.hpp"
+#include "validation/plan/plan_report.hpp"
 #include "validation/plan/planned_run.hpp"
-#include "validation/reports/plan_report.hpp"
 
 using namespace clatter;
 using namespace clatter::validation;
@@ -93,7 +93,7 @@ BOOST_AUTO_TEST_CASE(true_error_of_a_planned_run_falls_with_the_digits_asked_ove
     const numeric::Body body = scene.make_body();
     for (int digits = 3; digits <= 9; ++digits) {
       scene.accuracy.digits = digits;
-      const PlannedRun planned = run_to_digits(body, scene.world, scene.start(body), scene.request, scene.accuracy);
+      const PlannedRun planned = run_to_digits(scene, body);
       const double error = true_error(scene, planned.run);
       BOOST_TEST(error <= planned.asked, name << ", " << digits << " digits: " << error);
       BOOST_TEST(error <= planned.achieved);
@@ -175,7 +175,7 @@ BOOST_AUTO_TEST_CASE(plan_and_run_get_past_a_step_that_gets_too_small) {
   BOOST_TEST(plan.impacts == 3);
   for (int digits = 2; digits <= 8; ++digits) {
     scene.accuracy.digits = digits;
-    const PlannedRun planned = run_to_digits(body, scene.world, scene.start(body), scene.request, scene.accuracy);
+    const PlannedRun planned = run_to_digits(scene, body);
     BOOST_TEST(planned.run.impacts.size() == 3u, digits << " digits: " << planned.run.message);
   }
 }
@@ -259,7 +259,7 @@ BOOST_AUTO_TEST_CASE(run_is_repeated_until_its_own_estimates_keep_to_the_digits)
     const numeric::Body body = scene.make_body();
     for (int digits = 3; digits <= 7; ++digits) {
       scene.accuracy.digits = digits;
-      const PlannedRun planned = run_to_digits(body, scene.world, scene.start(body), scene.request, scene.accuracy);
+      const PlannedRun planned = run_to_digits(scene, body);
       BOOST_TEST(planned.achieved <= planned.asked, digits << " digits: " << planned.achieved);
     }
   }
@@ -269,7 +269,7 @@ BOOST_AUTO_TEST_CASE(run_with_a_method_given_is_left_alone) {
   Scene scene = case_scene("rod-45");
   scene.accuracy.method = numeric::Method::rkf45;
   const numeric::Body body = scene.make_body();
-  const PlannedRun planned = run_to_digits(body, scene.world, scene.start(body), scene.request, scene.accuracy);
+  const PlannedRun planned = run_to_digits(scene, body);
   BOOST_TEST(!planned.planned);
   BOOST_TEST((planned.run.method == numeric::Method::rkf45));
   BOOST_TEST(planned.run.tolerance == 1e-10);

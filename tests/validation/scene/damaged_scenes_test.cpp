@@ -6,7 +6,7 @@
 #include <string>
 
 #include "validation/embedded/embedded.hpp"
-#include "validation/scene/discrete_scene.hpp"
+#include "validation/run/discrete_scene.hpp"
 #include "validation/scene/failure.hpp"
 #include "validation/scene/keys.hpp"
 #include "validation/scene/scene.hpp"

@@ -9,8 +9,8 @@
 
 #include "analytic/base/errors.hpp"
 #include "numeric/errors.hpp"
-#include "validation/cli/program.hpp"
 #include "validation/output/bad_input.hpp"
+#include "validation/program/program.hpp"
 #include "validation/scene/failure.hpp"
 
 using namespace clatter;

@@ -19,8 +19,8 @@
 #include <utility>
 
 #include "validation/output/bad_input.hpp"
+#include "validation/run/scene_value.hpp"
 #include "validation/scene/keys.hpp"
-#include "validation/scene/scene_value.hpp"
 #include "validation/sweep/counter_random.hpp"
 #include "validation/sweep/points.hpp"
 #include "validation/sweep/sweep_file.hpp"

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The table of checks, and the judge.
+#include <boost/test/unit_test.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+
+#include "validation/evidence/check.hpp"
+#include "validation/evidence/figure.hpp"
+#include "validation/evidence/verify_report.hpp"
+
+namespace {
+
+using namespace clatter::validation;
+
+const Check& check(const std::string& id) {
+  const auto& all = all_checks();
+  return *std::find_if(all.begin(), all.end(), [&](const Check& one) { return one.id == id; });
+}
+
+CheckResult judged(const Check& one) {
+  CaseRuns case_runs;
+  return verify_checks({&one}, case_runs, [](std::size_t, std::size_t, const std::string&) { return true; }).at(0);
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(every_claim_erratum_and_figure_of_the_paper_has_its_check) {
+  std::set<std::string> ids;
+  for (const Check& one : all_checks()) ids.insert(one.id);
+  for (int i = 1; i <= 20; ++i) BOOST_TEST(ids.contains("C" + std::to_string(i)));
+  for (int i = 1; i <= 11; ++i) BOOST_TEST(ids.contains("E" + std::to_string(i)));
+  for (const int number : figure_numbers()) BOOST_TEST(ids.contains("F" + std::to_string(number)));
+}
+
+BOOST_AUTO_TEST_CASE(tolerances_are_at_most_five_times_the_error_seen_and_have_a_reason) {
+  for (const Check& one : all_checks()) {
+    BOOST_TEST(one.tolerance > 0);
+    BOOST_TEST(one.tolerance <= 5.000001 * one.seen);
+    BOOST_TEST(!one.reason.empty());
+  }
+}
+
+BOOST_AUTO_TEST_CASE(a_check_passes_and_fails_by_its_tolerance) {
+  Check one = check("X3");  // its error is the next term of a series, far above rounding
+  BOOST_TEST(judged(one).passed());
+  one.tolerance = 1e-9;
+  const CheckResult failed = judged(one);
+  BOOST_TEST(!failed.passed());
+  BOOST_TEST(failed.failure.find("not within") != std::string::npos);
+}
+
+BOOST_AUTO_TEST_CASE(the_worst_of_no_errors_or_of_one_that_is_no_number_is_no_number) {
+  constexpr double none = std::numeric_limits<double>::quiet_NaN();
+  BOOST_TEST(std::isnan(worst_of({})));
+  BOOST_TEST(std::isnan(worst_of({none, 1, 2})));
+  BOOST_TEST(std::isnan(worst_of({1, none, 2})));
+  BOOST_TEST(worst_of({0}) == 0);
+  BOOST_TEST(worst_of({1, 3, 2}) == 3);
+}
+
+BOOST_AUTO_TEST_CASE(an_answer_that_is_not_the_expected_one_fails) {
+  Check one = check("C5");
+  BOOST_TEST(judged(one).passed());
+  one.answer = Finding::holds;
+  BOOST_TEST(judged(one).failure.find("refuted") != std::string::npos);
+}
+
+BOOST_AUTO_TEST_CASE(a_tolerance_that_is_no_number_fails) {
+  Check one = check("C1");
+  one.tolerance = std::numeric_limits<double>::quiet_NaN();
+  BOOST_TEST(!judged(one).passed());
+}
+
+BOOST_AUTO_TEST_CASE(a_measurement_that_throws_is_a_failure_with_its_reason) {
+  Check one = check("C1");
+  one.id = "C99";
+  BOOST_TEST(!judged(one).passed());
+  BOOST_TEST(!judged(one).failure.empty());
+}
+
+BOOST_AUTO_TEST_CASE(the_exit_status_tells_passed_failed_and_interrupted_apart) {
+  Check strict = check("X3");
+  strict.tolerance = 1e-12;
+  BOOST_TEST(verify_status(summary_of({judged(check("C1"))})) == 0);
+  BOOST_TEST(verify_status(summary_of({judged(check("C1")), judged(strict)})) == 1);
+  const CheckResult not_run{.check = &strict, .measured = {}, .failure = {}, .done = false};
+  BOOST_TEST(verify_status(summary_of({judged(check("C1")), not_run})) == 130);
+}
+
+BOOST_AUTO_TEST_CASE(an_interrupt_leaves_the_rest_not_run) {
+  std::vector<const Check*> checks;
+  for (const char* id : {"C1", "C2", "C3", "C6", "C7", "X3", "X5", "X6"}) checks.push_back(&check(id));
+  CaseRuns case_runs;
+  const auto results =
+      verify_checks(checks, case_runs, [](std::size_t, std::size_t, const std::string&) { return false; });
+  const auto done = std::count_if(results.begin(), results.end(), [](const CheckResult& one) { return one.done; });
+  BOOST_TEST(done >= 1);
+  BOOST_TEST(done < 8);
+}

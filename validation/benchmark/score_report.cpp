@@ -1,0 +1,313 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "validation/benchmark/score_report.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include "validation/benchmark/benchmark_report.hpp"
+#include "validation/benchmark/score.hpp"
+#include "validation/output/bad_input.hpp"
+#include "validation/output/number.hpp"
+#include "validation/run/scene_value.hpp"
+#include "validation/scene/option_values.hpp"
+
+namespace clatter::validation {
+namespace {
+
+Value impact_value(const ImpactScore& one, int n) {
+  Value value;
+  value["n"] = n;
+  value["place"] = one.place;
+  value["true_place"] = text_or_nothing(one.true_place);
+  value["t"] = one.time;
+  value["time_error"] = rounded_up(one.time_error);
+  value["law_error"] = rounded_up(one.law_error);
+  value["velocity_error"] = rounded_up(one.velocity_error);
+  value["angular_velocity_error"] = rounded_up(one.angular_error);
+  value["energy_error"] = rounded_up(one.energy_error);
+  value["energy_drift"] = rounded_up(one.drift);
+  value["flight_error"] = rounded_up(one.flight_error);
+  value["error"] = rounded_up(one.error);
+  value["impulse_normal"] = one.impulse_normal;
+  value["impulse_tangential"] = one.impulse_tangential;
+  value["velocity_after"] = parts(one.after.velocity);
+  value["angular_velocity_after"] = parts(one.after.angular_velocity);
+  return value;
+}
+
+Cell step_cell(const std::optional<double>& step) { return step ? Cell(*step, 4) : Cell(); }
+
+Cell error_cell(double error) { return std::isfinite(error) ? Cell(rounded_up(error), 2) : Cell(Value(), "?"); }
+
+Row submission_row(const Submission& one) {
+  const Score& score = one.score;
+  return {Cell(one.path, std::filesystem::path(one.path).filename().string()),
+          Cell(text_or_nothing(one.head.problem)),
+          Cell(one.problem_version > 0 ? Value(one.problem_version) : Value()),
+          Cell(text_or_nothing(one.head.engine)),
+          Cell(text_or_nothing(one.head.version)),
+          Cell(text_or_nothing(one.head.settings)),
+          Cell(score.law),
+          Cell(score.law_is_declared),
+          step_cell(one.head.step),
+          Cell(static_cast<long long>(score.found)),
+          Cell(static_cast<long long>(score.expected)),
+          Cell(score.order_is_right),
+          error_cell(score.law_error),
+          error_cell(score.velocity_error),
+          error_cell(score.angular_error),
+          error_cell(score.time_error),
+          one.is_list ? error_cell(score.impulse_error) : Cell(),
+          error_cell(score.energy_error),
+          one.is_list ? Cell() : error_cell(score.flight_error),
+          one.is_list ? Cell() : error_cell(score.start_error),
+          one.gradients ? error_cell(score.gradient_error) : Cell(),
+          error_cell(score.error()),
+          Cell(score.error() > 0 ? Value(score.decided_by()) : Value()),
+          Cell(verdict_name(one.verdict)),
+          Cell(text_or_nothing(score.findings.empty() ? std::string() : score.findings.front()))};
+}
+
+Value submission_value(const std::vector<Column>& columns, const Submission& one) {
+  Value value = row_object(columns, submission_row(one));
+  value["findings"] = one.score.findings;
+  Value causes{Value::List{}};
+  for (const Cause& cause : one.causes) {
+    causes.push_back(Value::Fields{{"cause", cause.name},
+                                   {"value", cause.value ? Value(*cause.value) : Value()},
+                                   {"misfit", cause.misfit},
+                                   {"words", cause.words}});
+  }
+  value["causes"] = std::move(causes);
+  Value impacts{Value::List{}};
+  int n = 0;
+  for (const ImpactScore& impact : one.score.impacts) impacts.push_back(impact_value(impact, ++n));
+  value["impact_scores"] = std::move(impacts);
+  return value;
+}
+
+Value group_value(const SubmissionGroup& group) {
+  Value value;
+  value["problem"] = text_or_nothing(group.head.problem);
+  value["engine"] = text_or_nothing(group.head.engine);
+  value["version"] = text_or_nothing(group.head.version);
+  value["settings"] = text_or_nothing(group.head.settings);
+  value["law"] = text_or_nothing(group.head.law);
+  value["verdict"] = verdict_name(group.verdict);
+  value["order"] = group.order ? Value(*group.order) : Value();
+  for (const SubmissionGroup::Step& step : group.steps) {
+    Value one;
+    one["step"] = step.step ? Value(*step.step) : Value();
+    one["files"] = static_cast<long long>(step.files);
+    one["motion_error"] = rounded_up(step.motion_error);
+    one["law_error"] = rounded_up(step.law_error);
+    one["error"] = step.error;
+    value["steps"].push_back(std::move(one));
+  }
+  return value;
+}
+
+/// Causes that explain a run in place of each other in one line, those beside them in lines of their own.
+std::vector<std::string> cause_words(const std::vector<Cause>& causes) {
+  std::vector<std::string> lines, either;
+  for (const Cause& cause : causes) {
+    if (cause.is_more) lines.push_back("and: " + cause.words);
+    else either.push_back(cause.words);
+  }
+  if (either.empty()) return lines;
+  const std::string first = either.size() > 1 ? "either " : "";
+  lines.insert(lines.begin(), fmt::format("likely cause: {}{}", first, fmt::join(either, "; or ")));
+  return lines;
+}
+
+/// "coarse by energy, off by 0.0042"
+std::string class_words(const Submission& one) {
+  const double error = one.score.error();
+  return fmt::format("{} by {}{}", verdict_name(one.verdict), one.score.decided_by(),
+                     std::isfinite(error) ? ", off by " + significant(error, 2) : "");
+}
+
+std::string group_words(const SubmissionGroup& group) {
+  std::string name;
+  for (const std::string& part : {group.head.problem, group.head.engine, group.head.version, group.head.settings}) {
+    if (!part.empty()) name += (name.empty() ? "" : ", ") + part;
+  }
+  std::string words = (name.empty() ? "all files" : name) + ": " + verdict_name(group.verdict);
+  for (const SubmissionGroup::Step& step : group.steps) {
+    if (step.files < 2 && group.steps.size() < 2) continue;
+    words += fmt::format("; {}largest error of {} file{}: {}",
+                         step.step ? "step " + significant(*step.step, 3) + " s, " : "", step.files,
+                         step.files == 1 ? "" : "s", std::isfinite(step.error) ? significant(step.error, 2) : "?");
+  }
+  if (group.order) words += fmt::format("; order {:.2f} in the step", *group.order);
+  return words;
+}
+
+}  // namespace
+
+std::vector<Column> score_columns() {
+  return {
+      word_column("file", "file", "that was judged"),
+      Column{"problem", "problem", "", "from its line # problem:", true, true},
+      Column{"problem_version", "", "", "of the problem", false},
+      Column{"engine", "", "", "from its line # engine:", false, true},
+      Column{"engine_version", "", "", "from its line # version:", false, true},
+      Column{"settings", "", "", "from its line # settings:", false, true},
+      Column{"law", "", "", "that the impacts are judged by; any: the laws agree", false, true},
+      Column{"law_declared", "", "", "whether the file says so; otherwise the law that fits best", false},
+      {"step", "step", "s", "from its line # step:"},
+      {"found", "found", "", "impacts found"},
+      {"expected", "of", "", "impacts of the truth"},
+      Column{"order_right", "", "", "whether number and places are right, in their order", false},
+      {"law_error", "law", "", "largest distance of an impact from the exact map at the code's own state, relative"},
+      {"velocity_error", "V", "", "largest error of V after an impact, over the sequence's largest"},
+      {"angular_velocity_error", "Ω", "", "the same of Ω"},
+      {"time_error", "t", "", "largest error of an impact's time, over that of the last impact"},
+      Column{"impulse_error", "", "", "of a list the largest error of an impulse, over the sequence's largest", false},
+      {"energy_error", "energy", "", "largest error of energy after impacts, or drift between them, over the start's"},
+      Column{"flight_error", "", "",
+             "the farthest of a row off the free flight since the impact before, over the body's reach", false},
+      Column{"start_error", "", "", "distance of the state at the first touch from the problem's", false},
+      Column{"gradient_error", "d/d", "", "of a list that gives derivatives their largest error", false},
+      Column{"error", "", "", "the largest of all", false},
+      Column{"decided_by", "", "", "what that is an error of", false, true},
+      word_column("verdict", "verdict", "class of tolerance: exact, sharp, good, coarse, fails"),
+      Column{"finding", "", "", "what is wrong, the first", false, true}};
+}
+
+/// What stands below the table.
+std::vector<std::string> score_legend() {
+  return {"found, of: impacts found, impacts asked for",
+          "law: off the exact law at the run's own state, of the change that it makes",
+          "V, Ω: off the truth, of the sequence's largest; t: off it, of the last one's",
+          "energy: off the truth, and drift between impacts, of the start's",
+          "all without units, 1 is 100 %; ?: not told, impacts are wrong, missing or extra"};
+}
+
+Report score_report(const std::string& command, const std::vector<Submission>& submissions) {
+  Report report = begun_report(command, "answers of others against the truth");
+  report.grid.columns = score_columns();
+  report.notes = score_legend();
+  Value files{Value::List{}}, problems{Value::List{}};
+  Verdict worst = Verdict::exact;
+  for (const Submission& one : submissions) {
+    report.grid.rows.push_back(submission_row(one));
+    for (Column& column : report.grid.columns) column.shown |= one.gradients && column.name == "gradient_error";
+    files.push_back(submission_value(report.grid.columns, one));
+    worst = std::max(worst, one.verdict);
+    const std::string name = std::filesystem::path(one.path).filename().string();
+    const bool says_why = !one.score.order_is_right || one.verdict == Verdict::incomplete;  // in a finding
+    if (one.verdict != Verdict::exact && !says_why) {
+      report.notes.push_back(name + ": " + class_words(one));
+    }
+    for (const std::string& words : cause_words(one.causes)) report.notes.push_back(name + ": " + words);
+    for (const std::string& finding : one.score.findings) report.notes.push_back(name + ": " + finding);
+    if (!one.score.law_is_declared && one.score.law != "any") {
+      report.notes.push_back(name + ": declares no law; judged by the one that fits best, " + one.score.law);
+    }
+  }
+  for (const SubmissionGroup& group : group_submissions(submissions)) {
+    problems.push_back(group_value(group));
+    report.notes.push_back(group_words(group));
+  }
+  report.fields["verdict"] = verdict_name(worst);
+  report.fields["files"] = std::move(files);
+  report.fields["problems"] = std::move(problems);
+  return report;
+}
+
+bool Requirement::is_met(const Submission& submission) const {
+  if (verdict && !(submission.verdict <= *verdict)) return false;
+  return !error || (submission.verdict != Verdict::incomplete && submission.score.error() <= *error);
+}
+
+Requirement read_requirement(const std::string& name, const std::string& text) {
+  double error = 0;
+  if (read_number(text, error)) return {.verdict = {}, .error = read_number_option(name, text, positive_number)};
+  std::vector<std::string> names = verdict_names();
+  names.pop_back();
+  const auto at = std::find(names.begin(), names.end(), text);
+  if (at == names.end()) {
+    throw BadInput(fmt::format("{} '{}': must be one of {}, or a largest error such as 1e-3; did you mean {}?", name,
+                               text, fmt::join(names, ", "), nearest_name(text, names)));
+  }
+  return {.verdict = static_cast<Verdict>(at - names.begin()), .error = {}};
+}
+
+namespace {
+
+void add_answer(const Submission& submission, double curve, PicturePanel& panel) {
+  constexpr double least = 1e-17, most = 10;  // drawn where they are 0, larger or unknown
+  for (std::size_t n = 0; n < submission.score.impacts.size(); ++n) {
+    panel.rows.push_back(
+        {curve, static_cast<double>(n + 1), std::clamp(submission.score.impacts[n].error, least, most)});
+  }
+  panel.plot.curves.push_back(
+      {.x = "impact",
+       .y = "error",
+       .legend = fmt::format("{}: {}", std::filesystem::path(submission.path).filename().string(),
+                             verdict_name(submission.verdict)) +
+                 (std::isfinite(submission.score.error()) ? " by " + submission.score.decided_by() : ""),
+       .style = FigureCurve::Style::line_points,
+       .where = {{"curve", curve}}});
+}
+
+void add_classes(const std::vector<double>& tolerances, const std::string& of_what, PicturePanel& panel) {
+  for (std::size_t k = 0; k < tolerances.size(); ++k) {
+    const double curve = -1 - static_cast<double>(k);
+    for (const double x : {panel.plot.x.low, panel.plot.x.high}) panel.rows.push_back({curve, x, tolerances[k]});
+    panel.plot.curves.push_back({.x = "impact",
+                                 .y = "error",
+                                 .legend = k == 0 ? "from below up to: exact, sharp, good, coarse" + of_what : "",
+                                 .style = FigureCurve::Style::dotted,
+                                 .where = {{"curve", curve}},
+                                 .colour = ink});
+  }
+}
+
+}  // namespace
+
+Picture score_picture(const std::vector<Submission>& submissions) {
+  PicturePanel panel{.columns = {{"curve", "1", "number of the file; below 0 of a class of tolerance"},
+                                 {"impact", "1", "number of the impact"},
+                                 {"error", "1", "the largest of all errors of the impact and the flight after it"}},
+                     .rows = {},
+                     .plot = {.x_label = "number of the impact",
+                              .y_label = "largest error, relative",
+                              .y = {3e-18, 10},
+                              .legend_place = "beside",
+                              .logarithmic_y = true,
+                              .whole_x = true}};
+  std::size_t most = 1;
+  for (std::size_t file = 0; file < submissions.size(); ++file) {
+    most = std::max(most, submissions[file].score.impacts.size());
+    add_answer(submissions[file], static_cast<double>(file), panel);
+  }
+  panel.plot.x = {0.5, static_cast<double>(most) + 0.5};
+  std::vector<std::string> problems;
+  bool have_one_scale = true;
+  const std::string& first = submissions.front().head.problem;
+  const std::vector<double>& tolerances = problem_named("", first).tolerances;
+  for (const Submission& one : submissions) {
+    const std::string name = "problem " + one.head.problem;
+    if (std::find(problems.begin(), problems.end(), name) == problems.end()) problems.push_back(name);
+    have_one_scale = have_one_scale && problem_named("", one.head.problem).tolerances == tolerances;
+  }
+  add_classes(tolerances, have_one_scale ? "" : " of " + first, panel);
+  return {.what = "Errors of answers, impact by impact", .scene = problems, .panels = {panel}};
+}
+
+Report against_report(const Scene& scene, const Reference& reference, const std::vector<Submission>& submissions) {
+  Report report = score_report("compare", submissions);
+  report.head = scene_head(scene, Model::discrete);
+  report.fields["scene"] = scene_value(scene, Model::discrete);
+  report.fields["message"] = text_or_nothing(reference.remark);
+  if (!reference.remark.empty()) report.notes.push_back(reference.remark);
+  return report;
+}
+
+}  // namespace clatter::validation

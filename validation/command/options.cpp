@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "validation/command/options.hpp"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+
+#include "validation/output/bad_input.hpp"
+#include "validation/output/colours.hpp"
+#include "validation/output/gnuplot.hpp"
+#include "validation/output/number.hpp"
+#include "validation/output/sink.hpp"
+#include "validation/output/symbols.hpp"
+#include "validation/run/discrete_scene.hpp"
+#include "validation/run/scene_value.hpp"
+#include "validation/scene/keys.hpp"
+
+namespace clatter::validation {
+
+void add_output_options(Command& command, OutputChoice& choice) {
+  command.add(format_argument(choice.style.format, "form of the output (table)", "Output"));
+  command.add_text("--output", choice.path, "FILE", "write there, whole or not at all; -: stdout", "Output");
+  command.add_flag("--ascii", choice.style.ascii, "plain ASCII in tables", "Output");
+  command.add_flag("--bare", choice.style.bare, "CSV without comments", "Output");
+}
+
+void check_files(const OutputChoice& choice, const std::vector<RunFile>& written) {
+  const RunFile output{"--output", choice.path};
+  note_written(output);
+  for (const RunFile& file : written) note_written(file);
+  require_writable(output);  // or a run would end in vain
+}
+
+void write_out(const OutputChoice& choice, const std::string& text) {
+  const bool ascii = choice.style.ascii && choice.style.format == Format::table;
+  const std::string clean = printable(text, Lines::kept);
+  Sink sink(choice.path);
+  sink.write(ascii ? to_ascii(clean) : clean);
+  sink.commit();
+}
+
+void write_report(const OutputChoice& choice, const Report& report) {
+  const std::string text = report_text(report, choice.style);
+  const bool coloured = choice.style.format == Format::table && choice.path.empty() && shows_colours();
+  if (!coloured) return write_out(choice, text);
+  Sink sink("");
+  sink.write(with_colours(printable(text, Lines::kept)));
+  sink.commit();
+}
+
+namespace {
+
+/// Keys that a flag overrides.
+std::vector<const Key*> flag_keys(Model model) {
+  std::vector<const Key*> keys;
+  for (const Key& key : all_keys()) {
+    if (key.flag[0] != '\0' && key.is_for(model)) keys.push_back(&key);
+  }
+  return keys;
+}
+
+}  // namespace
+
+// Some commands that read a scene for one model have the flags of the other alone.
+std::vector<SceneOverride> overrides_of(const SceneFlags& given) {
+  std::vector<SceneOverride> overrides;
+  for (const Key* key : flag_keys(given.model)) {
+    const std::string flag = key->flag;
+    const auto text = given.texts.find(flag);
+    const auto truth = given.truths.find(flag);
+    if (text != given.texts.end() && !text->second.empty()) overrides.push_back({key->name, flag, text->second});
+    if (truth != given.truths.end() && truth->second) {
+      overrides.push_back({key->name, flag, flag.starts_with("--no-") ? "false" : "true"});
+    }
+  }
+  return overrides;
+}
+
+void add_scene_argument(Command& command, std::string& source, bool required) {
+  command.add({.name = "SCENE",
+               .target = &source,
+               .type = "FILE",
+               .help = "scene file (TOML), or the name of a case",
+               .required = required});
+}
+
+void add_scene_flags(Command& command, SceneFlags& given, Model model) {
+  const char* const group = "Scene (alone, or each in place of its key in SCENE)";
+  given.model = model;
+  add_scene_argument(command, given.source, false);
+  for (const Key* key : flag_keys(model)) {
+    if (key->is_truth()) command.add_flag(key->flag, given.truths[key->flag], key->help, group);
+    else command.add_text(key->flag, given.texts[key->flag], key->type, key->help, group);
+  }
+}
+
+Scene read_scene_flags(const SceneFlags& given) {
+  const SceneValues values = scene_values(given.source);
+  return read_scene(values, overrides_of(given), given.model);
+}
+
+PreparedScene read_discrete_flags(const SceneFlags& given) {
+  return read_discrete_scene(scene_values(given.source), overrides_of(given));
+}
+
+bool is_given(const SceneFlags& given, const std::string& name) { return !given.texts.at(name).empty(); }
+
+namespace {
+
+using std::filesystem::path;
+
+const char* const script_option = "--plot-script";
+
+PictureFormat format_of(const std::string& file) {
+  const std::string extension = path(file).extension().string();
+  if (extension == ".svg") return PictureFormat::svg;
+  if (extension == ".png") return PictureFormat::png;
+  throw BadInput(fmt::format("--plot {}: the name must end in .svg or .png", file));
+}
+
+}  // namespace
+
+void add_plot_options(Command& command, PlotChoice& choice) {
+  command.add_text("--plot", choice.path, "FILE", "also a picture, .svg or .png (needs gnuplot)", "Output");
+  command.add_flag(script_option, choice.script, "and beside it the gnuplot script that draws it", "Output");
+}
+
+std::vector<std::string> run_words(const std::string& command, const std::string& what, const Scene& scene,
+                                   Model model) {
+  return {headline(command, what), scene_line(scene, model)};
+}
+
+void add_window_option(Command& command, std::optional<TimeWindow>& window, const std::string& of) {
+  const std::string help = "times " + of + ", in s after the first touch-down";
+  command.add(read_argument("--window", window, read_window, "FROM:TO", help, "Output"));
+}
+
+std::vector<RunFile> plot_files(const PlotChoice& choice) {
+  if (choice.path.empty()) {
+    if (choice.script)
+      throw BadInput(fmt::format("{}: needs --plot FILE, beside which the script is kept", script_option));
+    return {};
+  }
+  std::vector<RunFile> files{{"--plot", choice.path}};
+  if (choice.script) files.push_back({script_option, path(choice.path).replace_extension(".gnuplot").string()});
+  return files;
+}
+
+PlotFile::PlotFile(const PlotChoice& choice) {
+  const std::vector<RunFile> files = plot_files(choice);
+  if (files.empty()) return;
+  path_ = files[0].path;
+  format_ = format_of(path_);
+  if (choice.script) script_path_ = files[1].path;
+  picture_.emplace(path_, "--plot");
+  if (choice.script) script_.emplace(script_path_, script_option);
+  require_gnuplot("--plot " + path_, terminal_name(format_));
+}
+
+void PlotFile::write(const Picture& picture, const std::vector<std::string>& head) {
+  if (!picture_) return;
+  picture_->write(run_gnuplot(picture_script(picture, format_, "")));
+  if (script_) {
+    std::string text;
+    for (const std::string& line : head) text += "# " + printable(line) + "\n";
+    const std::string name = path(path_).filename().string();
+    text +=
+        fmt::format("# `gnuplot {}` in this folder writes {} again.\n", path(script_path_).filename().string(), name);
+    script_->write(text + picture_script(picture, format_, name));
+    script_->commit();
+  }
+  picture_->commit();
+}
+
+void PlotFile::leave_out(const std::string& reason) const {
+  if (picture_) say(fmt::format("--plot {}: no picture: {}", path_, reason));
+}
+
+}  // namespace clatter::validation

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Checks: what is claimed, who judges it, how far the two may be apart; which of them run, and what comes of it.
+#pragma once
+
+#include <cmath>
+#include <functional>
+#include <initializer_list>
+#include <limits>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "validation/compare/case_runs.hpp"
+#include "validation/output/number.hpp"
+
+namespace clatter::validation {
+
+/// What a measurement says of a claim.
+enum class Finding {
+  holds,
+  refuted,    ///< the number is another one
+  ambiguous,  ///< the text leaves open what it means; the number says what each reading gives
+};
+[[nodiscard]] const char* answer_name(Finding answer);
+/// The answer to a claim in words, given whether the inequality that it states holds.
+[[nodiscard]] inline Finding holds_if(bool claim) { return claim ? Finding::holds : Finding::refuted; }
+/// The answer to a claim that prints a number: `value` must round to `printed`, whose last digit counts `unit`.
+[[nodiscard]] inline Finding rounds_to(double value, double printed, double unit) {
+  return holds_if(std::fabs(value - printed) <= unit / 2);
+}
+/// A number as the words on a finding show it, to `digits` significant digits.
+[[nodiscard]] inline std::string number(double value, int digits = 5) { return significant(value, digits); }
+
+/// One row of validation/evidence/checks.toml.
+struct Check {
+  std::string id;  ///< C1 … C20 claims, E1 … E11 errata, F7 … F24 figures, X… exact results, M… scenes, R… random, B…
+                   ///< error bars, S… the discrete model in space
+  std::string what;    ///< in a few words
+  std::string claim;   ///< in full
+  std::string number;  ///< which number is measured
+  std::string unit;
+  std::string oracle;               ///< closed form, 30-digit table, conservation law, other model, convergence
+  std::string error;                ///< how the error is formed
+  double seen = 0;                  ///< error when the tolerance was set; at least one unit in the last place
+  double tolerance = 0;             ///< the error may be this; at most 5 × seen
+  std::string reason;               ///< of the tolerance
+  Finding answer = Finding::holds;  ///< expected
+  bool quick = true;                ///< belongs to --quick
+  std::optional<int> figure;
+  std::string command;  ///< that shows the number
+};
+
+/// The table.  @throws std::runtime_error if it is not sound (an id twice, a tolerance above 5 × seen …).
+[[nodiscard]] const std::vector<Check>& all_checks();
+
+/// What a measurement found.
+struct Measured {
+  double number = 0;
+  double error = 0;  ///< against the oracle
+  Finding answer = Finding::holds;
+  std::string found;  ///< in words, with further numbers
+};
+
+/// The largest of the errors taken.  It is no number if none was taken or one is no number, so that no check passes on
+/// nothing.
+class WorstError {
+ public:
+  /// Whether an error is the worst so far.
+  bool take(double error) {
+    if (!(error > worst_) && !std::isnan(error)) return false;
+    worst_ = error;
+    return true;
+  }
+  [[nodiscard]] double value() const { return worst_ >= 0 ? worst_ : std::numeric_limits<double>::quiet_NaN(); }
+
+ private:
+  double worst_ = -1;
+};
+/// The largest of `errors`; no number if one is none.
+[[nodiscard]] inline double worst_of(std::initializer_list<double> errors) {
+  WorstError worst;
+  for (const double error : errors) worst.take(error);
+  return worst.value();
+}
+
+using Measure = std::function<Measured(CaseRuns&)>;
+/// The measurement of each check, by its id.
+using CheckMeasures = std::map<std::string, Measure>;
+
+/// The measures of a group: claims C, errata E, exact results and tracked drops X, figures F, scenes M and R, error
+/// bars B, the discrete model in space S.
+[[nodiscard]] CheckMeasures claim_measures();
+[[nodiscard]] CheckMeasures erratum_measures();
+[[nodiscard]] CheckMeasures exact_measures();
+[[nodiscard]] CheckMeasures figure_measures();
+[[nodiscard]] CheckMeasures model_measures();
+[[nodiscard]] CheckMeasures bar_measures();
+[[nodiscard]] CheckMeasures space_measures();
+
+/// Checks that were chosen.
+struct CheckSelection {
+  std::vector<const Check*> checks;  ///< in the order of the table
+  std::string words;                 ///< "quick set: 77 checks of 78"
+};
+
+/// All checks; `quick`: without those that take long; or those named in `only`.
+/// @throws BadInput for an unknown name, with the nearest, or if both are given.
+[[nodiscard]] CheckSelection select_checks(bool quick, const std::vector<std::string>& only);
+
+/// What became of a check.
+struct CheckResult {
+  const Check* check = nullptr;
+  Measured measured{};
+  double seconds = 0;     ///< processor time of the thread [s]; work shared with other checks falls to the first
+  std::string failure{};  ///< why it failed; empty: passed
+  bool done = false;      ///< false: an interrupt came first
+  [[nodiscard]] bool passed() const { return done && failure.empty(); }
+};
+
+/// Runs `checks` with as many threads as the machine has; results in the order of the checks.
+/// A check passes if its error is within the tolerance and the answer is the one that the table expects.
+/// @param progress called with (done, of, id), from any thread but never at once; return false to end early.
+[[nodiscard]] std::vector<CheckResult> verify_checks(
+    const std::vector<const Check*>& checks, CaseRuns& case_runs,
+    const std::function<bool(std::size_t, std::size_t, const std::string&)>& progress);
+
+}  // namespace clatter::validation

@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "validation/evidence/figure.hpp"
+
+#include <fmt/format.h>
+
+#include <cstring>
+#include <filesystem>
+#include <iterator>
+#include <set>
+#include <stdexcept>
+
+#include "validation/output/bad_input.hpp"
+#include "validation/output/gnuplot.hpp"
+#include "validation/output/json.hpp"
+#include "validation/output/picture.hpp"
+#include "validation/output/sink.hpp"
+#include "validation/output/version.hpp"
+
+namespace clatter::validation {
+
+std::string Figure::label(const std::string& words, const std::string& column) const {
+  std::string unit = columns[column_index(columns, column)].unit;
+  for (const auto& [from, to] : {std::pair{"deg", "°"}, {"1", "–"}, {"N s", "N·s"}, {"|v_n|", "|vₙ|"}}) {
+    if (const std::size_t at = unit.find(from); at != std::string::npos) unit.replace(at, std::strlen(from), to);
+  }
+  return fmt::format("{} [{}]", words, unit);
+}
+
+std::string Figure::command() const { return fmt::format("clatter figures --only {} --output DIR", number); }
+
+const std::vector<int>& figure_numbers() {
+  static const std::vector<int> numbers{7, 8, 9, 10, 11, 12, 14, 15, 16, 17, 19, 20, 21, 22, 23, 24};
+  return numbers;
+}
+
+Figure make_figure(int number, CaseRuns& case_runs) {
+  switch (number) {
+    case 7: return figure_second_angle();
+    case 8: return figure_rod_positions();
+    case 9: return figure_two_impulses();
+    case 10: return figure_both_angles();
+    case 11: return figure_angles_with_gravity();
+    case 12: return figure_impulses_with_gravity();
+    case 14: return figure_rod_over_angle(case_runs);
+    case 15: return figure_rod_over_friction(case_runs);
+    case 16: return figure_rod_contact(case_runs);
+    case 17: return figure_rod_sequence(case_runs);
+    case 19: return figure_phone_history(case_runs, false);
+    case 20: return figure_phone_impacts(case_runs, false);
+    case 21: return figure_phone_history(case_runs, true);
+    case 22: return figure_phone_impacts(case_runs, true);
+    case 23: return figure_phone_energies(case_runs);
+    case 24: return figure_phone_over_angle(case_runs);
+    default: throw std::out_of_range(fmt::format("no figure {}", number));
+  }
+}
+
+Report figure_report(const Figure& figure) {
+  Report report;
+  report.title = fmt::format("Figure {}: {}", figure.number, figure.title);
+  report.head = {"scene: " + figure.scene, "command: " + figure.command(), std::string("clatter ") + version};
+  report.remarks = report.head;
+  report.explains_columns = true;
+  Value::List plots;
+  for (const FigurePlot& plot : figure.plots) {
+    plots.push_back(plot_fields(plot));
+    report.remarks.push_back("plot: " + compact_json(plots.back()));
+  }
+  for (const FigureColumn& column : figure.columns) {
+    report.grid.columns.push_back({column.name, column.name, column.unit == "1" ? "" : column.unit, column.quantity});
+  }
+  for (const std::vector<double>& row : figure.rows) report.grid.rows.emplace_back(row.begin(), row.end());
+  report.fields = Value::Fields{{"clatter", version},
+                                {"figure", figure.number},
+                                {"title", figure.title},
+                                {"scene", figure.scene},
+                                {"command", figure.command()},
+                                {"plots", plots},
+                                {"rows", row_objects(report.grid)}};
+  return report;
+}
+
+void make_folder(const std::string& folder, const std::string& option) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (std::filesystem::is_directory(folder, error)) return;
+  throw BadInput(fmt::format("{} {}: must be a folder that exists or can be made", option, folder));
+}
+
+std::string FigureFiles::path(int number) const {
+  const char* const extensions[]{"txt", "csv", "json", "md", "tex"};  // in the order of Format
+  const char* const extension = extensions[static_cast<std::size_t>(style.format)];
+  return (std::filesystem::path(folder) / fmt::format("figure_{:02}.{}", number, extension)).string();
+}
+
+void check_figure_files(const std::vector<int>& numbers, const FigureFiles& figures) {
+  for (const int number : std::set<int>(numbers.begin(), numbers.end()))
+    require_writable({"--output", figures.path(number)});
+}
+
+void write_figure(const Figure& figure, const FigureFiles& files) {
+  Sink sink(files.path(figure.number));
+  sink.write(report_text(figure_report(figure), files.style));
+  sink.commit();
+}
+
+namespace {
+
+std::string script(const Figure& figure, const FigurePlot& plot, std::size_t index) {
+  const PlotData data{figure.columns, figure.rows};
+  return fmt::format(
+             "set encoding utf8\nset terminal svg size 560,380 dynamic font 'sans-serif,13' background '#ffffff' name "
+             "'f{}_{}'\n"
+             "{}set key outside top center horizontal samplen 1.5\nset boxwidth 0.6\n",
+             figure.number, index, axes_style) +
+         fmt::format("set ylabel {}\n", gnuplot_quoted(plot.y_label)) + axes_text(data, plot) +
+         data_blocks(data, plot, "$d") + plot_command(data, plot, "$d");
+}
+
+/// Without the declarations that only a file of its own may have.
+std::string element(const std::string& svg) {
+  const std::size_t begin = svg.find("<svg");
+  if (begin == std::string::npos) throw std::runtime_error("gnuplot drew nothing: " + svg.substr(0, 200));
+  return svg.substr(begin);
+}
+
+}  // namespace
+
+std::vector<std::string> draw(const Figure& figure) {
+  std::vector<FigurePlot> plots;
+  for (const FigurePlot& plot : figure.plots) {
+    plots.push_back(plot);
+    if (!plot.zoom) continue;
+    plots.push_back(plot);
+    plots.back().title += (plot.title.empty() ? "" : ", ") + plot.zoom->title;
+    plots.back().x = plot.zoom->x;
+    plots.back().y.high = no_number;
+  }
+  std::vector<std::string> pictures;
+  for (std::size_t i = 0; i < plots.size(); ++i) {
+    pictures.push_back(element(run_gnuplot(script(figure, plots[i], i))));
+  }
+  return pictures;
+}
+
+}  // namespace clatter::validation

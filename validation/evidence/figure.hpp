@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The paper's figures as data: columns, rows, and which of them to draw against which.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "validation/compare/case_runs.hpp"
+#include "validation/output/plot.hpp"
+#include "validation/output/report.hpp"
+
+namespace clatter::validation {
+
+struct Figure {
+  int number = 0;  ///< of the paper
+  std::string title;
+  std::string scene;  ///< what was dropped how, or the scene file
+  std::vector<FigureColumn> columns;
+  std::vector<std::vector<double>> rows = {};  ///< NaN: no value
+  std::vector<FigurePlot> plots = {};
+
+  /// "WORDS [UNIT]", the unit that of a column, with its symbol.
+  [[nodiscard]] std::string label(const std::string& words, const std::string& column) const;
+  /// "clatter figures --only N --output DIR".
+  [[nodiscard]] std::string command() const;
+};
+
+/// 7 to 12, 14 to 17, 19 to 24.
+[[nodiscard]] const std::vector<int>& figure_numbers();
+/// @throws std::out_of_range for a number that is not among them.
+[[nodiscard]] Figure make_figure(int number, CaseRuns& case_runs);
+
+/// Its title, scene and command, and its rows; CSV explains each column, and says in a line "plot: JSON" how each panel
+/// is drawn, as JSON does in the list "plots".
+[[nodiscard]] Report figure_report(const Figure& figure);
+
+// The figures one by one; make_figure() chooses.
+
+/// Positions of the rod in its first flight (Fig. 8).
+[[nodiscard]] Figure figure_rod_positions();
+
+/// β(θ) (Fig. 7); P₁, P₂ (Fig. 9); β, γ (Fig. 10); the same with gravity (Figs. 11, 12).
+[[nodiscard]] Figure figure_second_angle();
+[[nodiscard]] Figure figure_two_impulses();
+[[nodiscard]] Figure figure_both_angles();
+[[nodiscard]] Figure figure_angles_with_gravity();
+[[nodiscard]] Figure figure_impulses_with_gravity();
+
+/// The rod over the angle (Fig. 14) and over friction (Fig. 15), the course of its first contact (Fig. 16), several
+/// impacts (Fig. 17).
+[[nodiscard]] Figure figure_rod_over_angle(CaseRuns& case_runs);
+[[nodiscard]] Figure figure_rod_over_friction(CaseRuns& case_runs);
+[[nodiscard]] Figure figure_rod_contact(CaseRuns& case_runs);
+[[nodiscard]] Figure figure_rod_sequence(CaseRuns& case_runs);
+
+/// The elastic phone (Figs. 19, 20), the damped one (Figs. 21 to 23), the damped one over the angle (Fig. 24).
+[[nodiscard]] Figure figure_phone_history(CaseRuns& case_runs, bool damped);
+[[nodiscard]] Figure figure_phone_impacts(CaseRuns& case_runs, bool damped);
+[[nodiscard]] Figure figure_phone_energies(CaseRuns& case_runs);
+[[nodiscard]] Figure figure_phone_over_angle(CaseRuns& case_runs);
+
+// Figures as files.
+
+/// Creates the folder if it is not there.  @throws BadInput if it cannot be, or is a file.
+void make_folder(const std::string& folder, const std::string& option);
+
+/// Where figures go, and in what form.
+struct FigureFiles {
+  std::string folder;
+  TextStyle style;
+
+  /// FOLDER/figure_07.csv, or .txt, .json, .md, .tex.
+  [[nodiscard]] std::string path(int number) const;
+};
+
+/// @throws BadInput if a file of these figures cannot be written, or two of them are one by links.
+void check_figure_files(const std::vector<int>& numbers, const FigureFiles& files);
+
+/// Writes the figure's file, whole or not at all.  @throws BadInput naming the file if it cannot be written.
+void write_figure(const Figure& figure, const FigureFiles& files);
+
+// The paper's figures as SVG, drawn by gnuplot.
+
+/// One SVG element per plot of the figure, a zoom after its plot, ready to stand in an HTML page.
+/// @throws as run_gnuplot.
+[[nodiscard]] std::vector<std::string> draw(const Figure& figure);
+
+}  // namespace clatter::validation

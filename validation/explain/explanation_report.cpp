@@ -1,0 +1,235 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "validation/explain/explanation_report.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "validation/explain/formula_text.hpp"
+#include "validation/output/number.hpp"
+#include "validation/output/symbols.hpp"
+#include "validation/output/version.hpp"
+#include "validation/run/scene_value.hpp"
+#include "validation/scene/body_properties.hpp"
+
+namespace clatter::validation {
+namespace {
+
+/// An equation in its parts; numbers are left out where they would only repeat the value.
+struct Parts {
+  std::string name, formula{}, numbers{}, value, words;
+};
+Parts parts_of(const Equation& equation, const FormulaWriter& writer) {
+  Parts parts{.name = writer.symbol(equation.quantity),
+              .value = writer.value(equation.quantity),
+              .words = writer.words(equation.words)};
+  if (equation.formula.empty()) return parts;
+  const Expression& formula = equation.formula.front();
+  parts.formula = writer.formula(formula);
+  if (formula->operation != Operation::quantity) parts.numbers = writer.numbers(formula);
+  return parts;
+}
+
+std::string joined(const Parts& parts, const std::string& between) {
+  std::string line = parts.name;
+  for (const std::string& part : {parts.formula, parts.numbers, parts.value}) {
+    if (!part.empty()) line += (line.size() == parts.name.size() ? " = " : between) + part;
+  }
+  return line;
+}
+
+std::string law_text(const Law& law, const FormulaWriter& writer, const std::string& equals) {
+  return writer.formula(law.left) + equals + writer.formula(law.right);
+}
+
+constexpr std::size_t text_width = 79;
+
+/// "name = formula", and "= numbers" and "= value, words" below it.
+std::string equation_lines(const Parts& parts, std::size_t name_width) {
+  const std::string pad(name_width - std::min(name_width, display_width(parts.name)) + 2, ' ');
+  const std::string below(name_width + 2, ' '), room(name_width + 5, ' ');
+  const std::string words = parts.words.empty() ? "" : ", " + parts.words;
+  const auto first = [&](const std::string& text) {
+    return pad + parts.name + " = " + wrapped(room + text, text_width, "").substr(room.size()) + "\n";
+  };
+  const auto under = [&](const std::string& text) { return wrapped(below + " = " + text, text_width, "   ") + "\n"; };
+  if (parts.formula.empty()) return first(parts.value + words);
+  if (parts.numbers.empty()) return first(parts.formula + " = " + parts.value + words);
+  return first(parts.formula) + under(parts.numbers) + under(parts.value + words);
+}
+
+std::string as_text(const Explanation& explanation, const std::vector<std::string>& head, bool ascii) {
+  const FormulaWriter writer(Notation::text, explanation.scene.accuracy.digits);
+  const auto plain = [&](const std::string& text) { return ascii ? to_ascii(text) : text; };  // of another width
+  std::string out;
+  for (const std::string& line : head) out += wrapped(plain(line)) + "\n";
+  for (const Step& step : explanation.steps) {
+    out += "\n" + plain(step.title) + "\n";
+    if (!step.words.empty()) out += wrapped("  " + plain(writer.words(step.words)), text_width, "") + "\n";
+    for (const Law& law : step.laws) out += wrapped("    " + plain(law_text(law, writer, " = ")), text_width) + "\n";
+    std::vector<Parts> all;
+    std::size_t name_width = 0;
+    for (const Equation& equation : step.equations) {
+      Parts parts = parts_of(equation, writer);
+      for (std::string* part : {&parts.name, &parts.formula, &parts.numbers, &parts.value, &parts.words})
+        *part = plain(*part);
+      name_width = std::max(name_width, display_width(parts.name));
+      all.push_back(std::move(parts));
+    }
+    for (const Parts& parts : all) out += equation_lines(parts, name_width);
+  }
+  return out;
+}
+
+std::string as_markdown(const Explanation& explanation, const std::vector<std::string>& head) {
+  const FormulaWriter writer(Notation::text, explanation.scene.accuracy.digits);
+  std::string out;
+  for (const std::string& line : head) out += line + "  \n";
+  for (const Step& step : explanation.steps) {
+    out += "\n### " + step.title + "\n\n";
+    if (!step.words.empty()) out += writer.words(step.words) + "\n\n";
+    for (const Law& law : step.laws) out += "> `" + law_text(law, writer, " = ") + "`  \n";
+    if (!step.laws.empty()) out += "\n";
+    for (const Equation& equation : step.equations) {
+      const Parts parts = parts_of(equation, writer);
+      out += "- `" + joined(parts, " = ") + "`" + (parts.words.empty() ? "" : ", " + parts.words) + "\n";
+    }
+  }
+  return out;
+}
+
+/// "NAME &= FORMULA", then numbers and value on lines of their own.
+std::string equation_tex(const Parts& parts) {
+  std::string tex = parts.name, between = " &= ";
+  for (const std::string& part : {parts.formula, parts.numbers, parts.value}) {
+    if (part.empty()) continue;
+    tex += between + part;
+    between = " \\\\ &= ";
+  }
+  return tex;
+}
+
+/// The head as comments, then a paragraph with aligned equations for each step.
+std::string as_latex(const Explanation& explanation, const std::vector<std::string>& head) {
+  const FormulaWriter writer(Notation::tex, explanation.scene.accuracy.digits);
+  std::string out;
+  for (const std::string& line : head) out += "% " + line + "\n";
+  out += "% needs \\usepackage{amsmath}\n";
+  for (const Step& step : explanation.steps) {
+    out += "\n\\paragraph{" + to_latex(step.title) + "}" + (step.words.empty() ? "" : " ") + writer.words(step.words) +
+           "\n";
+    std::string lines;
+    for (const Law& law : step.laws) lines += (lines.empty() ? "  " : " \\\\\n  ") + law_text(law, writer, " &= ");
+    if (!lines.empty()) out += "\\begin{align*}\n" + lines + "\n\\end{align*}\n";
+    lines.clear();
+    for (const Equation& equation : step.equations) {
+      const Parts parts = parts_of(equation, writer);
+      lines += (lines.empty() ? "  " : " \\\\\n  ") + equation_tex(parts) +
+               (parts.words.empty() ? "" : " && \\text{" + parts.words + "}");
+    }
+    if (!lines.empty()) out += "\\begin{align*}\n" + lines + "\n\\end{align*}\n";
+  }
+  return out;
+}
+
+/// A number, a list of components, or of rows.
+Value value_of(const Eigen::MatrixXd& matrix) {
+  if (matrix.size() == 1) return matrix(0, 0);
+  Value::List rows;
+  for (Eigen::Index i = 0; i < matrix.rows(); ++i) {
+    const Eigen::VectorXd row = matrix.row(i);
+    if (matrix.cols() == 1) rows.emplace_back(row(0));
+    else rows.emplace_back(std::vector<double>(row.begin(), row.end()));
+  }
+  return rows;
+}
+
+/// "_x" of a vector, "_xz" of a matrix.
+std::string component_name(const Eigen::MatrixXd& matrix, Eigen::Index i, Eigen::Index k) {
+  if (matrix.size() == 1) return "";
+  const char* const axes = matrix.rows() == 4 ? "0123" : "xyz";
+  return matrix.cols() == 1 ? fmt::format("_{}", axes[i]) : fmt::format("_{}{}", axes[i], axes[k]);
+}
+
+Value equation_fields(const Equation& equation, int digits) {
+  const Parts text = parts_of(equation, {Notation::text, digits}), tex = parts_of(equation, {Notation::tex, digits});
+  return Value::Fields{{"name", text.name},
+                       {"symbolic", text.formula},
+                       {"numeric", text.numbers},
+                       {"tex", equation_tex(tex)},
+                       {"words", text.words},
+                       {"value", value_of(equation.quantity.value)},
+                       {"error", rounded_up(equation.quantity.error)},
+                       {"unit", equation.quantity.unit}};
+}
+
+}  // namespace
+
+std::vector<Column> explain_columns() {
+  return {{"step", "", "", "title of the step"},
+          {"quantity", "", "", "name of the number"},
+          {"equation", "", "", "that it follows from"},
+          {"numbers", "", "", "the same with its numbers"},
+          {"value", "", "", "in `unit`"},
+          {"unit", "", "", "of the value"},
+          {"error", "", "", "of the value"}};
+}
+
+Value explanation_fields(const Explanation& explanation) {
+  const int digits = std::max(explanation.scene.accuracy.digits, 6);  // a drawing of few digits still tells its numbers
+  const FormulaWriter text(Notation::text, digits), tex(Notation::tex, digits);
+  Value::List steps;
+  for (const Step& step : explanation.steps) {
+    Value::List laws, equations;
+    for (const Law& law : step.laws)
+      laws.push_back(Value::Fields{{"symbolic", law_text(law, text, " = ")}, {"tex", law_text(law, tex, " &= ")}});
+    for (const Equation& equation : step.equations) equations.push_back(equation_fields(equation, digits));
+    steps.push_back(Value::Fields{
+        {"title", step.title}, {"text", text.words(step.words)}, {"laws", laws}, {"equations", equations}});
+  }
+  return Value::Fields{{"clatter", version},
+                       {"model", "discrete"},
+                       {"scene", scene_value(explanation.scene, Model::discrete, explanation.approach_speed)},
+                       {"body", body_value(explanation.scene, Model::discrete)},
+                       {"impact", explanation.impact},
+                       {"shortfall", text_or_nothing(explanation.shortfall)},
+                       {"steps", steps}};
+}
+
+Report explanation_report(const Explanation& explanation) {
+  Report report = begun_report("explain", fmt::format("impact {} step by step", explanation.impact));
+  report.head = scene_head(explanation.scene, Model::discrete, explanation.approach_speed);
+  report.fields = explanation_fields(explanation);
+  report.grid.columns = explain_columns();
+  const FormulaWriter writer(Notation::text, explanation.scene.accuracy.digits);
+  for (const Step& step : explanation.steps) {
+    for (const Equation& equation : step.equations) {
+      const Parts parts = parts_of(equation, writer);
+      const Quantity& quantity = equation.quantity;
+      for (Eigen::Index i = 0; i < quantity.value.rows(); ++i) {
+        for (Eigen::Index k = 0; k < quantity.value.cols(); ++k) {
+          report.grid.rows.push_back({Cell(step.title), Cell(parts.name + component_name(quantity.value, i, k)),
+                                      Cell(parts.formula), Cell(parts.numbers), Cell(Value(quantity.value(i, k))),
+                                      Cell(quantity.unit), Cell(rounded_up(quantity.error))});
+        }
+      }
+    }
+  }
+  return report;
+}
+
+std::string explanation_text(const Explanation& explanation, const TextStyle& style) {
+  const Report report = explanation_report(explanation);
+  std::vector<std::string> head{report.title};
+  head.insert(head.end(), report.head.begin(), report.head.end());
+  switch (style.format) {
+    case Format::markdown: return as_markdown(explanation, head);
+    case Format::latex: return as_latex(explanation, head);
+    case Format::table: return as_text(explanation, head, style.ascii);
+    case Format::json:
+    case Format::csv: break;
+  }
+  return report_text(report, style);
+}
+
+}  // namespace clatter::validation

@@ -1,0 +1,291 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "validation/program/parser.hpp"
+
+#include <fmt/format.h>
+#include <CLI/CLI.hpp>
+
+#include <algorithm>
+#include <deque>
+#include <set>
+#include <sstream>
+
+#include "validation/output/bad_input.hpp"
+#include "validation/output/report.hpp"
+#include "validation/output/version.hpp"
+#include "validation/scene/keys.hpp"
+
+namespace clatter::validation {
+
+namespace {
+
+/// What stands before a command: the program's own options.
+const Command& program_options() {
+  static bool version = false;  // the parser has the target that counts
+  static const Command options = [] {
+    Command program;
+    program.add_flag("--version", version, "");
+    return program;
+  }();
+  return options;
+}
+
+const Command& find_command(const std::vector<Command>& commands, const std::string& name) {
+  std::vector<std::string> names{"help"};
+  for (const Command& command : commands) {
+    if (command.name == name) return command;
+    names.push_back(command.name);
+  }
+  throw BadInput(fmt::format("command '{}': unknown; did you mean {}?", name, nearest_name(name, names)));
+}
+
+/// A flag of scenes where scenes are varied by their keys instead.
+/// @throws BadInput saying how
+void require_scene_by_keys(const Command& command, const std::string& name) {
+  const std::vector<std::string> names = command.option_names();
+  if (std::find(names.begin(), names.end(), "--set") == names.end()) return;
+  for (const Key& key : all_keys()) {
+    if (key.flag != name) continue;
+    throw BadInput(fmt::format("{}: {} takes a scene and its keys, as in clatter {} rod-10 --set {}=...", name,
+                               command.name, command.name, key.name));
+  }
+}
+
+/// The argument of that name; none for --help, which every command has.
+const Argument* find_option(const Command& command, const std::string& name) {
+  if (name == "--help") return nullptr;
+  for (const Argument& argument : command.arguments) {
+    if (argument.name == name && argument.is_option()) return &argument;
+  }
+  static const std::set<std::string> of_simulator{"--tolerance", "--step", "--history", "--planar"};
+  if (command.name == "sequence" && of_simulator.contains(name)) {
+    throw BadInput(fmt::format("{}: is the simulator's; the discrete model has no such option", name));
+  }
+  require_scene_by_keys(command, name);
+  if (command.name == "angles" && name == "--angle")
+    throw BadInput("--angle: angles takes a range of them, --from, --to and --step");
+  throw BadInput(fmt::format("option {}: unknown{}; did you mean {}?", name,
+                             command.name.empty() ? "" : " for " + command.name,
+                             nearest_name(name, command.option_names())));
+}
+
+/// Takes one command's arguments apart.
+class Scan {
+ public:
+  Scan(const Command& command, std::vector<std::string>& out) : command_(command), out_(out) {}
+
+  void option(const std::string& argument, const std::string* next, bool& used_next) {
+    const std::size_t equal = argument.find('=');
+    const std::string name = argument.substr(0, equal);
+    const Argument* option = find_option(command_, name);
+    const bool may_repeat = option && option->repeats;
+    if (!seen_.insert(name).second && !may_repeat) throw BadInput(fmt::format("{}: given twice", name));
+    list_ = option && option->is_list() ? name : "";
+    if (!option || option->is_flag()) {
+      if (equal != std::string::npos) throw BadInput(fmt::format("{}: takes no value", name));
+      out_.push_back(name);
+      return;
+    }
+    used_next = equal == std::string::npos;
+    if (used_next && (next == nullptr || next->starts_with("--"))) {
+      throw BadInput(fmt::format("{}: needs a value", name));
+    }
+    const std::string value = used_next ? *next : argument.substr(equal + 1);
+    if (value.empty()) throw BadInput(fmt::format("{} '': the value is empty", name));
+    out_.push_back(name + "=" + value);
+  }
+
+  /// A value of the list before it, or an argument of its own.
+  void positional(const std::string& argument) {
+    if (!list_.empty()) {
+      if (argument.empty()) throw BadInput(fmt::format("{} '': the value is empty", list_));
+      out_.push_back(list_ + "=" + argument);
+      return;
+    }
+    std::size_t allowed = 0;
+    bool takes_many = false;
+    for (const Argument& one : command_.arguments) {
+      allowed += one.is_option() ? 0 : 1;
+      takes_many = takes_many || (!one.is_option() && one.is_list());
+    }
+    if (++positionals_ > allowed && !takes_many) {
+      throw BadInput(fmt::format("'{}': unexpected argument for {}", argument, command_.name));
+    }
+    out_.push_back(argument);
+  }
+
+ private:
+  const Command& command_;
+  std::vector<std::string>& out_;
+  std::set<std::string> seen_;
+  std::size_t positionals_ = 0;
+  std::string list_;  ///< option whose values may go on; empty: none
+};
+
+/// "-5" is a value that stands alone; "-x" is no option of this program.
+bool is_short_option(const std::string& argument) {
+  return argument.size() > 1 && argument[0] == '-' && argument[1] != '-' &&
+         std::isalpha(static_cast<unsigned char>(argument[1])) != 0;
+}
+
+/// Checks the arguments against the commands and joins each option with its value as "--name=value", so that a value
+/// may begin with a minus sign.
+/// @throws BadInput with one line.
+std::vector<std::string> checked_arguments(const std::vector<Command>& commands,
+                                           const std::vector<std::string>& arguments) {
+  std::vector<std::string> out;
+  const Command* command = &program_options();
+  std::size_t begin = 0;
+  if (!arguments[0].starts_with('-')) {
+    command = &find_command(commands, arguments[0]);
+    out.push_back(arguments[0]);
+    begin = 1;
+  }
+  Scan scan(*command, out);
+  for (std::size_t i = begin; i < arguments.size(); ++i) {
+    const std::string& argument = arguments[i];
+    bool used_next = false;
+    if (argument == "-h") out.push_back("--help");
+    else if (argument.starts_with("--") && argument.size() > 2) {
+      scan.option(argument, i + 1 < arguments.size() ? &arguments[i + 1] : nullptr, used_next);
+    } else if (is_short_option(argument)) {
+      throw BadInput(fmt::format("option {}: unknown; options begin with two dashes", argument));
+    } else if (begin == 0) {
+      throw BadInput(fmt::format("'{}': a command comes before its options", argument));
+    } else {
+      scan.positional(argument);
+    }
+    if (used_next) ++i;
+  }
+  return out;
+}
+
+/// Texts of arguments that have a reader, which wait until the whole line is known to be in order.
+struct WaitingText {
+  const Argument* argument;
+  std::string text{};
+  const CLI::Option* option = nullptr;
+};
+using Waiting = std::deque<WaitingText>;
+
+CLI::Option* add_value(CLI::App& app, const Argument& argument, Waiting& waiting) {
+  if (bool* const* truth = std::get_if<bool*>(&argument.target))
+    return app.add_flag(argument.name, **truth, argument.help);
+  const auto add = [&](auto& target) { return app.add_option(argument.name, target, argument.help); };
+  CLI::Option* option = nullptr;
+  if (auto* const* list = std::get_if<std::vector<std::string>*>(&argument.target)) option = add(**list);
+  else if (auto* const* text = std::get_if<std::string*>(&argument.target)) option = add(**text);
+  else {
+    WaitingText& waits = waiting.emplace_back(WaitingText{&argument});
+    waits.option = option = add(waits.text);
+  }
+  option->type_name(argument.type)->required(argument.required);
+  return option;
+}
+
+void add_command(CLI::App& app, const Command& command, Waiting& waiting) {
+  CLI::App* part = app.add_subcommand(command.name, command.help);
+  part->footer(command.footer);
+  for (const Argument& argument : command.arguments) {
+    CLI::Option* option = add_value(*part, argument, waiting);
+    if (!argument.group.empty()) option->group(argument.group);
+    if (argument.repeats) option->expected(1)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  }
+}
+
+/// `help NAME` is NAME --help.
+std::vector<std::string> with_help_as_flag(std::vector<std::string> given) {
+  if (given.empty() || given.front() != "help") return given;
+  given.erase(given.begin());
+  given.push_back("--help");
+  return given;
+}
+
+/// A line of help within the width of a terminal; what explains an option goes on below its explanation.
+std::string folded_line(const std::string& line) {
+  constexpr std::size_t width = 79;
+  if (display_width(line) <= width) return line;
+  const std::size_t name = line.find_first_not_of(' ');
+  const std::size_t end = name == 0 || name == std::string::npos ? std::string::npos : line.find("  ", name);
+  // A line of its own below a long name goes on where it begins.
+  if (end == std::string::npos) return wrapped(line, width, "");
+  const std::size_t words = line.find_first_not_of(' ', end);
+  const std::size_t column = display_width(line.substr(0, words));
+  const std::string indent(column, ' ');
+  std::istringstream explained(wrapped(line.substr(words), width - column, ""));
+  std::string out = line.substr(0, words), part;
+  for (bool first = true; std::getline(explained, part); first = false) out += (first ? "" : "\n" + indent) + part;
+  return out;
+}
+
+/// An example goes on in its next line as a shell reads it; other text of several wide lines is one paragraph.
+std::string folded(const std::vector<std::string>& lines) {
+  constexpr std::size_t width = 79;
+  std::string out;
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    std::string text = lines[i];
+    if (text.starts_with("Example: ")) {
+      out += folded_command(text);
+    } else if (text.empty() || text.starts_with(' ')) {
+      out += folded_line(text);
+    } else {
+      const auto goes_on = [&] { return i + 1 < lines.size() && !lines[i + 1].empty() && lines[i + 1][0] != ' '; };
+      while (display_width(lines[i]) > width && goes_on() && !lines[i + 1].starts_with("Ex")) text += " " + lines[++i];
+      out += wrapped(text, width, "");
+    }
+    out += "\n";
+  }
+  return out;
+}
+
+std::string help_of(const CLI::App& app) {
+  const auto chosen = app.get_subcommands();
+  std::istringstream text(chosen.empty() ? app.help() : chosen[0]->help(app.get_name()));
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(text, line);) lines.push_back(line);
+  return folded(lines);
+}
+
+/// For who calls the program without knowing more.
+std::string short_help(const std::vector<Command>& commands) {
+  std::string names;
+  for (const Command& command : commands) names += (names.empty() ? "" : ", ") + command.name;
+  return std::string("clatter ") + version + ": " + program_summary +
+         "\n\n"
+         "  clatter sequence --angle 10        impacts of a rod that falls at 10 degrees\n"
+         "  clatter simulate phone-damped      a phone on a yielding floor, with forces\n"
+         "  clatter demo phone-corner          a page to play with, in the browser\n\n" +
+         wrapped("Commands: " + names) + "\n\nclatter --help says what each does, clatter help COMMAND how.\n";
+}
+
+}  // namespace
+
+ParsedLine parse_line(const std::vector<Command>& commands, const std::vector<std::string>& given) {
+  if (given.empty()) return {.text = short_help(commands)};
+  CLI::App app(program_summary, "clatter");
+  app.footer(program_notes);
+  app.set_help_flag("--help", "print this help and exit");
+  bool show_version = false;
+  app.add_flag("--version", show_version, "print the version and exit");
+  Waiting waiting;
+  for (const Command& command : commands) add_command(app, command, waiting);
+  std::vector<std::string> arguments = checked_arguments(commands, with_help_as_flag(given));
+  std::reverse(arguments.begin(), arguments.end());  // as CLI11's parse(vector) wants them
+  try {
+    app.parse(arguments);
+  } catch (const CLI::CallForHelp&) {
+    return {.text = help_of(app)};
+  } catch (const CLI::ParseError& error) {
+    throw BadInput(error.what());
+  }
+  if (show_version) return {.text = std::string("clatter ") + version + "\n"};
+  const auto chosen = app.get_subcommands();
+  if (chosen.empty()) throw BadInput("a command is required; clatter --help lists them");
+  for (const auto& [argument, text, option] : waiting) {
+    if (option->count() > 0) std::get<Argument::Reader>(argument->target)(argument->name, text);
+  }
+  const auto found = std::find_if(commands.begin(), commands.end(),
+                                  [&](const Command& command) { return command.name == chosen[0]->get_name(); });
+  return {.command = &*found};
+}
+
+}  // namespace clatter::validation

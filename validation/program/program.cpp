@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "validation/program/program.hpp"
+
+#include "validation/output/bad_input.hpp"
+#include "validation/output/sink.hpp"
+#include "validation/program/parser.hpp"
+#include "validation/scene/failure.hpp"
+
+namespace clatter::validation {
+namespace {
+
+int parse_and_run(const std::vector<Command>& commands, const std::vector<std::string>& given) {
+  const ParsedLine line = parse_line(commands, given);
+  if (line.command && !line.command->run)
+    throw BadInput(line.command->name + ": is a command of the whole program, which this one comes before");
+  if (line.command) return line.command->run();
+  Sink sink("");
+  sink.write(line.text);
+  sink.commit();
+  return 0;
+}
+
+}  // namespace
+
+int guarded(const std::function<int()>& run) {
+  try {
+    return run();
+  } catch (const ReaderGone&) {
+    return 0;
+  } catch (...) {
+    const Failure failure = current_failure();
+    say(failure.message);
+    return exit_status(failure.kind);
+  }
+}
+
+int run_program(const std::vector<Command>& commands, const std::vector<std::string>& arguments) {
+  const NotedFiles noted;
+  return guarded([&] { return parse_and_run(commands, arguments); });
+}
+
+}  // namespace clatter::validation

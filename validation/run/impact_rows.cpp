@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "validation/run/impact_rows.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <span>
+#include <string_view>
+
+#include "validation/output/estimated.hpp"
+#include "validation/output/number.hpp"
+
+namespace clatter::validation {
+namespace {
+
+Value to_value(const Entry& entry) {
+  return std::visit(
+      [](const auto& content) -> Value {
+        using Content = std::decay_t<decltype(content)>;
+        constexpr bool is_list = std::is_same_v<Content, EntryVector> || std::is_same_v<Content, EntryParameters>;
+        if constexpr (is_list) return nullptr;
+        else return content;
+      },
+      entry);
+}
+
+/// The parts of a vector or of Euler parameters; empty: the entry is neither.
+std::span<const double> list_of(const Entry& entry) {
+  if (const auto* vector = std::get_if<EntryVector>(&entry)) return *vector;
+  if (const auto* parameters = std::get_if<EntryParameters>(&entry)) return *parameters;
+  return {};
+}
+
+bool contains(const std::vector<std::string>& names, const std::string& name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+/// Columns that an entry of this kind takes.
+std::size_t width_of(const Entry& entry) { return std::max<std::size_t>(list_of(entry).size(), 1); }
+
+constexpr const char* axes[] = {"x", "y", "z"};
+constexpr const char* parameters[] = {"q0", "q1", "q2", "q3"};
+
+void add_columns(const ImpactQuantity& quantity, const Entry& kind, const std::vector<std::string>& shown,
+                 std::vector<Column>& columns) {
+  if (list_of(kind).empty()) {
+    columns.push_back({.name = quantity.name,
+                       .heading = quantity.symbol,
+                       .unit = quantity.unit,
+                       .meaning = quantity.meaning,
+                       .shown = contains(shown, quantity.name)});
+    return;
+  }
+  std::string_view symbols(quantity.symbol);
+  const bool is_vector = width_of(kind) == 3;
+  for (const char* const part :
+       is_vector ? std::span<const char* const>(axes) : std::span<const char* const>(parameters)) {
+    const std::string_view symbol = symbols.substr(0, symbols.find(' '));
+    symbols.remove_prefix(std::min(symbol.size() + 1, symbols.size()));
+    const std::string name = fmt::format("{}_{}", quantity.name, part);
+    columns.push_back({.name = name,
+                       .heading = std::string(symbol),
+                       .unit = quantity.unit,
+                       .meaning = fmt::format("{}: {}", part, quantity.meaning),
+                       .shown = contains(shown, name),
+                       .key = quantity.name,
+                       .listed = true});
+  }
+}
+
+/// The part of an entry as a number; NaN: none.
+double part_of(const Entry& entry, std::size_t part) {
+  if (const auto list = list_of(entry); !list.empty()) return list[part];
+  const auto* number = std::get_if<double>(&entry);
+  return number ? *number : std::numeric_limits<double>::quiet_NaN();
+}
+
+/// Cells of a value, three of a vector.
+void add_cells(const ImpactQuantity& quantity, const Entry& value, const Entry& error, const ImpactDigits& digits,
+               Row& row) {
+  if (list_of(value).empty() && !std::holds_alternative<double>(value)) {
+    row.emplace_back(to_value(value));
+    return;
+  }
+  for (std::size_t part = 0; part < width_of(value); ++part) {
+    row.push_back(digits.cell(part_of(value, part), part_of(error, part), quantity.scale));
+  }
+}
+
+void add_errors(const Entry& error, Row& row) {
+  for (std::size_t part = 0; part < width_of(error); ++part) row.emplace_back(rounded_up(part_of(error, part)));
+}
+
+/// What the model knows of a quantity of the impact; a tail knows less.
+Known known_of(const ImpactQuantity& quantity, RunModel model, const Impact& impact) {
+  const Known known = quantity.known_to(model);
+  return impact.is_tail ? std::min(known, quantity.tail) : known;
+}
+
+void append_error(CellWriter& out, const Entry& entry) {
+  for (std::size_t part = 0; part < width_of(entry); ++part) out.error(part_of(entry, part));
+}
+
+void append_entry(CellWriter& out, const Entry& entry) {
+  for (const double part : list_of(entry)) out.number(part);
+  if (!list_of(entry).empty()) return;
+  if (const auto* number = std::get_if<double>(&entry)) out.number(*number);
+  else if (const auto* text = std::get_if<std::string>(&entry)) out.word(*text);
+  else if (const auto* whole = std::get_if<int>(&entry)) out.whole(*whole);
+  else if (const auto* truth = std::get_if<bool>(&entry)) out.truth(*truth);
+  else out.nothing();
+}
+
+}  // namespace
+
+Cell ImpactDigits::cell(double value, double error, Scale scale) const {
+  constexpr int without_estimate = 2;  // a tolerance of 1e-4 and less leaves them
+  if (!trusted) return {value, 0};
+  if (!estimated) return {value, without_estimate};
+  return known_cell({value, error}, {digits, scales[static_cast<std::size_t>(scale)]});
+}
+
+Scales scales_of(const Run& run, double reach) {
+  Scales scales{};
+  const auto grow = [&](Scale scale, double number) {
+    double& size = scales[static_cast<std::size_t>(scale)];
+    size = std::max(size, std::fabs(number));
+  };
+  grow(Scale::angle, 90);
+  grow(Scale::ratio, 1);
+  for (const Impact& impact : run.impacts) {
+    grow(Scale::speed, impact.largest_speed);
+    grow(Scale::rate, std::max(impact.largest_rate, impact.largest_speed / reach));
+    grow(Scale::time, impact.value.start);
+    for (const double part : impact.value.impulse) grow(Scale::impulse, part);
+    grow(Scale::energy, impact.value.energy_before);
+  }
+  return scales;
+}
+
+std::vector<Column> impact_columns(RunModel model, const std::vector<std::string>& shown) {
+  std::vector<Column> columns, errors;
+  for (const ImpactQuantity& quantity : impact_quantities()) {
+    const Known known = quantity.known_to(model);
+    if (known != Known::absent) add_columns(quantity, quantity.kind(), shown, columns);
+    if (known == Known::with_error) add_columns(quantity, quantity.kind(), {}, errors);
+  }
+  for (const Column& column : errors) columns.push_back(error_column(column));
+  return columns;
+}
+
+Row impact_row(const Impact& impact, RunModel model, const ImpactDigits& digits) {
+  Row row, errors;
+  for (const ImpactQuantity& quantity : impact_quantities()) {
+    const Known column = quantity.known_to(model), known = known_of(quantity, model, impact);
+    if (column == Known::absent) continue;
+    if (known >= Known::value_only) {
+      const Entry unknown(unknown_error), error = known == Known::with_error ? quantity.error(impact) : unknown;
+      add_cells(quantity, quantity.value(impact), error, digits, row);
+    } else {
+      row.resize(row.size() + width_of(quantity.kind()));
+    }
+    if (column != Known::with_error) continue;
+    if (known == Known::with_error) add_errors(quantity.error(impact), errors);
+    else errors.resize(errors.size() + width_of(quantity.kind()));
+  }
+  row.insert(row.end(), errors.begin(), errors.end());
+  return row;
+}
+
+void append_impact(CellWriter& out, const Impact& impact, const ImpactText& text) {
+  for (const ImpactQuantity& quantity : impact_quantities()) {
+    if (quantity.known_to(text.columns) == Known::absent) continue;
+    const bool is_known = known_of(quantity, text.model, impact) >= Known::value_only;
+    const bool is_asked = text.errors || quantity.name != std::string_view("predictable");
+    if (is_known && is_asked) append_entry(out, quantity.value(impact));
+    else out.nothing(width_of(quantity.kind()));
+  }
+  for (const ImpactQuantity& quantity : impact_quantities()) {
+    if (quantity.known_to(text.columns) != Known::with_error) continue;
+    const bool is_known = known_of(quantity, text.model, impact) == Known::with_error;
+    if (is_known && text.errors) append_error(out, quantity.error(impact));
+    else out.nothing(width_of(quantity.kind()));
+  }
+}
+
+}  // namespace clatter::validation

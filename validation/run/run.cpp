@@ -1,0 +1,333 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "validation/run/run.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "analytic/base/angle.hpp"
+#include "validation/scene/names.hpp"
+
+namespace clatter::validation {
+namespace {
+
+namespace space = analytic::space;
+
+constexpr double degrees = analytic::degrees_per_radian;
+
+EntryVector entry(const numeric::Vector3& v) { return {v.x(), v.y(), v.z()}; }
+EntryParameters entry(const Eigen::Quaterniond& q) { return {q.w(), q.x(), q.y(), q.z()}; }
+/// A vector's error is a bound on its length, and so on each of its parts.
+EntryVector each(double bound) { return {bound, bound, bound}; }
+EntryVector velocity(const analytic::PlanarVelocity& v) { return {v.tangential, 0, v.normal}; }
+EntryVector rotation(const analytic::PlanarVelocity& v) { return {0, v.angular, 0}; }
+double speed(const analytic::PlanarVelocity& v) { return std::hypot(v.normal, v.tangential); }
+
+/// The inclination of the body's x axis [rad], positive with end a lower.
+double inclination_of(const Eigen::Quaterniond& attitude) {
+  const numeric::Vector3 axis = attitude * numeric::Vector3::UnitX();
+  return std::atan2(axis.z(), std::hypot(axis.x(), axis.y()));
+}
+
+Numbers values_of(const analytic::ImpactRow& row) {
+  const analytic::Impact& impact = row.impact;
+  return {.start = row.start,
+          .inclination_deg = row.inclination * degrees,
+          .contact_angle_deg = row.contact_angle * degrees,
+          .approach_speed = impact.approach_speed,
+          .restitution = impact.restitution(),
+          .impulse_ratio = impact.impulse_ratio(),
+          .impulse = {impact.tangential_impulse, 0, impact.normal_impulse},
+          .velocity_after = velocity(impact.after),
+          .angular_velocity_after = rotation(impact.after),
+          .energy_before = row.energy_before,
+          .energy_after = row.energy_after,
+          .energy_loss = impact.energy_loss};
+}
+
+Numbers errors_of(const analytic::RowErrors& error) {
+  return {.start = error.start,
+          .inclination_deg = error.inclination * degrees,
+          .contact_angle_deg = error.contact_angle * degrees,
+          .approach_speed = error.approach_speed,
+          .restitution = error.restitution,
+          .impulse_ratio = error.impulse_ratio,
+          .impulse = {error.tangential_impulse, 0, error.normal_impulse},
+          .velocity_after = velocity(error.after),
+          .angular_velocity_after = rotation(error.after),
+          .energy_before = error.energy_before,
+          .energy_after = error.energy_after,
+          .energy_loss = error.energy_loss};
+}
+
+Numbers values_of(const space::ImpactRow& row) {
+  const double inclination = inclination_of(row.before.attitude) * degrees;
+  const space::Impact& impact = row.impact;
+  return {.start = row.start,
+          .inclination_deg = inclination,
+          .contact_angle_deg = std::fabs(inclination),
+          .approach_speed = row.approach_speed,
+          .restitution = impact.restitution(),
+          .impulse_ratio = impact.impulse.x() / impact.impulse.z(),
+          .impulse = entry(impact.impulse),
+          .velocity_after = entry(impact.velocity_after),
+          .angular_velocity_after = entry(impact.angular_velocity_after),
+          .energy_before = row.energy_before,
+          .energy_after = row.energy_after,
+          .energy_loss = impact.energy_loss,
+          .attitude = entry(row.before.attitude)};
+}
+
+Numbers errors_of(const space::ImpactRow& row, double ratio) {
+  const space::RowErrors& error = row.error;
+  const double half = error.attitude / 2;  // a turn by a small angle changes the parameters by half of it
+  return {.start = error.start,
+          .inclination_deg = error.attitude * degrees,
+          .contact_angle_deg = error.attitude * degrees,
+          .approach_speed = error.approach_speed,
+          .restitution = unknown_error,
+          .impulse_ratio = error.impulse * (1 + std::fabs(ratio)) / std::fabs(row.impact.impulse.z()),
+          .impulse = each(error.impulse),
+          .velocity_after = each(error.velocity_after),
+          .angular_velocity_after = each(error.angular_velocity_after),
+          .energy_before = error.energy_before,
+          .energy_after = error.energy_after,
+          .energy_loss = error.energy_before + error.energy_after,
+          .attitude = {half, half, half, half}};
+}
+
+/// The numbers that the simulator states, or their errors; without the ratio of impulses.
+Numbers numbers_of(const numeric::ImpactNumbers& numbers) {
+  return {.start = numbers.start,
+          .duration = numbers.duration,
+          .inclination_deg = numbers.inclination * degrees,
+          .contact_angle_deg = numbers.contact_angle * degrees,
+          .approach_speed = numbers.approach_speed,
+          .restitution = numbers.restitution,
+          .impulse = entry(numbers.impulse),
+          .peak_force = numbers.peak_force,
+          .peak_time = numbers.peak_time,
+          .indentation = numbers.indentation,
+          .velocity_after = entry(numbers.velocity_after),
+          .angular_velocity_after = entry(numbers.angular_velocity_after),
+          .energy_before = numbers.energy_before,
+          .energy_after = numbers.energy_after,
+          .energy_loss = numbers.energy_loss,
+          .work_damping = numbers.work_damping,
+          .work_friction = numbers.work_friction,
+          .work_released = numbers.work_released};
+}
+
+/// Nothing is known but how it was found.
+RunTail begun_tail(bool closed_form) {
+  RunTail tail{.sum = {}, .closed_form = closed_form};
+  tail.sum.is_tail = true;
+  tail.sum.value = tail.sum.error = Numbers::unknown();
+  return tail;
+}
+
+RunTail tail_of(const analytic::Tail& tail) {
+  RunTail found = begun_tail(tail.closed_form);
+  Numbers &value = found.sum.value, &error = found.sum.error;
+  found.sum.end = analytic::PlanarBody::vertex_set_name(tail.vertices);
+  value.start = tail.end_time;
+  error.start = tail.end_time_error;
+  value.impulse = {tail.tangential_impulse, 0, tail.normal_impulse};
+  error.impulse = {tail.tangential_impulse_error, 0, tail.normal_impulse_error};
+  value.velocity_after = velocity(tail.after);
+  error.velocity_after = velocity(tail.after_error);
+  value.angular_velocity_after = rotation(tail.after);
+  error.angular_velocity_after = rotation(tail.after_error);
+  return found;
+}
+
+RunTail tail_of(const space::Tail& tail) {
+  RunTail found = begun_tail(tail.closed_form);
+  Numbers &value = found.sum.value, &error = found.sum.error;
+  value.start = tail.end_time;
+  error.start = tail.end_time_error;
+  value.impulse = {tail.tangential_impulse.x(), tail.tangential_impulse.y(), tail.normal_impulse};
+  error.impulse = {tail.tangential_impulse_error, tail.tangential_impulse_error, tail.normal_impulse_error};
+  value.velocity_after = entry(tail.velocity_after);
+  error.velocity_after = each(tail.velocity_error);
+  value.angular_velocity_after = entry(tail.angular_velocity_after);
+  error.angular_velocity_after = each(tail.angular_velocity_error);
+  return found;
+}
+
+double relative_error(const analytic::Sequence& sequence) {
+  double worst = 0;
+  for (const analytic::ImpactRow& row : sequence.rows) worst = std::max(worst, row.error.relative);
+  if (!sequence.tail) return worst;
+  const analytic::Tail& tail = *sequence.tail;
+  if (tail.end_time > 0) worst = std::max(worst, tail.end_time_error / tail.end_time);
+  if (tail.normal_impulse > 0) worst = std::max(worst, tail.normal_impulse_error / sequence.total_normal_impulse);
+  return worst;
+}
+
+double relative_error(const space::Sequence& sequence) {
+  double time = 0, speed = 0, rate = 0, impulse = 0, worst = 0;
+  for (const space::ImpactRow& row : sequence.rows) {
+    time = std::max(time, row.start);
+    speed = std::max({speed, row.before.velocity.norm(), row.impact.velocity_after.norm()});
+    rate = std::max({rate, row.before.angular_velocity.norm(), row.impact.angular_velocity_after.norm(),
+                     row.impact.velocity_after.norm() / row.corners.front().place.norm()});
+    impulse = std::max(impulse, row.impact.impulse.norm());
+  }
+  const auto take = [&](double error, double size) {
+    if (error > 0) worst = std::max(worst, size > 0 ? error / size : unknown_error);
+  };
+  for (const space::ImpactRow& row : sequence.rows) {
+    const space::RowErrors& error = row.error;
+    if (!error.predictable) return unknown_error;
+    take(row.start > 0 ? error.start : 0, time);
+    take(error.attitude, 1);
+    take(error.impulse, impulse);
+    take(error.velocity_after, speed);
+    take(error.angular_velocity_after, rate);
+  }
+  return worst;
+}
+
+/// What the sequences of the discrete model have in common.
+template <class Sequence>
+Run begun_run(RunModel model, const Sequence& sequence, long evaluations) {
+  Run run{.model = model,
+          .impacts = {},
+          .tail = {},
+          .impulse_between = {},
+          .outcome = outcome_name(sequence.outcome),
+          .message = sequence.message,
+          .warnings = sequence.warnings,
+          .is_cut_short = is_cut_short(sequence.outcome),
+          .leaves_model = sequence.outcome == analytic::Outcome::outside_model,
+          .relative_error = relative_error(sequence),
+          .near_miss = {},
+          .total_normal_impulse = {},
+          .evaluations = evaluations};
+  if (sequence.outcome == analytic::Outcome::no_further_impact) run.near_miss = sequence.near_miss;
+  if (sequence.tail) run.tail = tail_of(*sequence.tail);
+  run.impacts.reserve(sequence.rows.size());
+  return run;
+}
+
+}  // namespace
+
+Numbers Numbers::unknown() {
+  constexpr double x = unknown_error;
+  return {.start = x,
+          .duration = x,
+          .inclination_deg = x,
+          .contact_angle_deg = x,
+          .approach_speed = x,
+          .restitution = x,
+          .impulse_ratio = x,
+          .impulse = each(x),
+          .peak_force = x,
+          .peak_time = x,
+          .indentation = x,
+          .velocity_after = each(x),
+          .angular_velocity_after = each(x),
+          .energy_before = x,
+          .energy_after = x,
+          .energy_loss = x,
+          .work_damping = x,
+          .work_friction = x,
+          .work_released = x,
+          .attitude = {x, x, x, x}};
+}
+
+Impact impact_of(const analytic::ImpactRow& row, int n, double drop_deg) {
+  Impact impact{.n = n,
+                .end = analytic::PlanarBody::vertex_set_name(row.vertices),
+                .corners = {},
+                .value = values_of(row),
+                .error = errors_of(row.error),
+                .mode = mode_name(row.impact.mode),
+                .amplification = row.amplification,
+                .predictable = row.error.predictable,
+                .largest_speed = std::max(speed(row.before), speed(row.impact.after)),
+                .largest_rate = std::max(std::fabs(row.before.angular), std::fabs(row.impact.after.angular))};
+  if (n == 1 && std::fabs(drop_deg) <= 90) {  // not of a drop that was turned beyond the upright
+    impact.value.inclination_deg = std::copysign(drop_deg, row.inclination);
+    impact.value.contact_angle_deg = std::copysign(drop_deg, row.contact_angle);
+  }
+  return impact;
+}
+
+Impact impact_of(const space::ImpactRow& row, int n) {
+  return {.n = n,
+          .end = {},
+          .corners = {},
+          .value = values_of(row),
+          .error = errors_of(row, row.impact.impulse.x() / row.impact.impulse.z()),
+          .touches = static_cast<int>(row.corners.size()),
+          .mode = mode_name(row.impact.path),
+          .amplification = row.amplification,
+          .predictable = row.error.predictable,
+          .largest_speed = std::max(row.before.velocity.norm(), row.impact.velocity_after.norm()),
+          .largest_rate = std::max(row.before.angular_velocity.norm(), row.impact.angular_velocity_after.norm())};
+}
+
+Impact impact_of(const numeric::ImpactRecord& row, int n) {
+  Impact impact{.n = n,
+                .end = end_name(row.end),
+                .corners = {},
+                .value = numbers_of(row.value),
+                .error = numbers_of(row.error),
+                .touches = row.touches,
+                .mode = mode_name(row.mode),
+                .submerged = row.submerged,
+                .local_slip = row.local_slip,
+                .energy_stored = row.energy_stored,
+                .ledger_gap = row.ledger_gap,
+                .amplification = row.amplification,
+                .predictable = row.predictable,
+                .largest_speed = std::max(row.value.velocity_after.norm(), row.value.approach_speed),
+                .largest_rate = row.value.angular_velocity_after.norm()};
+  const double ratio = row.value.impulse.x() / row.value.impulse.z();
+  impact.value.impulse_ratio = ratio;
+  impact.error.impulse_ratio = row.error.impulse.norm() * (1 + std::fabs(ratio)) / std::fabs(row.value.impulse.z());
+  impact.value.attitude = entry(row.attitude);
+  return impact;
+}
+
+Run run_of(const analytic::Sequence& sequence, double drop_deg) {
+  Run run = begun_run(RunModel::plane, sequence, sequence.root_evaluations);
+  run.total_normal_impulse = Estimated{sequence.total_normal_impulse, sequence.total_normal_impulse_error};
+  for (const analytic::ImpactRow& row : sequence.rows) {
+    run.impacts.push_back(impact_of(row, static_cast<int>(run.impacts.size()) + 1, drop_deg));
+  }
+  return run;
+}
+
+Run run_of(const space::Sequence& sequence) {
+  Run run = begun_run(RunModel::space, sequence, sequence.evaluations);
+  for (const space::ImpactRow& row : sequence.rows) {
+    run.impacts.push_back(impact_of(row, static_cast<int>(run.impacts.size()) + 1));
+  }
+  for (const space::SustainedContact& contact : sequence.contacts) {
+    run.impulse_between += {contact.normal_impulse, contact.normal_impulse_error};
+    if (contact.tail) run.impulse_between += {contact.tail->normal_impulse, contact.tail->normal_impulse_error};
+  }
+  return run;
+}
+
+Run run_of(const numeric::Simulation& simulation) {
+  Run run{.model = RunModel::continuous,
+          .impacts = {},
+          .tail = {},
+          .impulse_between = {},
+          .outcome = outcome_name(simulation.outcome),
+          .message = simulation.message,
+          .warnings = {},
+          .is_cut_short = is_cut_short(simulation.outcome),
+          .near_miss = {},
+          .total_normal_impulse = {}};
+  run.impacts.reserve(simulation.impacts.size());
+  for (const numeric::ImpactRecord& row : simulation.impacts) {
+    run.impacts.push_back(impact_of(row, static_cast<int>(run.impacts.size()) + 1));
+  }
+  return run;
+}
+
+}  // namespace clatter::validation

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "validation/scene/names.hpp"
+
+namespace clatter::validation {
+
+using analytic::ImpactMode;
+using numeric::FrictionMode;
+using numeric::Outcome;
+
+const char* mode_name(analytic::ImpactMode mode) {
+  switch (mode) {
+    case analytic::ImpactMode::frictionless: return "frictionless";
+    case analytic::ImpactMode::slip: return "slip";
+    case analytic::ImpactMode::stick: return "stick";
+    case analytic::ImpactMode::slip_stick: return "slip-stick";
+    case analytic::ImpactMode::reverse_slip: return "reverse-slip";
+  }
+  return "";
+}
+
+/// Slip that turns is slip.
+const char* mode_name(analytic::space::PathKind path) {
+  using analytic::space::PathKind;
+  switch (path) {
+    case PathKind::frictionless: return "frictionless";
+    case PathKind::slip:
+    case PathKind::turning_slip: return "slip";
+    case PathKind::stick: return "stick";
+    case PathKind::slip_stick: return "slip-stick";
+    case PathKind::slip_reslip: return "slip-reslip";
+  }
+  return "";
+}
+
+const char* outcome_name(analytic::Outcome outcome) {
+  switch (outcome) {
+    case analytic::Outcome::no_further_impact: return "no-further-impact";
+    case analytic::Outcome::impact_limit: return "impact-limit";
+    case analytic::Outcome::at_rest: return "at-rest";
+    case analytic::Outcome::sustained_contact: return "sustained-contact";
+    case analytic::Outcome::not_computed: return "not-computed";
+    case analytic::Outcome::outside_model: return "outside-model";
+  }
+  return "";
+}
+
+const char* outcome_name(Outcome outcome) {
+  switch (outcome) {
+    case Outcome::no_further_impact: return "no-further-impact";
+    case Outcome::impact_limit: return "impact-limit";
+    case Outcome::at_rest: return "at-rest";
+    case Outcome::sustained_contact: return "sustained-contact";
+    case Outcome::evaluation_limit: return "evaluation-limit";
+    case Outcome::step_too_small: return "step-too-small";
+    case Outcome::not_representable: return "not-representable";
+    case Outcome::flight_undecided: return "flight-undecided";
+    case Outcome::interrupted: return "interrupted";
+  }
+  return "";
+}
+
+bool is_cut_short(analytic::Outcome outcome) {
+  return outcome == analytic::Outcome::not_computed || outcome == analytic::Outcome::outside_model;
+}
+
+bool is_cut_short(Outcome outcome) {
+  switch (outcome) {
+    case Outcome::evaluation_limit:
+    case Outcome::step_too_small:
+    case Outcome::not_representable:
+    case Outcome::flight_undecided: return true;
+    case Outcome::no_further_impact:
+    case Outcome::impact_limit:
+    case Outcome::at_rest:
+    case Outcome::sustained_contact:
+    case Outcome::interrupted: return false;
+  }
+  return false;
+}
+
+const char* mode_name(FrictionMode mode) {
+  switch (mode) {
+    case FrictionMode::frictionless: return "frictionless";
+    case FrictionMode::slip: return "slip";
+    case FrictionMode::stick: return "stick";
+    case FrictionMode::slip_stick: return "slip-stick";
+    case FrictionMode::stick_slip: return "stick-slip";
+    case FrictionMode::slip_stick_slip: return "slip-stick-slip";
+    case FrictionMode::stick_slip_stick: return "stick-slip-stick";
+    case FrictionMode::alternating: return "alternating";
+    case FrictionMode::reverse_slip: return "reverse-slip";
+    case FrictionMode::regularised: return "regularised";
+    case FrictionMode::local: return "local";
+  }
+  return "";
+}
+
+const char* end_name(numeric::ContactEnd end) {
+  switch (end) {
+    case numeric::ContactEnd::a: return "a";
+    case numeric::ContactEnd::b: return "b";
+    case numeric::ContactEnd::both: return "both";
+    case numeric::ContactEnd::middle: return "middle";
+  }
+  return "";
+}
+
+}  // namespace clatter::validation

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "validation/command/command.hpp"
+#include "validation/command/options.hpp"
+#include "validation/output/bad_input.hpp"
+#include "validation/output/colours.hpp"
+#include "validation/output/number.hpp"
+#include "validation/output/sink.hpp"
+#include "validation/output/symbols.hpp"
+#include "validation/run/discrete_run.hpp"
+#include "validation/run/shortfall.hpp"
+#include "validation/sequence/sequence_picture.hpp"
+#include "validation/sequence/sequence_report.hpp"
+
+namespace clatter::validation {
+namespace {
+
+struct SequenceInput {
+  SceneFlags scene;
+  std::string method;
+  OutputChoice output;
+  PlotChoice plot;
+  std::optional<TimeWindow> window;
+};
+
+int status_of(const Scene& scene, const Run& run) {
+  const std::string why = shortfall(scene, run);
+  if (why.empty()) return 0;
+  say(why);
+  return shortfall_status(run);
+}
+
+/// @throws BadInput if the window holds none of the sequence's times.
+Picture picture_of(const PreparedScene& prepared, const DiscreteRun& found, const TimeWindow& window) {
+  const Picture picture = sequence_picture(prepared, found, window);
+  if (picture.panels.front().rows.size() < 2)
+    throw BadInput(fmt::format("--window {}: must hold times of the sequence", window.text()));
+  return picture;
+}
+
+/// As write_report() writes a sequence's report, but row by row: a terminal's colours alone need the whole text.
+void write_rows_of(const PreparedScene& prepared, const DiscreteRun& found, const analytic::space::TiltEffort& tilts,
+                   const OutputChoice& choice) {
+  const bool is_table = choice.style.format == Format::table;
+  if (is_table && choice.path.empty() && shows_colours())
+    return write_report(choice, sequence_report(prepared, found, tilts));
+  Sink sink(choice.path);
+  write_sequence(prepared, found, tilts, choice.style, [&](std::string_view text) {
+    const std::string clean = printable(std::string(text), Lines::kept);
+    sink.write(is_table && choice.style.ascii ? to_ascii(clean) : clean);
+  });
+  sink.commit();
+}
+
+int run_sequence(const SequenceInput& input) {
+  const PreparedScene prepared = read_discrete_flags(input.scene);
+  const OutputChoice& choice = input.output;
+  if (input.window && input.plot.path.empty()) {
+    throw BadInput(fmt::format("--window {}: needs --plot FILE", input.window->text()));
+  }
+  check_files(choice, plot_files(input.plot));
+  PlotFile plot(input.plot);
+  const DiscreteRun found = run_discrete(prepared);
+  for (const std::string& warning : found.run.warnings) say(warning);
+  std::optional<Picture> picture;
+  if (plot.is_wanted()) picture = picture_of(prepared, found, input.window.value_or(TimeWindow{}));
+  // A table's one line on small tilts does not wait for edges that rattle on; JSON lists every outcome.
+  analytic::space::TiltEffort tilts;
+  if (choice.style.format != Format::json) tilts.rubs = 20;
+  write_rows_of(prepared, found, tilts, choice);
+  if (picture) {
+    plot.write(*picture, run_words("sequence", "impact sequence, discrete model", prepared.scene, Model::discrete));
+  }
+  return status_of(prepared.scene, found.run);
+}
+
+}  // namespace
+
+Command sequence_command() {
+  auto input = std::make_shared<SequenceInput>();
+  Command command;
+  add_scene_flags(command, input->scene, Model::discrete);
+  command.add(read_argument("--method", input->method, read_sequence_method, "NAME",
+                            "auto or discrete, the same (auto)", "Scene"));
+  add_output_options(command, input->output);
+  add_plot_options(command, input->plot);
+  add_window_option(command, input->window, "of the picture");
+  command.footer = "Example: clatter sequence --angle 10 --gravity 9.81 --restitution 0.8 --impacts 20";
+  command.run = [input] { return run_sequence(*input); };
+  return command;
+}
+
+}  // namespace clatter::validation

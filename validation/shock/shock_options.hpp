@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The options of commands that look at points of the body: `shock` and `report`.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "validation/command/command.hpp"
+#include "validation/command/options.hpp"
+#include "validation/scene/probes.hpp"
+#include "validation/shock/shock_report.hpp"
+#include "validation/shock/shock_run.hpp"
+
+namespace clatter::validation {
+
+/// What is asked of a shock.
+struct ShockInput {
+  SceneFlags scene;
+  std::vector<std::string> probes;
+  std::optional<Model> model;  ///< else the continuous one where the scene has a ground
+  std::optional<ShockRows> rows;
+  std::optional<std::array<double, 2>> part;  ///< natural frequency [Hz] and fragility [g]
+  ShockRequest request;                       ///< what of it does not follow from the model
+  ShockView view;                             ///< severity and rate
+  bool no_sensitivity = false;
+};
+
+/// Adds the flags of a scene and those of probes, spectra and parts.
+void add_shock_options(Command& command, ShockInput& input);
+/// The continuous model where the scene has a ground and nothing else is asked.
+[[nodiscard]] Model model_of(const ShockInput& input);
+/// @throws BadInput for a scene that sweeps something or keeps a history, too.
+[[nodiscard]] Scene shock_scene(const ShockInput& input);
+/// The probes of the flags, or else of the scene file.
+[[nodiscard]] std::vector<Probe> probes_of(const ShockInput& input);
+[[nodiscard]] ShockRequest request_of(const ShockInput& input);
+[[nodiscard]] ShockView view_of(const ShockInput& input);
+/// Exit status of a run, as that of simulate or of sequence; says why it is not 0.
+[[nodiscard]] int status_of(const Scene& scene, const ShockRun& run);
+
+}  // namespace clatter::validation

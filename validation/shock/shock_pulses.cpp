@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "validation/shock/shock_pulses.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "validation/output/number.hpp"
+
+namespace clatter::validation {
+namespace {
+
+constexpr PulseShape shapes[] = {PulseShape::rectangle, PulseShape::half_sine};
+constexpr const char* shape_words[] = {"rectangle", "half sine"};
+constexpr const char* shape_names[] = {"rectangle", "half_sine"};
+
+double relative(double error, double value) { return std::fabs(error / value); }
+
+/// By the continuous model; not finite where an impact has several touches.
+double restitution_of(const ShockRun& run, int impact) {
+  return run.continuous->planned.run.impacts.at(static_cast<std::size_t>(impact) - 1).value.restitution;
+}
+
+Row row_of(const ShockRun& run, const ShockRow& blow, const std::optional<FragilePart>& part) {
+  const int digits = run.scene.accuracy.digits;
+  const Estimated velocity{blow.value.delta_v_size, blow.error.delta_v_size};
+  const Estimated peak{blow.value.peak_size, blow.error.peak_size};
+  const double of_v = relative(velocity.error, velocity.value), of_a = relative(peak.error, peak.value);
+  const TestPulse pulse = equivalent_pulse(velocity.value, peak.value);
+  const double restitution = restitution_of(run, blow.impact);
+  Row row{Cell(run.probes[blow.probe].name), Cell(blow.impact)}, errors;
+  const auto add = [&](double value, double of_value) {
+    const Estimated number{value, std::fabs(value) * of_value};
+    row.push_back(std::isfinite(value) ? known_cell(number, {digits, 0}) : Cell());
+    errors.emplace_back(std::isfinite(value) ? error_or_nothing(number) : Value());
+  };
+  if (!blow.predictable) row[1].shown = fmt::format("{}?", blow.impact);
+  add(velocity.value, of_v);
+  add(peak.value / standard_gravity, of_a);
+  add(pulse.duration, of_v + of_a);
+  add(pulse.height(0), 2 * of_v);
+  add(pulse.height(restitution), 2 * of_v);
+  row.emplace_back(std::string(1, covering_condition(velocity.value, peak.value)));
+  // ln of a response changes by no more than ln of f T does.
+  for (const PulseShape shape : shapes) {
+    add(part ? margin(*part, shape, velocity.value, peak.value) : std::nan(""), of_v + 2 * of_a);
+  }
+  row.emplace_back(restitution, 4);
+  if (!std::isfinite(restitution)) row.back() = Cell();
+  row.insert(row.end(), errors.begin(), errors.end());
+  return row;
+}
+
+/// Along a boundary, from short pulses to the longest one shown: change of velocity and peak in g.
+std::vector<std::pair<double, double>> boundary_points(const FragilePart& part, PulseShape shape, double last) {
+  constexpr int count = 160;
+  constexpr double shortest_turns = 0.01;
+  const DamageBoundary boundary = damage_boundary(part, shape);
+  const double turns_at_largest =
+      part.frequency * boundary.corner_velocity / (pulse_area(shape) * boundary.critical_acceleration);
+  std::vector<std::pair<double, double>> points;
+  for (int i = 0; i <= count; ++i) {
+    const double turns = shortest_turns * std::pow(turns_at_largest / shortest_turns, i / double{count});
+    const double peak = part.fragility / pulse_response(shape, turns);
+    points.emplace_back(pulse_area(shape) * peak * turns / part.frequency, peak / standard_gravity);
+  }
+  points.emplace_back(std::max(last, 2 * boundary.corner_velocity), boundary.critical_acceleration / standard_gravity);
+  return points;
+}
+
+}  // namespace
+
+std::vector<Column> pulse_columns() {
+  std::vector<Column> columns{
+      word_column("probe", "probe", "name of the point"),
+      {"n", "n", "", "number of the impact, from 1"},
+      {"delta_v", "|ΔV|", "m/s", "size of the change of the point's velocity"},
+      {"peak_g", "peak", "g", "largest size of the specific force, in units of 9.80665 m/s²"},
+      {"pulse_duration", "T", "s", "of the half sine with this change of velocity and peak: π |ΔV|/(2 peak)"},
+      {"height_without_rebound", "h, e = 0", "m", "of fall with this change of velocity if the body did not rebound"},
+      {"height", "h", "m", "of fall with this change of velocity and the impact's own restitution"},
+      word_column("condition", "B110",
+                  "mildest service condition of JESD22-B110B, H, G, B, F, A, E, D or C, that covers both; or -"),
+      {"margin_rectangle", "rectangle", "",
+       "fragility over the part's acceleration under a rectangle of this |ΔV| and "
+       "peak: at most 1, it fails"},
+      {"margin_half_sine", "half sine", "", "the same under the half sine"},
+      {"restitution", "e", "", "of the impact, by the continuous model", false}};
+  for (const std::size_t of : {2U, 3U, 4U, 5U, 6U, 8U, 9U}) columns.push_back(error_column(columns[of]));
+  return columns;
+}
+
+Grid pulse_grid(const ShockRun& run, const std::optional<FragilePart>& part) {
+  Grid grid{pulse_columns(), {}, 2};
+  for (Column& column : grid.columns) {
+    if (!part && column.name.starts_with("margin")) column.shown = false;
+  }
+  if (!run.continuous) return grid;
+  for (std::size_t probe = 0; probe < run.probes.size(); ++probe) {
+    for (const ShockRow& blow : run.continuous->rows) {
+      if (blow.probe == probe) grid.rows.push_back(row_of(run, blow, part));
+    }
+  }
+  return grid;
+}
+
+std::vector<std::string> pulse_notes(const std::optional<FragilePart>& part) {
+  std::vector<std::string> notes;
+  if (part) {
+    std::string words = fmt::format(
+        "damage boundary (ASTM D3332) of a part of {} Hz that bears {} g, undamped: V_c = {} "
+        "m/s",
+        shortest(part->frequency), significant(part->fragility / standard_gravity, 6),
+        significant(damage_boundary(*part, shapes[0]).critical_velocity, 6));
+    for (std::size_t i = 0; i < 2; ++i) {
+      const DamageBoundary boundary = damage_boundary(*part, shapes[i]);
+      words += fmt::format("; {}: A_c = {} g from {} m/s on", shape_words[i],
+                           significant(boundary.critical_acceleration / standard_gravity, 6),
+                           significant(boundary.corner_velocity, 6));
+    }
+    notes.push_back(words);
+  }
+  std::string ladder = "JESD22-B110B, half sines, 2AT/π, height without rebound:";
+  for (const ServiceCondition& one : service_conditions()) {
+    ladder += fmt::format("{} {} {} g {} ms {:.3f} m/s {:.3f} m", one.name == 'H' ? "" : ";", one.name,
+                          significant(one.pulse.acceleration / standard_gravity, 4),
+                          significant(1e3 * one.pulse.duration, 3), one.pulse.velocity(), one.pulse.height(0));
+  }
+  notes.push_back(ladder);
+  notes.emplace_back("a body that rebounds with e has the same change of velocity from a height of 1/(1 + e)² of that");
+  return notes;
+}
+
+Value pulse_fields(const Grid& grid, const std::optional<FragilePart>& part) {
+  Value::List conditions;
+  for (const ServiceCondition& one : service_conditions()) {
+    conditions.emplace_back(Value::Fields{{"name", std::string(1, one.name)},
+                                          {"peak_g", one.pulse.acceleration / standard_gravity},
+                                          {"duration", one.pulse.duration},
+                                          {"velocity", one.pulse.velocity()},
+                                          {"height_without_rebound", one.pulse.height(0)}});
+  }
+  Value fields(Value::Fields{{"blows", row_objects(grid)}, {"service_conditions", conditions}});
+  if (!part) return fields;
+  Value boundary(Value::Fields{{"frequency", part->frequency}, {"fragility", part->fragility}});
+  for (std::size_t i = 0; i < 2; ++i) {
+    const DamageBoundary of_shape = damage_boundary(*part, shapes[i]);
+    boundary[shape_names[i]] = Value::Fields{{"critical_velocity", of_shape.critical_velocity},
+                                             {"critical_acceleration", of_shape.critical_acceleration},
+                                             {"corner_velocity", of_shape.corner_velocity}};
+  }
+  fields["damage_boundary"] = boundary;
+  return fields;
+}
+
+std::optional<PicturePanel> boundary_panel(const ShockRun& run, const FragilePart& part) {
+  if (!run.continuous || run.continuous->rows.empty()) return std::nullopt;
+  PicturePanel panel{.columns = {{"velocity", "m/s", "change of velocity"}}, .rows = {}, .plot = {}};
+  panel.plot.x_label = "change of velocity [m/s]";
+  panel.plot.y_label = "peak [g]";
+  panel.plot.logarithmic_x = panel.plot.logarithmic_y = true;
+  double last = 0;
+  for (const ShockRow& blow : run.continuous->rows) last = std::max(last, 1.5 * blow.value.delta_v_size);
+  const auto add = [&](const std::string& legend, FigureCurve::Style style,
+                       const std::vector<std::pair<double, double>>& points) {
+    const std::string name = fmt::format("a{}", panel.columns.size());
+    panel.columns.push_back({name, "g", legend});
+    for (auto& row : panel.rows) row.push_back(no_number);
+    for (const auto& [velocity, acceleration] : points) {
+      panel.rows.emplace_back(panel.columns.size(), no_number);
+      panel.rows.back().front() = velocity;
+      panel.rows.back().back() = acceleration;
+    }
+    panel.plot.curves.push_back({.x = "velocity", .y = name, .legend = legend, .style = style});
+  };
+  for (std::size_t i = 0; i < 2; ++i) {
+    add(fmt::format("{} fails the part above and right of this", shape_words[i]),
+        i == 0 ? FigureCurve::Style::line : FigureCurve::Style::dashed, boundary_points(part, shapes[i], last));
+  }
+  for (std::size_t probe = 0; probe < run.probes.size(); ++probe) {
+    for (const ShockRow& blow : run.continuous->rows) {
+      constexpr int most_marks = 4;  // later blows are weak, and a legend has an end
+      if (blow.probe != probe || !blow.predictable || blow.impact > most_marks) continue;
+      add(fmt::format("{}, impact {}", run.probes[probe].name, blow.impact), FigureCurve::Style::marks,
+          {{blow.value.delta_v_size, blow.value.peak_size / standard_gravity}});
+    }
+  }
+  return panel;
+}
+
+}  // namespace clatter::validation

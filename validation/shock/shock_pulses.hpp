@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What `clatter shock` says of blows as test pulses, and beside the damage boundary of a part.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "validation/output/picture.hpp"
+#include "validation/output/report.hpp"
+#include "validation/shock/damage_boundary.hpp"
+#include "validation/shock/shock_run.hpp"
+
+namespace clatter::validation {
+
+/// A row for each impact and probe of the continuous model.
+[[nodiscard]] std::vector<Column> pulse_columns();
+/// The margins are empty without a part.
+[[nodiscard]] Grid pulse_grid(const ShockRun& run, const std::optional<FragilePart>& part);
+/// The service conditions and, with a part, its damage boundary.
+[[nodiscard]] std::vector<std::string> pulse_notes(const std::optional<FragilePart>& part);
+/// `rows` of the grid, service conditions, damage boundary.
+[[nodiscard]] Value pulse_fields(const Grid& grid, const std::optional<FragilePart>& part);
+/// The damage boundary of a part, for both pulses, and where the blows lie; none without a blow.
+[[nodiscard]] std::optional<PicturePanel> boundary_panel(const ShockRun& run, const FragilePart& part);
+
+}  // namespace clatter::validation

@@ -1,0 +1,569 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "validation/shock/shock_report.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "validation/output/number.hpp"
+#include "validation/run/discrete_scene.hpp"
+#include "validation/run/scene_value.hpp"
+#include "validation/run/shortfall.hpp"
+#include "validation/scene/body_properties.hpp"
+#include "validation/scene/facet_words.hpp"
+#include "validation/scene/names.hpp"
+#include "validation/scene/probes.hpp"
+#include "validation/shock/shock_history.hpp"
+#include "validation/shock/shock_pulses.hpp"
+
+namespace clatter::validation {
+namespace {
+
+constexpr const char* axis_names[] = {"x", "y", "z"};
+
+/// A number of a row, of either model.
+struct ShockQuantity {
+  const char *name, *symbol, *unit, *meaning;
+  bool in_discrete;  ///< the discrete model has it, too, as discrete_NAME
+  double (*get)(const ShockNumbers&);
+};
+
+constexpr ShockQuantity quantities[]{
+    {"delta_v_x", "ΔV_x", "m/s", "change of the point's velocity over the impact, world", true,
+     [](const ShockNumbers& n) { return n.delta_v.x(); }},
+    {"delta_v_y", "ΔV_y", "m/s", "change of the point's velocity over the impact, world", true,
+     [](const ShockNumbers& n) { return n.delta_v.y(); }},
+    {"delta_v_z", "ΔV_z", "m/s", "change of the point's velocity over the impact, world", true,
+     [](const ShockNumbers& n) { return n.delta_v.z(); }},
+    {"delta_v", "|ΔV|", "m/s", "its size, which hardly depends on the floor's stiffness", true,
+     [](const ShockNumbers& n) { return n.delta_v_size; }},
+    {"peak_x", "a_x", "m/s²", "specific force, what an accelerometer reads, when it is largest; body axes", false,
+     [](const ShockNumbers& n) { return n.peak.x(); }},
+    {"peak_y", "a_y", "m/s²", "specific force, what an accelerometer reads, when it is largest; body axes", false,
+     [](const ShockNumbers& n) { return n.peak.y(); }},
+    {"peak_z", "a_z", "m/s²", "specific force, what an accelerometer reads, when it is largest; body axes", false,
+     [](const ShockNumbers& n) { return n.peak.z(); }},
+    {"peak", "peak a", "m/s²", "largest size of the specific force in the contact", false,
+     [](const ShockNumbers& n) { return n.peak_size; }},
+    {"peak_g", "peak", "g", "the same in units of 9.80665 m/s²", false,
+     [](const ShockNumbers& n) { return n.peak_size / standard_gravity; }},
+    {"peak_time", "at", "s", "when, after the touch-down", false, [](const ShockNumbers& n) { return n.peak_time; }},
+    {"width", "width", "s", "of the pulse about the peak, at a tenth of its height, within the contact", false,
+     [](const ShockNumbers& n) { return n.width; }},
+    {"angular_velocity_change_x", "Δω_x", "rad/s", "change of the body's angular velocity, world", true,
+     [](const ShockNumbers& n) { return n.delta_omega.x(); }},
+    {"angular_velocity_change_y", "Δω_y", "rad/s", "change of the body's angular velocity, world", true,
+     [](const ShockNumbers& n) { return n.delta_omega.y(); }},
+    {"angular_velocity_change_z", "Δω_z", "rad/s", "change of the body's angular velocity, world", true,
+     [](const ShockNumbers& n) { return n.delta_omega.z(); }},
+    {"angular_velocity_change", "|Δω|", "rad/s", "its size", true,
+     [](const ShockNumbers& n) { return n.delta_omega_size; }},
+    {"angular_acceleration_peak", "peak α", "rad/s²", "largest angular acceleration of the body in the contact", false,
+     [](const ShockNumbers& n) { return n.peak_alpha; }}};
+
+Column column_of(const ShockQuantity& quantity, bool discrete) {
+  Column column{quantity.name, quantity.symbol, quantity.unit, quantity.meaning};
+  if (discrete) {
+    column.name = "discrete_" + column.name;
+    column.heading = "discrete";
+    column.meaning = std::string(quantity.name) + " by the discrete model";
+  }
+  return column;
+}
+
+const std::vector<std::string>& shown_of(bool both, bool continuous) {
+  static const std::vector<std::string> alone{"probe",  "n",           "start", "delta_v",
+                                              "peak_g", "sensitivity", "width", "angular_velocity_change"},
+      compared{"probe",
+               "n",
+               "start",
+               "delta_v",
+               "discrete_delta_v",
+               "peak_g",
+               "sensitivity",
+               "width",
+               "angular_velocity_change"},
+      discrete{"probe",
+               "n",
+               "start",
+               "discrete_delta_v",
+               "discrete_delta_v_x",
+               "discrete_delta_v_z",
+               "discrete_angular_velocity_change"};
+  return both ? compared : continuous ? alone : discrete;
+}
+
+/// The continuous model's row of this impact and probe, or none.
+const ShockRow* continuous_row(const ShockRun& run, int impact, std::size_t probe) {
+  if (!run.continuous) return nullptr;
+  const std::vector<ShockRow>& rows = run.continuous->rows;
+  const auto found = std::find_if(rows.begin(), rows.end(),
+                                  [&](const ShockRow& row) { return row.impact == impact && row.probe == probe; });
+  return found == rows.end() ? nullptr : &*found;
+}
+
+int last_impact(const ShockRun& run) {
+  int last = 0;
+  if (run.continuous && !run.continuous->rows.empty()) last = run.continuous->rows.back().impact;
+  if (!run.discrete.empty() && run.parted.from == 0) last = std::max(last, run.discrete.back().impact);
+  return last;
+}
+
+/// Sizes against which numbers count as zero: of the same kind, over all rows.
+double size_of(const ShockRun& run, const ShockQuantity& quantity) {
+  const bool is_velocity = std::string_view(quantity.unit) == "m/s",
+             is_rate = std::string_view(quantity.unit) == "rad/s";
+  double size = 0;
+  for (const auto* rows : {&run.rows(), &run.discrete}) {
+    for (const ShockRow& row : *rows) {
+      size = std::max(size, is_velocity                                 ? row.value.delta_v_size
+                            : is_rate                                   ? row.value.delta_omega_size
+                            : std::string_view(quantity.unit) == "m/s²" ? row.value.peak_size
+                                                                        : 0);
+    }
+  }
+  return size;
+}
+
+void add_numbers(const ShockRun& run, const ShockRow* row, bool discrete, Row& cells, Row& errors) {
+  for (const ShockQuantity& quantity : quantities) {
+    if (discrete && !quantity.in_discrete) continue;
+    if (!row) {
+      cells.emplace_back();
+      errors.emplace_back();
+      continue;
+    }
+    const Estimated number{quantity.get(row->value), quantity.get(row->error)};
+    cells.push_back(known_cell(number, {run.scene.accuracy.digits, size_of(run, quantity)}));
+    errors.emplace_back(error_or_nothing(number));
+  }
+}
+
+void add_sensitivity(const ShockRow* row, Row& cells, Row& errors) {
+  if (!row || !row->sensitivity) {
+    cells.emplace_back();
+    errors.emplace_back();
+    return;
+  }
+  cells.push_back(known_cell(*row->sensitivity, {3, 1}));
+  if (!row->sensitivity->is_known()) cells.back().value = Value();
+  errors.emplace_back(error_or_nothing(*row->sensitivity));
+}
+
+/// How deep the body goes in the impact, which is no matter of the probe.
+void add_indentation(const ShockRun& run, int impact, Row& cells, Row& errors) {
+  const auto place = static_cast<std::size_t>(impact - 1);
+  if (!run.continuous || place >= run.continuous->planned.run.impacts.size()) {
+    cells.emplace_back();
+    errors.emplace_back();
+    return;
+  }
+  const numeric::ImpactRecord& row = run.continuous->planned.run.impacts[place];
+  const Estimated depth{row.value.indentation, row.error.indentation};
+  cells.push_back(known_cell(depth, {run.scene.accuracy.digits, 0}));
+  errors.emplace_back(error_or_nothing(depth));
+}
+
+Row row_of(const ShockRun& run, int impact, std::size_t probe) {
+  const ShockRow* const continuous = continuous_row(run, impact, probe);
+  const ShockRow* const discrete = run.discrete_row(impact, probe);
+  const ShockRow* const first = continuous ? continuous : discrete;
+  const double last = run.rows().empty() ? 0 : run.rows().back().start;
+  Row cells{Cell(run.probes[probe].name), Cell(impact)}, errors;
+  if (!first->predictable) cells[1].shown = fmt::format("{}?", impact);
+  const Estimated start{first->start, first->start_error};
+  cells.push_back(known_cell(start, {run.scene.accuracy.digits, last}));
+  errors.emplace_back(error_or_nothing(start));
+  cells.push_back(continuous ? Cell(continuous->duration, run.scene.accuracy.digits) : Cell());
+  add_numbers(run, continuous, false, cells, errors);
+  add_sensitivity(continuous, cells, errors);
+  add_indentation(run, impact, cells, errors);
+  add_numbers(run, discrete, true, cells, errors);
+  cells.push_back(continuous ? Cell(continuous->closure, 2) : Cell());
+  cells.emplace_back(first->predictable);
+  cells.insert(cells.end(), errors.begin(), errors.end());
+  return cells;
+}
+
+Grid impacts_of(const ShockRun& run) {
+  Grid grid{shock_columns(), {}, 2};
+  const auto& shown = shown_of(run.continuous && !run.discrete.empty(), run.continuous.has_value());
+  for (Column& column : grid.columns) {
+    column.shown = std::find(shown.begin(), shown.end(), column.name) != shown.end();
+    if (run.continuous) continue;
+    for (const ShockQuantity& quantity : quantities) {  // nothing stands beside them to tell them from
+      if (column.name == std::string("discrete_") + quantity.name) column.heading = quantity.symbol;
+    }
+  }
+  for (std::size_t probe = 0; probe < run.probes.size(); ++probe) {
+    for (int impact = 1; impact <= last_impact(run); ++impact) grid.rows.push_back(row_of(run, impact, probe));
+  }
+  return grid;
+}
+
+std::string blows_word(const Spectrum& spectrum) {
+  if (spectrum.blows == Blows::flat) return "flat";
+  return spectrum.impacts == 1 ? "1" : fmt::format("1-{}", spectrum.impacts);
+}
+
+Row point_row(const ShockRun& run, const Spectrum& spectrum, const ResponsePoint& point) {
+  const ResponseExtremes whole = point.whole();
+  const int digits = run.scene.accuracy.digits;
+  const Estimated v{whole.pseudo_velocity.maximax(), point.pseudo_velocity_error};
+  const Estimated a{whole.acceleration.maximax(), point.acceleration_error};
+  Row cells{Cell(run.probes[spectrum.probe].name), Cell(axis_names[spectrum.axis]),
+            Cell(spectrum.continuous ? "continuous" : "discrete"), Cell(blows_word(spectrum)),
+            Cell(point.frequency, 4)};
+  cells.push_back(known_cell(v, {digits, 0}));
+  cells.push_back(known_cell(a, {digits, 0}));
+  cells.push_back(known_cell(a * (1 / standard_gravity), {digits, 0}));
+  for (const ResponseExtremes* part : {&whole, &point.primary, &point.residual}) {
+    for (const Extremes* extremes : {&part->pseudo_velocity, &part->acceleration}) {
+      cells.emplace_back(extremes->high, digits);
+      cells.emplace_back(extremes->low, digits);
+    }
+  }
+  cells.emplace_back(error_or_nothing(v));
+  cells.emplace_back(error_or_nothing(a));
+  return cells;
+}
+
+Grid spectra_of(const ShockRun& run) {
+  Grid grid{spectrum_columns(), {}, 5};
+  for (const Spectrum& spectrum : run.spectra) {
+    for (const ResponsePoint& point : spectrum.points) grid.rows.push_back(point_row(run, spectrum, point));
+  }
+  return grid;
+}
+
+/// Which spectra stand beside one another for readers, in their order.
+struct ShownSpectrum {
+  bool continuous;
+  Blows blows;
+};
+constexpr std::array<ShownSpectrum, 4> main_spectra{
+    {{true, Blows::impact_1}, {true, Blows::first}, {true, Blows::all}, {true, Blows::flat}}};
+
+std::string part_words(const Spectrum& spectrum) {
+  if (spectrum.blows == Blows::flat) return "flat drop";
+  return spectrum.impacts == 1 ? "impact 1" : fmt::format("impacts 1 to {}", spectrum.impacts);
+}
+
+/// The spectra of a probe in the model that comes first, each once.
+std::vector<const Spectrum*> shown_spectra(const ShockRun& run, std::size_t probe) {
+  std::vector<const Spectrum*> shown;
+  for (const ShownSpectrum& one : main_spectra) {
+    const Spectrum* const found = run.spectrum(probe, run.continuous.has_value(), one.blows);
+    if (found) shown.push_back(found);
+  }
+  return shown;
+}
+
+/// One table of the pseudo-velocities of all probes.
+Grid digest_of(const ShockRun& run) {
+  Grid digest{{word_column("probe", "probe", ""), {"frequency", "f", "Hz"}}, {}, 2};
+  std::vector<std::string> names;
+  for (const Spectrum* spectrum : shown_spectra(run, 0)) {
+    digest.columns.push_back({part_words(*spectrum), part_words(*spectrum), "m/s"});
+  }
+  for (std::size_t probe = 0; probe < run.probes.size(); ++probe) {
+    const std::vector<const Spectrum*> shown = shown_spectra(run, probe);
+    for (std::size_t i = 0; !shown.empty() && i < shown.front()->points.size(); ++i) {
+      Row row{Cell(run.probes[probe].name), Cell(shown.front()->points[i].frequency, 4)};
+      for (const Spectrum* spectrum : shown) {
+        const ResponsePoint& point = spectrum->points[i];
+        row.push_back(known_cell({point.whole().pseudo_velocity.maximax(), point.pseudo_velocity_error},
+                                 {std::min(run.scene.accuracy.digits, 6), 0}));
+      }
+      digest.rows.push_back(row);
+    }
+  }
+  return digest;
+}
+
+std::string quality_words(double quality) {
+  return std::isfinite(quality) ? fmt::format("Q = {}", shortest(quality)) : "undamped";
+}
+
+/// A few frequencies of a probe's spectra, a line each.
+void add_spectrum_notes(const ShockRun& run, std::size_t probe, std::vector<std::string>& notes) {
+  const std::vector<const Spectrum*> shown = shown_spectra(run, probe);
+  if (shown.empty()) return;
+  const std::string where = fmt::format("{} along {}", run.probes[probe].name, axis_names[shown.front()->axis]);
+  const auto& points = shown.front()->points;
+  const std::size_t step = std::max<std::size_t>(1, (points.size() - 1) / 3);
+  for (std::size_t i = 0; i < points.size(); i += step) {
+    std::string words = fmt::format("{}, oscillator of {} Hz, {}: pseudo-velocity", where,
+                                    significant(points[i].frequency, 4), quality_words(run.request.quality));
+    for (const Spectrum* spectrum : shown) {
+      words += fmt::format("{} {} m/s by {}", spectrum == shown.front() ? "" : ",",
+                           significant(spectrum->points[i].whole().pseudo_velocity.maximax(), 4),
+                           spectrum->blows == Blows::flat ? "a flat drop" : part_words(*spectrum));
+    }
+    notes.push_back(words);
+  }
+  if (run.envelopes.size() > probe && run.envelopes[probe]) {
+    notes.push_back(
+        fmt::format("{}: the first two impacts of the discrete model, whatever the time between them: at "
+                    "most {} m/s",
+                    where, significant(run.envelopes[probe]->pseudo_velocity, 4)));
+  }
+}
+
+/// Where the spectrum of all impacts exceeds a severity.
+std::string severity_words(const ShockRun& run, std::size_t probe, double severity) {
+  const Spectrum* const spectrum = run.whole(probe, run.continuous.has_value());
+  if (!spectrum) return "";
+  double low = 0, high = 0;
+  for (const ResponsePoint& point : spectrum->points) {
+    if (!(point.whole().pseudo_velocity.maximax() > severity)) continue;
+    if (low == 0) low = point.frequency;
+    high = point.frequency;
+  }
+  const std::string& name = run.probes[probe].name;
+  if (low == 0) return fmt::format("{}: nowhere above the severity of {} m/s", name, shortest(severity));
+  return fmt::format("{}: above the severity of {} m/s from {} to {} Hz", name, shortest(severity), significant(low, 3),
+                     significant(high, 3));
+}
+
+std::vector<std::string> notes_of(const ShockRun& run, const ShockView& view) {
+  std::vector<std::string> notes;
+  if (view.rows == ShockRows::pulses || view.part) notes = pulse_notes(view.part);
+  if (run.continuous) {
+    notes.emplace_back(
+        "peaks are properties of the floor: ∂ ln(peak)/∂ ln k_G, c_G/k_G held, stands beside them; |ΔV| hardly is");
+  }
+  for (std::size_t probe = 0; probe < run.probes.size(); ++probe) {
+    if (view.rows == ShockRows::impacts) add_spectrum_notes(run, probe, notes);
+    if (view.severity) notes.push_back(severity_words(run, probe, *view.severity));
+  }
+  if (!run.discrete_reason.empty()) notes.push_back("no discrete model beside it: " + run.discrete_reason);
+  if (run.parted.from > 0) {
+    notes.push_back(
+        fmt::format("from impact {} on the discrete model strikes other blows, which --model discrete "
+                    "shows: {}",
+                    run.parted.from, run.parted.reason));
+  }
+  if (run.continuous) {
+    for (const std::string& warning : run.continuous->planned.warnings) notes.push_back("!: warning: " + warning);
+    const numeric::Simulation& simulation = run.continuous->planned.run;
+    notes.push_back(other_law_remark(run.scene, simulation));
+    notes.push_back(fmt::format("{}: {}", outcome_name(simulation.outcome), simulation.message));
+  } else if (run.discrete_run) {
+    notes.push_back(fmt::format("{}: {}", run.discrete_run->outcome, run.discrete_run->message));
+  }
+  std::erase(notes, "");
+  return notes;
+}
+
+Value point_value(const ResponsePoint& point) {
+  const ResponseExtremes whole = point.whole();
+  const auto fields = [](const Extremes& primary, const Extremes& residual, const Extremes& all, double error) {
+    return Value::Fields{
+        {"maximax", all.maximax()},     {"error_estimate", std::isfinite(error) ? Value(rounded_up(error)) : Value()},
+        {"positive", all.high},         {"negative", all.low},
+        {"primary", primary.maximax()}, {"residual", residual.maximax()}};
+  };
+  return Value::Fields{{"frequency", point.frequency},
+                       {"pseudo_velocity", fields(point.primary.pseudo_velocity, point.residual.pseudo_velocity,
+                                                  whole.pseudo_velocity, point.pseudo_velocity_error)},
+                       {"acceleration", fields(point.primary.acceleration, point.residual.acceleration,
+                                               whole.acceleration, point.acceleration_error)}};
+}
+
+Value spectra_value(const ShockRun& run) {
+  Value::List list;
+  for (const Spectrum& spectrum : run.spectra) {
+    Value::List points;
+    for (const ResponsePoint& point : spectrum.points) points.push_back(point_value(point));
+    list.emplace_back(Value::Fields{{"probe", run.probes[spectrum.probe].name},
+                                    {"axis", axis_names[spectrum.axis]},
+                                    {"model", spectrum.continuous ? "continuous" : "discrete"},
+                                    {"blows", blows_word(spectrum)},
+                                    {"quality", run.request.quality},
+                                    {"points", points}});
+  }
+  return list;
+}
+
+Value envelopes_value(const ShockRun& run) {
+  Value::List list;
+  for (std::size_t i = 0; i < run.envelopes.size(); ++i) {
+    if (!run.envelopes[i]) continue;
+    list.emplace_back(Value::Fields{{"probe", run.probes[i].name},
+                                    {"pseudo_velocity", run.envelopes[i]->pseudo_velocity},
+                                    {"acceleration_over_omega", run.envelopes[i]->acceleration_over_omega}});
+  }
+  return list;
+}
+
+/// How the model that comes first ended.
+void add_outcome(const ShockRun& run, Report& report) {
+  if (run.continuous) {
+    const numeric::Simulation& simulation = run.continuous->planned.run;
+    report.fields["outcome"] = outcome_name(simulation.outcome);
+    report.fields["message"] = simulation.message;
+    report.fields["warnings"] = run.continuous->planned.warnings;
+    const std::string facets = facet_words(run.scene, simulation);
+    if (!facets.empty()) report.fields["warnings"].push_back(facets);
+    report.fields["shortfall"] = text_or_nothing(shortfall(run.scene, run.continuous->planned));
+  } else {
+    report.fields["outcome"] = run.discrete_run->outcome;
+    report.fields["message"] = run.discrete_run->message;
+    report.fields["shortfall"] = text_or_nothing(shortfall(run.scene, *run.discrete_run));
+  }
+}
+
+/// A straight line at the severity.
+void add_severity(double severity, PicturePanel& panel) {
+  panel.columns.push_back({"severity", "m/s", "severity"});
+  for (auto& row : panel.rows) row.push_back(severity);
+  panel.plot.curves.push_back(
+      {.x = "frequency", .y = "severity", .legend = "severity", .style = FigureCurve::Style::dotted});
+}
+
+std::string probe_words(const std::vector<Probe>& probes) {
+  std::string words;
+  for (const Probe& probe : probes) {
+    words += (words.empty() ? "probes: " : "; ") + place_words(probe);
+  }
+  return words + ", body frame";
+}
+
+/// A note on probes so far off the body that their places may be in another unit or frame.
+std::string far_probes(const Scene& scene, const std::vector<Probe>& probes) {
+  const BodyProperties body = body_properties(scene, Model::discrete);
+  std::string names;
+  for (const Probe& probe : probes) {
+    const bool is_far = (probe.place.cwiseAbs() - body.extents).maxCoeff() > 0;
+    if (is_far && scene.body.shape != BodyScene::Shape::mesh) names += (names.empty() ? "" : ", ") + probe.name;
+  }
+  return names.empty() ? "" : names + ": off the body, whose extents are above; places are in m, from its middle";
+}
+
+}  // namespace
+
+std::vector<Column> shock_columns() {
+  std::vector<Column> columns{word_column("probe", "probe", "name of the point"),
+                              {"n", "n", "", "number of the impact, from 1"},
+                              {"start", "t", "s", "time of touch-down, after that of impact 1"},
+                              {"duration", "contact", "s", "how long anything touches"}};
+  std::vector<Column> errors{error_column(columns[2])};
+  const auto add = [&](const Column& column) {
+    columns.push_back(column);
+    errors.push_back(error_column(column));
+  };
+  for (const ShockQuantity& quantity : quantities) add(column_of(quantity, false));
+  add({"sensitivity", "∂", "",
+       "∂ ln(peak)/∂ ln k_G with c_G/k_G held: 1/2 for a face, 1/3 for an edge, 1/4 for a corner that lands alone"});
+  add({"indentation", "depth", "m", "greatest depth of a point of the body below the ground"});
+  for (const ShockQuantity& quantity : quantities) {
+    if (quantity.in_discrete) add(column_of(quantity, true));
+  }
+  columns.push_back({"closure", "", "", "distance of ∫a dt from ΔV, over that, with a from the forces"});
+  columns.push_back({"predictable", "", "", "whether errors have not grown so far that another sequence may follow"});
+  columns.insert(columns.end(), errors.begin(), errors.end());
+  return columns;
+}
+
+std::vector<Column> spectrum_columns() {
+  std::vector<Column> columns{
+      word_column("probe", "probe", "name of the point"),
+      word_column("axis", "axis", "of the body, along which the base moves"),
+      word_column("model", "model", "of the impacts"),
+      word_column("blows", "blows", "impacts that are in it: 1, 1-2, …, or flat: one impact at 0°"),
+      {"frequency", "f", "Hz", "undamped natural frequency of the oscillator"},
+      {"pseudo_velocity", "ω|z|", "m/s", "largest relative displacement times ω, during the impacts or after them"},
+      {"acceleration", "|a|", "m/s²", "largest absolute acceleration of the oscillator's mass"},
+      {"acceleration_g", "|a|", "g", "the same in units of 9.80665 m/s²"}};
+  for (const char* part : {"", "primary_", "residual_"}) {
+    const std::string when = *part == '\0' ? "" : *part == 'p' ? ", until the last impact ends" : ", after it";
+    for (const auto& [name, unit] : {std::pair{"pseudo_velocity", "m/s"}, {"acceleration", "m/s²"}}) {
+      for (const char* sign : {"positive", "negative"}) {
+        columns.push_back({fmt::format("{}{}_{}", part, name, sign), "", unit,
+                           fmt::format("{} value of {}{}", *sign == 'p' ? "largest" : "least", name, when), false});
+      }
+    }
+  }
+  columns.push_back(error_column(columns[5]));
+  columns.push_back(error_column(columns[6]));
+  return columns;
+}
+
+Report shock_report(const ShockRun& run, const ShockView& view) {
+  constexpr const char* titles[] = {"what each impact does to points of the body",
+                                    "response spectra at points of the body",
+                                    "each impact as a test pulse, at points of the body"};
+  const bool continuous = run.continuous.has_value();
+  Report report = begun_report("shock", titles[static_cast<std::size_t>(view.rows)]);
+  const Model model = continuous ? Model::continuous : Model::discrete;
+  report.head = scene_head(run.scene, model);
+  const std::string facets = continuous ? facet_words(run.scene, run.continuous->planned.run) : "";
+  if (!facets.empty()) report.head.push_back(facets);
+  report.head.push_back(probe_words(run.probes));
+  report.notes = notes_of(run, view);
+  if (const std::string far = far_probes(run.scene, run.probes); !far.empty()) report.notes.push_back(far);
+  const Grid impacts = impacts_of(run);
+  const Grid pulses = pulse_grid(run, view.part);
+  report.grid = view.rows == ShockRows::spectra ? spectra_of(run) : view.rows == ShockRows::pulses ? pulses : impacts;
+  if (view.rows == ShockRows::spectra) report.digest = digest_of(run);
+  if (view.rate) {
+    report.grid = shock_history_grid(run, *view.rate);
+    report.digest.reset();
+    report.fields["history"] = row_objects(report.grid);
+  }
+  report.fields["model"] = continuous ? "continuous" : "discrete";
+  report.fields["scene"] = scene_value(run.scene, model);
+  report.fields["scene"][probe_table] = probe_fields(run.probes);
+  report.fields["body"] = body_value(run.scene, model);
+  report.fields["impacts"] = row_objects(impacts);
+  report.fields["spectra"] = spectra_value(run);
+  report.fields["envelopes"] = envelopes_value(run);
+  report.fields["pulses"] = pulse_fields(pulses, view.part);
+  add_outcome(run, report);
+  report.fields["discrete_reason"] = text_or_nothing(run.discrete_reason);
+  if (run.parted.from > 0)
+    report.fields["parted"] = Value::Fields{{"from", run.parted.from}, {"reason", run.parted.reason}};
+  return report;
+}
+
+Picture shock_picture(const ShockRun& run, const ShockView& view) {
+  Picture picture{.what = fmt::format("pseudo-velocity over natural frequency, {}", quality_words(run.request.quality)),
+                  .scene = run.scene.summary(run.continuous ? Model::continuous : Model::discrete),
+                  .panels = {}};
+  for (std::size_t probe = 0; probe < run.probes.size(); ++probe) {
+    std::vector<const Spectrum*> shown = shown_spectra(run, probe);
+    if (shown.empty()) continue;
+    const Spectrum* const discrete = run.whole(probe, false);
+    if (run.continuous && discrete && run.parted.are_one(discrete->impacts)) shown.push_back(discrete);
+    PicturePanel panel{.columns = {{"frequency", "Hz", "natural frequency"}}, .rows = {}, .plot = {}};
+    panel.plot.logarithmic_x = panel.plot.logarithmic_y = true;
+    panel.plot.y_label = fmt::format("{} along {} [m/s]", run.probes[probe].name, axis_names[shown.front()->axis]);
+    for (std::size_t i = 0; i < shown.front()->points.size(); ++i)
+      panel.rows.push_back({shown.front()->points[i].frequency});
+    for (const Spectrum* spectrum : shown) {
+      const std::string name = fmt::format("v{}", panel.columns.size());
+      const bool is_other = run.continuous && !spectrum->continuous;
+      const std::string legend = part_words(*spectrum) + (is_other ? ", discrete model" : "");
+      panel.columns.push_back({name, "m/s", legend});
+      for (std::size_t i = 0; i < panel.rows.size(); ++i) {
+        panel.rows[i].push_back(spectrum->points[i].whole().pseudo_velocity.maximax());
+      }
+      panel.plot.curves.push_back({.x = "frequency",
+                                   .y = name,
+                                   .legend = legend,
+                                   .style = is_other ? FigureCurve::Style::dashed : FigureCurve::Style::line});
+    }
+    if (view.severity) add_severity(*view.severity, panel);
+    picture.panels.push_back(std::move(panel));
+  }
+  if (!picture.panels.empty()) picture.panels.back().plot.x_label = "natural frequency [Hz]";
+  if (view.part) {
+    if (auto panel = boundary_panel(run, *view.part)) picture.panels.push_back(std::move(*panel));
+  }
+  return picture;
+}
+
+}  // namespace clatter::validation

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What `clatter shock` says and draws.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "validation/output/picture.hpp"
+#include "validation/output/report.hpp"
+#include "validation/shock/damage_boundary.hpp"
+#include "validation/shock/shock_run.hpp"
+
+namespace clatter::validation {
+
+/// A row for each impact and probe.
+[[nodiscard]] std::vector<Column> shock_columns();
+/// A row for each frequency of each spectrum.
+[[nodiscard]] std::vector<Column> spectrum_columns();
+
+enum class ShockRows { impacts, spectra, pulses };
+
+/// What is shown of a run.
+struct ShockView {
+  ShockRows rows = ShockRows::impacts;  ///< of the table; JSON has all
+  std::optional<double> severity{};     ///< pseudo-velocity with which those of the spectra are compared [m/s]
+  std::optional<FragilePart> part{};    ///< of which the damage boundary is shown
+  std::optional<double> rate{};         ///< the table is the history at this rate instead [Hz]
+};
+[[nodiscard]] Report shock_report(const ShockRun& run, const ShockView& view);
+/// The spectra of pseudo-velocity, a panel for each probe, and the damage boundary.
+[[nodiscard]] Picture shock_picture(const ShockRun& run, const ShockView& view);
+
+}  // namespace clatter::validation
