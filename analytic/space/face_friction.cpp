@@ -12,9 +12,11 @@ namespace clatter::analytic::space {
 
 namespace {
 
-/// Relative errors of the impulse of a landing that tilts: where pressure always goes on from what it was, and where it
-/// jumps, at a moment that is known to the square root of rounding.
+/// Relative errors of the impulse of a landing whose pushes come near the boundary: where pressure always goes on from
+/// what it was, and where it jumps, at a moment that is known to the square root of rounding.
 constexpr double error_of_tilting = 1e-10, error_of_jump = 1e-5;
+/// Local error of a step of such a landing.
+constexpr double step_of_tilting = 1e-12;
 
 Vector2 quarter_turn(const Vector2& a) { return {-a.y(), a.x()}; }
 
@@ -67,9 +69,10 @@ class FacePath final : SlipMotion {
   double impulse_left(const Values&) override { return face_.normal_impulse - spent_; }
   bool end_stage() override { return true; }
   void keep() override {
-    pressure_.keep();
     was_at_side_ = pressure_.is_at_side();
+    if (pressure_.is_near_side()) step_error_ = step_of_tilting;
     jumps_ = jumps_ || (spent_ > 0 && pressure_.has_jumped());
+    pressure_.keep();
   }
   void go_back() override { pressure_.go_back(); }
   bool may_step_to(const Values& next, const Values& then, double length) override;
@@ -85,12 +88,12 @@ class FacePath final : SlipMotion {
   Vector3 root_;  ///< √m, √m, √J
   double unit_;   ///< [m·N·s]
   Vector3 load_;  ///< y′ without friction
-  bool was_at_side_ = false, jumps_ = false;
+  bool was_at_side_ = false, jumps_ = false, is_lost_ = false;
   Eigen::Matrix<double, 3, 2> of_beyond_;  ///< of y′ by R − x̂
 };
 
 FacePath::Values FacePath::rate(const Values& y) {
-  const auto push = pressure_.against(y.head<2>() / root_[0], y[2] / root_[2]);
+  const auto push = pressure_.against(y.head<2>() / root_[0], y[2] / root_[2], at_once_);
   Values change(5);
   change << load_ + Vector3(push.friction.array() / root_.array()) + of_beyond_ * push.beyond, push.beyond / unit_;
   return change;
@@ -98,9 +101,9 @@ FacePath::Values FacePath::rate(const Values& y) {
 
 /// The share of friction ends its fall within a millionth of slip from where it is least: the rest is of second order.
 bool FacePath::may_step_to(const Values& next, const Values& then, double length) {
-  constexpr double at_once = 1e-12, near = 1e-6, ahead = 1e-5;
+  constexpr double near = 1e-6, ahead = 1e-5;
   const double size = next.head<3>().norm(), speed = then.head<3>().norm();
-  if (pressure_.has_jumped()) return length * speed <= at_once * size;
+  if (pressure_.has_jumped()) return at_once_;
   if (!was_at_side_ || length * speed <= near * size) return true;
   if (!pressure_.is_at_side()) return false;
   const double share = pressure_.share();
@@ -154,7 +157,9 @@ bool FacePath::go_on_from_rest(const HeldFace& held) {
   pressure_.begin();
   y_.head<3>() =
       first_slip * face_.normal_impulse * (held.friction.array() / root_.array()).matrix().norm() * direction;
-  if (slide(true) == End::impulse_spent) return true;
+  const End end = slide(true);
+  is_lost_ = end == End::no_pressure;
+  if (end == End::impulse_spent) return true;
   y_ = at_rest;
   spent_ = spent;
   return false;
@@ -164,7 +169,9 @@ FaceFriction FacePath::follow() {
   FaceFriction result;
   const Vector3 before = y_.head<3>();
   const bool slips = before.norm() > rounding();
-  if (!slips || slide() == End::stopped) {
+  const End end = slips ? slide() : End::stopped;
+  is_lost_ = end == End::no_pressure;
+  if (end == End::stopped) {
     const HeldFace held = this->held();
     if (go_on_from_rest(held)) {
       result.path = slips ? PathKind::slip_reslip : PathKind::slip;
@@ -178,8 +185,8 @@ FaceFriction FacePath::follow() {
   result.impulse = root_[0] * change.head<2>();
   result.couple = root_[2] * change.z();
   result.moment = quarter_turn(beyond);
-  result.has_pressure = !pressure_.has_left();
-  if (beyond != Vector2::Zero()) result.path_error = jumps_ ? error_of_jump : error_of_tilting;
+  result.has_pressure = !is_lost_ && !pressure_.has_left();
+  if (step_error_ == step_of_tilting) result.path_error = jumps_ ? error_of_jump : error_of_tilting;
   result.spin_after = y_[2] / root_[2];
   return result;
 }

@@ -56,6 +56,11 @@ std::size_t FacePressure::outermost(const Vector2& point) const {
   return most;
 }
 
+bool FacePressure::is_near_side() const {
+  constexpr double near = 0.05;
+  return side(now_.place.point, outermost(now_.place.point)).beyond > -near;
+}
+
 /// The pressure with this centre, which lies inside, by Newton's method for the bottom of a convex function.
 bool FacePressure::press_at(const Vector2& centre) {
   constexpr int most_turns = 100;
@@ -251,7 +256,7 @@ bool FacePressure::follow(const Vector3& from, const Vector3& way, double step, 
   return false;
 }
 
-FacePressure::Push FacePressure::against(const Vector2& slip, double spin) {
+FacePressure::Push FacePressure::against(const Vector2& slip, double spin, bool may_jump) {
   const Vector2& centre = pushed_.centre();
   slip_ = slip + spin * Vector2(-centre.y(), centre.x());
   spin_ = spin;
@@ -264,11 +269,13 @@ FacePressure::Push FacePressure::against(const Vector2& slip, double spin) {
     now_.place.point += part * (last.point - now_.before.point);
     now_.place.pressure += part * (last.pressure - now_.before.pressure);
   }
-  has_jumped_ = false;
   if (!settle_within()) {
     now_.place = last;
-    has_jumped_ = !settle_within();
-    if (has_jumped_) grow_from_no_friction();
+    if (!settle_within()) {
+      if (!may_jump) return {Vector3::Constant(std::numeric_limits<double>::quiet_NaN()), Vector2::Zero()};
+      has_jumped_ = true;
+      grow_from_no_friction();
+    }
   }
   now_.before = last;
   now_.direction_before = now_.direction;
@@ -279,6 +286,7 @@ FacePressure::Push FacePressure::against(const Vector2& slip, double spin) {
 
 void FacePressure::keep() {
   kept_ = now_;
+  has_jumped_ = false;
   if (!is_bounded_) has_left_ = has_left_ || side(now_.place.point, outermost(now_.place.point)).beyond > 0;
 }
 

@@ -42,13 +42,19 @@ class FacePressure {
   };
   void begin();
   /// Against the slip U below the centre of mass and the spin w, of any size.
-  [[nodiscard]] Push against(const Vector2& slip, double spin);
+  /// @param may_jump  to a solution that does not go on from the last one; without leave the friction is NaN then
+  [[nodiscard]] Push against(const Vector2& slip, double spin, bool may_jump);
   /// Later solutions go on from the last one; go_back() takes those back that came after the last keep().
   void keep();
-  void go_back() { now_ = kept_; }
+  void go_back() {
+    now_ = kept_;
+    has_jumped_ = false;
+  }
   /// x̂ is on the boundary of C, where λ becomes less.
   [[nodiscard]] bool is_at_side() const { return now_.place.is_at_side; }
-  /// The last solution does not go on from the one before it.
+  /// The pressure is that of a small part of C, and its friction less accurate.
+  [[nodiscard]] bool is_near_side() const;
+  /// Of the solutions since the last keep() one does not go on from the one before it.
   [[nodiscard]] bool has_jumped() const { return has_jumped_; }
   [[nodiscard]] double share() const { return now_.place.share; }  ///< λ
   /// R₀ is outside C, and R was so, too, at one that was kept.

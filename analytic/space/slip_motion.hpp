@@ -43,7 +43,10 @@ class SlipMotion {
   End slide(bool from_rest = false);
 
   Values y_;
-  double spent_ = 0;            ///< P
+  double spent_ = 0;  ///< P
+  /// Local error of a step, relative to the largest slip so far, and of what goes along with it.
+  double step_error_ = 4e-15;
+  bool at_once_ = false;        ///< the step is so short that the rate may jump in it
   bool only_friction_ = false;  ///< nothing but friction acts on slip, which can only become less
 
  private:
