@@ -11,6 +11,8 @@ namespace {
 
 /// Changes where the error of Newton's method is its square.
 constexpr double settled = 1e-7;
+/// Points no farther beyond a side are on it.
+constexpr double rounding = 64 * std::numeric_limits<double>::epsilon();
 
 std::vector<Vector2> corners_in_units(const ContactArea& area, const PressedArea& pushed) {
   std::vector<Vector2> corners;
@@ -25,7 +27,7 @@ Vector3 with_one(const Vector2& x) { return {1, x.x(), x.y()}; }
 
 FacePressure::FacePressure(const ContactArea& area, const PressedFace& face)
     : corners_(corners_in_units(area, PressedArea(area))), pushed_(area), without_friction_(in_units(face.point)),
-      is_bounded_(area.contains(face.point)), shift_(face.shift / pushed_.unit()),
+      is_bounded_(area.radius == 0 && area.contains(face.point)), shift_(face.shift / pushed_.unit()),
       nearest_(corners_, Matrix2::Identity()), whole_moments_(pushed_.moments()), moments_(whole_moments_) {
   const Vector2& centre = pushed_.centre();
   rubbing_ << 1, 0, 0, 0, 1, 0, -centre.y(), centre.x(), pushed_.unit();
@@ -156,7 +158,6 @@ bool FacePressure::settle(std::optional<std::size_t> on_side) {
 
 /// From a place near the solution, with the share that it had at the last kept one, or less.
 bool FacePressure::settle_within() {
-  constexpr double rounding = 64 * std::numeric_limits<double>::epsilon();
   Place& now = now_.place;
   const double most_share = kept_.place.share;
   now.is_at_side = is_bounded_ && now.is_at_side && now.share <= most_share;
@@ -257,6 +258,7 @@ bool FacePressure::follow(const Vector3& from, const Vector3& way, double step, 
 }
 
 FacePressure::Push FacePressure::against(const Vector2& slip, double spin, bool may_jump) {
+  const Push none{Vector3::Constant(std::numeric_limits<double>::quiet_NaN()), Vector2::Zero()};
   const Vector2& centre = pushed_.centre();
   slip_ = slip + spin * Vector2(-centre.y(), centre.x());
   spin_ = spin;
@@ -272,7 +274,7 @@ FacePressure::Push FacePressure::against(const Vector2& slip, double spin, bool 
   if (!settle_within()) {
     now_.place = last;
     if (!settle_within()) {
-      if (!may_jump) return {Vector3::Constant(std::numeric_limits<double>::quiet_NaN()), Vector2::Zero()};
+      if (!may_jump) return none;
       has_jumped_ = true;
       grow_from_no_friction();
     }
@@ -280,14 +282,13 @@ FacePressure::Push FacePressure::against(const Vector2& slip, double spin, bool 
   now_.before = last;
   now_.direction_before = now_.direction;
   now_.direction = direction;
-  const double beyond = is_bounded_ ? 1 - now_.place.share : 0;
-  return {.friction = friction_now_, .beyond = unit() * (beyond * (shift_ * friction_now_))};
+  if (!is_bounded_ && side(now_.place.point, outermost(now_.place.point)).beyond > rounding) return none;
+  return {.friction = friction_now_, .beyond = unit() * ((1 - now_.place.share) * (shift_ * friction_now_))};
 }
 
 void FacePressure::keep() {
   kept_ = now_;
   has_jumped_ = false;
-  if (!is_bounded_) has_left_ = has_left_ || side(now_.place.point, outermost(now_.place.point)).beyond > 0;
 }
 
 void FacePressure::press_near(const Vector2& point) {

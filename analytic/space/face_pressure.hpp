@@ -9,8 +9,8 @@
 // is that of the linear pressure without tension whose centre is R₀ + λ² S f, or the point nearest to it of C shrunk
 // about its middle by the part η: pressure at an edge or a corner alone would have a friction that changes at once with
 // slip. So friction does not lead by more than C has room for, and slip whose direction turns again and again has no
-// corner of its path after the first turn.  If R₀ is outside, λ stays 1, and has_left() says whether R has been so,
-// too. A solution goes on from the last one.  At the start, and where that one ends, it is the one that the solution
+// corner of its path after the first turn.  If R₀ is outside, or C is a disc, λ stays 1, and
+// no pressure is had where R is outside. A solution goes on from the last one.  At the start, and where that one ends, it is the one that the solution
 // without friction becomes as λ grows from 0: f, x̂ and λ depend on no index of a corner.
 #pragma once
 
@@ -42,7 +42,8 @@ class FacePressure {
   };
   void begin();
   /// Against the slip U below the centre of mass and the spin w, of any size.
-  /// @param may_jump  to a solution that does not go on from the last one; without leave the friction is NaN then
+  /// @param may_jump  to a solution that does not go on from the last one
+  /// @return friction NaN without that leave, or without pressure
   [[nodiscard]] Push against(const Vector2& slip, double spin, bool may_jump);
   /// Later solutions go on from the last one; go_back() takes those back that came after the last keep().
   void keep();
@@ -57,8 +58,6 @@ class FacePressure {
   /// Of the solutions since the last keep() one does not go on from the one before it.
   [[nodiscard]] bool has_jumped() const { return has_jumped_; }
   [[nodiscard]] double share() const { return now_.place.share; }  ///< λ
-  /// R₀ is outside C, and R was so, too, at one that was kept.
-  [[nodiscard]] bool has_left() const { return has_left_; }
 
   /// A pressure that stays, with its centre as near to `point` as η lets it be, and its friction.
   void press_near(const Vector2& point);
@@ -107,8 +106,8 @@ class FacePressure {
 
   std::vector<Vector2> corners_;
   PressedArea pushed_;
-  Vector2 without_friction_;  ///< R₀ in units
-  bool is_bounded_, has_left_ = false, has_jumped_ = false;
+  Vector2 without_friction_;              ///< R₀ in units
+  bool is_bounded_, has_jumped_ = false;  ///< λ may be less than 1
   Eigen::Matrix<double, 2, 3> shift_;
   NearestInArea nearest_;
   Matrix3 rubbing_, whole_moments_, moments_;
