@@ -84,7 +84,7 @@ bool FacePressure::press_at(const Vector2& centre) {
         pressure += moments_.partialPivLu().solve(wrong);
         continue;
       }
-      if (least <= 64 * rounding) return true;
+      if (least <= 64 * rounding * std::fmax(1, moments_.norm() * pressure.norm())) return true;
     }
     pressure = (before + pressure) / 2;
   }
@@ -214,7 +214,11 @@ void FacePressure::grow_from_no_friction() {
       continue;
     }
     const Vector2 point = next.head<2>();
-    const bool is_beyond = is_bounded_ && side(point, outermost(point)).beyond > 0;
+    const bool leaves = side(point, outermost(point)).beyond > 0, is_beyond = is_bounded_ && leaves;
+    if (leaves && corners_.empty()) {
+      now.point = point;
+      return;
+    }
     if (is_beyond || next.z() >= most_share) {
       now.is_at_side = is_beyond;
       now.point = point;
