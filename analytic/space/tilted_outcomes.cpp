@@ -282,7 +282,12 @@ bool SectorSearch::strike_whole(StrikingBody& struck, const std::vector<std::siz
   ++strikes_;
   if (struck.law().law.rubs()) ++rubs_;
   if (!whole) return false;
-  struck.push({.impulse = whole->impulse, .moment = whole->moment, .path = whole->path}, points);
+  struck.push({.impulse = whole->impulse,
+               .moment = whole->moment,
+               .path = whole->path,
+               .tilts = whole->tilts,
+               .path_error = whole->path_error},
+              points);
   return true;
 }
 
