@@ -81,7 +81,9 @@ class StrikingGroup {
   bool strike_as_a_whole() {
     StrikingGroup group = *this;
     group.tilted_ = false;
-    if (!group.strike(approaching()) || !(group.tilted_ || group.approaching().empty())) return false;
+    const bool struck = group.strike(approaching());
+    if (group.is_lost_) struck_.leave_open();
+    if (!struck || !(group.tilted_ || group.approaching().empty())) return false;
     struck_.take(group.struck_);
     return true;
   }
@@ -98,6 +100,7 @@ class StrikingGroup {
   StrikingBody struck_;
   Points points_;
   bool tilted_ = false;
+  bool is_lost_ = false;  ///< friction of a face that has a pressure could not be followed
 };
 
 std::vector<int> indices_of(const StrikingGroup::Points& group) {
@@ -149,7 +152,12 @@ bool StrikingGroup::strike_face(const Points& group, const std::vector<int>& hul
   ContactArea area;
   for (const int i : hull) area.corners.emplace_back(group[static_cast<std::size_t>(i)].arm.head<2>());
   const auto face = struck_.face_rebound(depth, area);
-  if (!face) return false;
+  if (!face) {
+    const auto smooth = struck_.face_rebound(depth);
+    is_lost_ = smooth && struck_.law().law.rubs() &&
+               area.contains(Vector2(-smooth->moment.y(), smooth->moment.x()) / smooth->impulse.z());
+    return false;
+  }
   struck_.push(*face, indices_of(group));
   tilted_ = face->tilts;
   return true;
