@@ -96,7 +96,7 @@ bool tilts(const StruckState& struck) {
 
 constexpr double difference_step = 1e-6;
 
-/// Of a landing that friction tilts, by differences; it keeps its inclination.
+/// The derivatives of a landing that friction tilts, by differences; it keeps its inclination.
 ImpactDerivatives tilting_derivatives(const StruckState& struck) {
   ImpactDerivatives d;
   for (const std::size_t i : {at_time, at_angle, at_sum}) d.state[i][i] = 1;

@@ -36,7 +36,7 @@ struct FaceTurning {
     shift << -face.depth, 0, per_couple.y(), 0, -face.depth, -per_couple.x();
     metric = turned(face.inverse_inertia.topLeftCorner<2, 2>());
   }
-  /// Of tilts: from the axes of turns to the slopes that they make.
+  /// A matrix of tilts, given for the axes of turns, for the slopes that they make.
   static Matrix2 turned(const Matrix2& a) { return (Matrix2() << a(1, 1), -a(0, 1), -a(1, 0), a(0, 0)).finished(); }
 };
 

@@ -10,8 +10,9 @@
 // about its middle by the part η: pressure at an edge or a corner alone would have a friction that changes at once with
 // slip. So friction does not lead by more than C has room for, and slip whose direction turns again and again has no
 // corner of its path after the first turn.  If R₀ is outside, or C is a disc, λ stays 1, and
-// no pressure is had where R is outside. A solution goes on from the last one.  At the start, and where that one ends, it is the one that the solution
-// without friction becomes as λ grows from 0: f, x̂ and λ depend on no index of a corner.
+// no pressure is had where R is outside. A solution goes on from the last one.  At the start, and where that one ends,
+// it is the one that the solution without friction becomes as λ grows from 0: f, x̂ and λ depend on no index of a
+// corner.
 #pragma once
 
 #include <optional>
@@ -55,7 +56,7 @@ class FacePressure {
   [[nodiscard]] bool is_at_side() const { return now_.place.is_at_side; }
   /// The pressure is that of a small part of C, and its friction less accurate.
   [[nodiscard]] bool is_near_side() const;
-  /// Of the solutions since the last keep() one does not go on from the one before it.
+  /// One of the solutions since the last keep() does not go on from the one before it.
   [[nodiscard]] bool has_jumped() const { return has_jumped_; }
   [[nodiscard]] double share() const { return now_.place.share; }  ///< λ
 
