@@ -128,6 +128,7 @@ bool FacePressure::settle(std::optional<std::size_t> on_side) {
       equations.row(2) << at.normal.transpose(), 0;
     }
     const double size = wrong.norm();
+    if (!std::isfinite(size)) return false;
     Vector3 next = (before + Vector3(now.point.x(), now.point.y(), now.share)) / 2;
     bool is_solved = false;
     if (size < least) {
@@ -278,7 +279,7 @@ FacePressure::Push FacePressure::against(const Vector2& slip, double spin, bool 
   if (!settle_within()) {
     now_.place = last;
     if (!settle_within()) {
-      if (!may_jump) return none;
+      if (!may_jump || corners_.empty()) return none;  // a disc that friction tilts has no pressure here
       has_jumped_ = true;
       grow_from_no_friction();
     }
