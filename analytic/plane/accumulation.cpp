@@ -112,7 +112,8 @@ std::optional<Tail> resting_tail(const BodyMotion& motion, const ImpactLaw& law,
   const bool sticks = last.impact.mode == ImpactMode::stick || last.impact.mode == ImpactMode::slip_stick;
   const bool follows = sticks || (law.friction == FrictionKind::none && std::popcount(last.vertices) == 1);
   const Departure departure = motion.local_departure();
-  if (!follows || law.restitution != 0 || std::popcount(departure.touching) != 2) return {};
+  if (!follows || law.restitution != 0 || std::popcount(departure.touching) != 2 || departure.rebound_speed != 0)
+    return {};
   const int at_rest = departure.reference, coming = std::countr_zero(departure.touching & ~(1u << at_rest));
   if (!(vertex_height(motion.turned_body(), departure, coming).velocity < 0)) return {};
   const PlanarBody& body = motion.body();

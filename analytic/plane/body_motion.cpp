@@ -143,6 +143,12 @@ BodyMotion::Strike BodyMotion::strike(VertexSet vertices, const ImpactLaw& law) 
       const bool pivots = gravity_ > 0 && std::fmin(of_first, of_second) <= pivot_part * std::fmax(of_first, of_second);
       reference_ = pivots && of_second < of_first ? second : first;
       rebound_speed_ = pivots ? 0 : e * of_first;
+      if (impact->tilts) {  // the vertex that rises, or rises faster
+        const double first_after = normal_velocity(impact->after, contact_point(first)),
+                     second_after = normal_velocity(impact->after, contact_point(second));
+        reference_ = first_after >= second_after ? first : second;
+        rebound_speed_ = std::fmax(first_after, second_after);
+      }
       return {*impact, vertices};
     }
     const bool first_faster =

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analytic/plane/impact.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "analytic/base/errors.hpp"
 #include "analytic/law/coulomb_path.hpp"
@@ -71,6 +73,98 @@ Impact strike(const PlanarBody& body, const PlanarVelocity& before, const Contac
   return impact;
 }
 
+namespace {
+
+/// While the slip of a flat landing has one direction, or none: all per unit of P_n/m.
+struct FlatPhase {
+  double ratio;      ///< P_t/P_n
+  double turn_rate;  ///< dΩ
+  double slip_rate;  ///< ds
+  bool tilts;
+};
+
+/// Phases of a flat landing under Coulomb's law.
+class FlatLanding {
+ public:
+  FlatLanding(const PlanarBody& body, const PlanarVelocity& before, const ContactPoint& first,
+              const ContactPoint& second)
+      : square_(body.gyration_square), depth_(first.normal), turn_rate_(before.angular / before.normal),
+        ends_(std::minmax<double>({first.tangential, second.tangential})) {}
+
+  [[nodiscard]] bool pushes_without_friction() const { return clamped(-square_ * turn_rate_) == -square_ * turn_rate_; }
+  [[nodiscard]] FlatPhase sliding(double ratio) const {
+    const double asked = ratio * depth_ - square_ * turn_rate_, place = clamped(asked);
+    const double turn_rate = place == asked ? turn_rate_ : (ratio * depth_ - place) / square_;
+    return {ratio, turn_rate, ratio + depth_ * turn_rate, place != asked};
+  }
+  /// Without slip, or, where that takes too much friction, with slip that begins.
+  [[nodiscard]] FlatPhase from_rest(double friction) const {
+    const double inertia = square_ + depth_ * depth_, asked = -inertia * turn_rate_, place = clamped(asked);
+    const double turn_rate = place == asked ? turn_rate_ : -place / inertia, ratio = -depth_ * turn_rate;
+    if (std::fabs(ratio) <= friction) return {ratio, turn_rate, 0, place != asked};
+    return sliding(std::copysign(friction, ratio));
+  }
+
+ private:
+  [[nodiscard]] double clamped(double place) const { return std::clamp(place, ends_.first, ends_.second); }
+
+  double square_, depth_, turn_rate_;
+  std::pair<double, double> ends_;
+};
+
+/// What a flat landing by Coulomb's law comes to.
+struct FlatPath {
+  double normal = 0, tangential = 0, turned = 0;  ///< P_n/m, P_t/m, the change of Ω
+  bool tilts = false, sticks = false;
+  ImpactMode mode = ImpactMode::slip;
+};
+
+FlatPath follow(const FlatLanding& landing, double normal, double slip, double friction) {
+  FlatPath path{.normal = normal};
+  double left = normal;
+  const auto go_on = [&](const FlatPhase& phase, double length) {
+    path.tangential += phase.ratio * length;
+    path.turned += phase.turn_rate * length;
+    path.tilts = path.tilts || phase.tilts;
+    left -= length;
+  };
+  if (slip != 0) {
+    const FlatPhase begin = landing.sliding(-std::copysign(friction, slip));
+    const double stop = begin.slip_rate * slip < 0 ? -slip / begin.slip_rate : normal;
+    go_on(begin, std::fmin(stop, normal));
+    if (!(stop < normal)) return path;
+  }
+  const FlatPhase rest = landing.from_rest(friction);
+  path.sticks = rest.slip_rate == 0;
+  path.mode = slip == 0 ? (path.sticks ? ImpactMode::stick : ImpactMode::slip)
+                        : (path.sticks ? ImpactMode::slip_stick
+                                       : (rest.slip_rate * slip < 0 ? ImpactMode::reverse_slip : ImpactMode::slip));
+  go_on(rest, left);
+  return path;
+}
+
+Impact tilted_impact(const PlanarBody& body, const PlanarVelocity& before, const ContactPoint& first,
+                     double restitution, const FlatPath& path) {
+  Impact impact{.normal_impulse = body.mass * path.normal,
+                .tangential_impulse = body.mass * path.tangential,
+                .approach_speed = -before.normal,
+                .separation_speed = -restitution * before.normal,
+                .slip_before = slip_velocity(before, first),
+                .mode = path.mode,
+                .after = {.normal = -restitution * before.normal,
+                          .tangential = before.tangential + path.tangential,
+                          .angular = before.angular + path.turned},
+                .tilts = true};
+  impact.slip_after = path.sticks ? 0 : slip_velocity(impact.after, first);
+  impact.energy_loss = -(impact.normal_impulse * (before.normal + impact.after.normal) +
+                         impact.tangential_impulse * (before.tangential + impact.after.tangential) +
+                         body.mass * body.gyration_square * path.turned * (before.angular + impact.after.angular)) /
+                       2;
+  return impact;
+}
+
+}  // namespace
+
 std::optional<Impact> strike_flat(const PlanarBody& body, const PlanarVelocity& before, const ContactPoint& first,
                                   const ContactPoint& second, const ImpactLaw& law) {
   law.validate();
@@ -81,6 +175,14 @@ std::optional<Impact> strike_flat(const PlanarBody& body, const PlanarVelocity& 
   const PathStart<> start{.approach_speed = -before.normal, .slip = slip_velocity(before, first), .restitution = e};
   const PathEnd<> path = flat_impulse(start, before.angular * depth, law);
   const double normal = path.normal_impulse, tangential = path.tangential_impulse;
+  if (law.rubs()) {
+    const FlatLanding landing(body, before, first, second);
+    const FlatPath tilting = follow(landing, normal, start.slip, law.friction_value);
+    if (tilting.tilts) {
+      if (!landing.pushes_without_friction()) return {};
+      return tilted_impact(body, before, first, e, tilting);
+    }
+  }
 
   // Shares of the two vertices, from the angular momentum that they must supply together.
   const double moment = tangential * depth + body.gyration_square * (1 + e) * before.angular;

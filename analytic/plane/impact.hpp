@@ -36,6 +36,7 @@ struct Impact {
   ImpactMode mode = ImpactMode::frictionless;
   PlanarVelocity after;    ///< of the centre of mass
   double energy_loss = 0;  ///< [J]; negative: the impulse ratio as given creates energy
+  bool tilts = false;      ///< a flat landing that friction tilts: not all of it rebounds as a whole
 
   /// P_t/P_n, 0 without an impulse.
   [[nodiscard]] double impulse_ratio() const;
@@ -77,8 +78,10 @@ struct ContactVelocity {
 /// of the friction law acting at the ground, stopped where slip stops.  For ω = 0 this is Eq. 10 as
 /// printed.  The restitution laws agree here, since slip does not couple to the normal motion; the viscoelastic
 /// law takes e at the approach speed of the pressure centre, −v_n − k² ω²/v_n (coulomb_path.hpp).
-/// Returns nothing if one of the two impulses that (2) needs would have to pull: then the vertices
-/// strike one after the other, the faster approach first.
+/// While slip, or rest, goes on, (2) asks for pushes at d_t = R₀ + μ_i d_n, R₀ = −k² ω/v_n; beyond one of the two
+/// vertices they act at that vertex, and Ω changes by what they and friction make of it. Returns nothing if R₀, or d_t
+/// without friction or with an impulse ratio, is not between the vertices and pushes would have to pull: then the
+/// vertices strike one after the other, the faster approach first.
 [[nodiscard]] std::optional<Impact> strike_flat(const PlanarBody& body, const PlanarVelocity& before,
                                                 const ContactPoint& first, const ContactPoint& second,
                                                 const ImpactLaw& law);

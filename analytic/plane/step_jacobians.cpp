@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analytic/plane/step_jacobians.hpp"
 
+#include <cmath>
+#include <limits>
+
 #include "analytic/law/coulomb_path.hpp"
 
 namespace clatter::analytic {
@@ -71,11 +74,58 @@ ImpactResponse flat_response(const StruckState& struck) {
           .turn = -(1 + e) * turning};
 }
 
+/// A flat landing from the contact velocity of its vertex and Ω.
+struct LandedFlat {
+  Impact impact;
+  double separation;  ///< of the vertex
+
+  LandedFlat(const StruckState& struck, const ContactVelocity& contact, double turning, const ImpactLaw& law) {
+    const ContactPoint& d = struck.place;
+    const PlanarVelocity before{.normal = contact.normal + turning * d.tangential,
+                                .tangential = contact.slip - turning * d.normal,
+                                .angular = turning};
+    impact = strike_flat(struck.body, before, d, struck.second, law).value_or(Impact{});
+    separation = normal_velocity(impact.after, d);
+  }
+};
+
+bool tilts(const StruckState& struck) {
+  return struck.flat && struck.law.rubs() &&
+         LandedFlat(struck, struck.contact, struck.before.angular, struck.law).impact.tilts;
+}
+
+constexpr double difference_step = 1e-6;
+
+/// The derivatives of a landing that friction tilts, by differences; it keeps its inclination.
+ImpactDerivatives tilting_derivatives(const StruckState& struck) {
+  ImpactDerivatives d;
+  for (const std::size_t i : {at_time, at_angle, at_sum}) d.state[i][i] = 1;
+  const double speed = std::hypot(struck.contact.normal, struck.contact.slip);
+  const double reach = std::hypot(struck.place.normal, struck.place.tangential);
+  for (std::size_t i = at_normal; i <= at_turn; ++i) {
+    const double step = difference_step * (i == at_turn ? speed / reach : speed);
+    const auto landed = [&](double by) {
+      const ContactVelocity contact{struck.contact.normal + (i == at_normal ? by : 0),
+                                    struck.contact.slip + (i == at_slip ? by : 0)};
+      return LandedFlat(struck, contact, struck.before.angular + (i == at_turn ? by : 0), struck.law);
+    };
+    const LandedFlat more = landed(step), less = landed(-step);
+    const auto slope = [&](double a, double b) { return (a - b) / (2 * step); };
+    d.normal[i] = d.state[at_sum][i] = slope(more.impact.normal_impulse, less.impact.normal_impulse);
+    d.tangential[i] = slope(more.impact.tangential_impulse, less.impact.tangential_impulse);
+    d.state[at_normal][i] = slope(more.separation, less.separation);
+    d.state[at_slip][i] = slope(more.impact.slip_after, less.impact.slip_after);
+    d.state[at_turn][i] = slope(more.impact.after.angular, less.impact.after.angular);
+  }
+  return d;
+}
+
 bool sticks(ImpactMode mode) { return mode == ImpactMode::stick || mode == ImpactMode::slip_stick; }
 
 }  // namespace
 
 ImpactDerivatives impact_derivatives(const StruckState& struck, ImpactMode mode) {
+  if (tilts(struck)) return tilting_derivatives(struck);
   const ImpactResponse response = struck.flat ? flat_response(struck) : point_response(struck);
   ImpactDerivatives d;
   for (std::size_t i = 0; i < state_size; ++i) d.state[i][i] = 1;
@@ -106,9 +156,34 @@ void set_parts(const StruckState& struck, double push_of_friction, LawColumn& co
   column.parts[at_sum] = column.part;
 }
 
+LawDerivatives tilting_law_derivatives(const StruckState& struck) {
+  const auto column = [&](double ImpactLaw::*number, double highest) {
+    const double low = std::fmax(struck.law.*number - difference_step, 0),
+                 high = std::fmin(struck.law.*number + difference_step, highest);
+    const auto landed = [&](double value) {
+      ImpactLaw law = struck.law;
+      law.*number = value;
+      return LandedFlat(struck, struck.contact, struck.before.angular, law);
+    };
+    const LandedFlat more = landed(high), less = landed(low);
+    const auto slope = [&](double a, double b) { return (a - b) / (high - low); };
+    LawColumn one{.normal = slope(more.impact.normal_impulse, less.impact.normal_impulse),
+                  .tangential = slope(more.impact.tangential_impulse, less.impact.tangential_impulse)};
+    one.state[at_normal] = slope(more.separation, less.separation);
+    one.state[at_slip] = slope(more.impact.slip_after, less.impact.slip_after);
+    one.state[at_turn] = slope(more.impact.after.angular, less.impact.after.angular);
+    one.state[at_sum] = one.normal;
+    set_parts(struck, more.impact.normal_impulse / struck.body.mass, one);
+    return one;
+  };
+  return {.restitution = column(&ImpactLaw::restitution, 1),
+          .friction = column(&ImpactLaw::friction_value, std::numeric_limits<double>::infinity())};
+}
+
 }  // namespace
 
 LawDerivatives law_derivatives(const StruckState& struck, ImpactMode mode) {
+  if (tilts(struck)) return tilting_law_derivatives(struck);
   using Number = detail::Dual<2>;          // of e and of the friction
   constexpr double from_above = 0x1p-400;  // friction without which impulses and velocities are the same
   ImpactLaw law = struck.law;

@@ -63,7 +63,7 @@ double bound(const Image& image) {
 /// Rounding of the row's impulse by its path, relative, as a standard deviation.
 double path_rounding(const ImpactRow& row) {
   if (row.impact.path == PathKind::frictionless) return 8 * epsilon;
-  return row.group ? face_rounding : friction_rounding;
+  return row.group ? std::fmax(face_rounding, row.group->path_error) : friction_rounding;
 }
 
 /// Whether the row's corner has returned from a hop with an approach speed of relative accuracy.

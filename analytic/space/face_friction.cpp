@@ -3,223 +3,197 @@
 
 #include <Eigen/LU>
 #include <cmath>
-#include <limits>
 
 #include "analytic/base/limits.hpp"
+#include "analytic/space/face_pressure.hpp"
 #include "analytic/space/slip_motion.hpp"
 
 namespace clatter::analytic::space {
 
 namespace {
 
-/// Pressure on less than this part of the area counts as pressure at its edge, where there is none.
-constexpr double least_part = 1e-4;
-/// What turns a face, of (1) and (2): J, α₀, and the pressure point (−M_y, M_x) without friction and per K.
-struct FaceTurning {
-  double inertia, drift;
-  Vector2 point, point_per_couple;
+/// Relative errors of the impulse of a landing whose pushes come near the boundary: where pressure always goes on from
+/// what it was, and where it jumps, at a moment that is known to the square root of rounding.
+constexpr double error_of_tilting = 1e-10, error_of_jump = 1e-5;
+/// Local error of a step of such a landing.
+constexpr double step_of_tilting = 1e-12;
 
-  explicit FaceTurning(const SlidingFace& face) {
-    const Matrix2 held = face.inverse_inertia.topLeftCorner<2, 2>().inverse();
-    const Vector2 mixed = face.inverse_inertia.block<2, 1>(0, 2);
+Vector2 quarter_turn(const Vector2& a) { return {-a.y(), a.x()}; }
+
+/// What turns a face, of (1) to (3): E, J, α₀, R₀, S, B.
+struct FaceTurning {
+  Matrix2 held, metric;
+  Vector2 mixed, point;
+  Eigen::Matrix<double, 2, 3> shift;
+  double inertia, drift;
+
+  explicit FaceTurning(const SlidingFace& face)
+      : held(face.inverse_inertia.topLeftCorner<2, 2>().inverse()), mixed(face.inverse_inertia.block<2, 1>(0, 2)) {
     const Vector2 moment = held * face.turn_rate, per_couple = held * mixed;
     inertia = 1 / (face.inverse_inertia(2, 2) - mixed.dot(per_couple));
     drift = mixed.dot(moment);
-    point = {-moment.y(), moment.x()};
-    point_per_couple = {per_couple.y(), -per_couple.x()};
+    point = quarter_turn(moment);
+    shift << -face.depth, 0, per_couple.y(), 0, -face.depth, -per_couple.x();
+    metric = turned(face.inverse_inertia.topLeftCorner<2, 2>());
   }
+  /// A matrix of tilts, given for the axes of turns, for the slopes that they make.
+  static Matrix2 turned(const Matrix2& a) { return (Matrix2() << a(1, 1), -a(0, 1), -a(1, 0), a(0, 0)).finished(); }
 };
 
-Vector2 drift_of_slip(const SlidingFace& face) { return face.depth * Vector2(-face.turn_rate.y(), face.turn_rate.x()); }
+Vector2 drift_of_slip(const SlidingFace& face) { return face.depth * quarter_turn(face.turn_rate); }
 
-/// The path of (U, w), in the metric of the kinetic energy: y = (√m U, √J w).
+/// A face that does not slip: where its pushes are asked for and act, and what friction and tilt do to it per P.
+struct HeldFace {
+  Vector2 point, beyond;  ///< x̂; R − x̂ of the moment about the centre of mass [m]
+  Vector3 friction;       ///< (F, K)
+};
+
+/// The path of (U, w), in the metric of the kinetic energy: y = (√m U, √J w), and of ∫(R − x̂) dP in units of N ℓ.
 class FacePath final : SlipMotion {
  public:
   FacePath(const SlidingFace& face, const ContactArea& area)
-      : SlipMotion(3), face_(face), turning_(face), area_(area), pushed_(area), root_mass_(std::sqrt(face.mass)),
-        root_inertia_(std::sqrt(turning_.inertia)) {
-    load_ << root_mass_ * drift_of_slip(face), root_inertia_ * turning_.drift;
+      : SlipMotion(5), face_(face), turning_(face), pressure_(area, {face.friction, turning_.point, turning_.shift}),
+        root_(std::sqrt(face.mass), std::sqrt(face.mass), std::sqrt(turning_.inertia)),
+        unit_(pressure_.unit() * face.normal_impulse) {
+    load_ << root_[0] * drift_of_slip(face), root_[2] * turning_.drift;
     if (!(face.normal_impulse * load_.norm() > rounding())) load_.setZero();
     only_friction_ = load_ == Vector3::Zero();
-    y_ << root_mass_ * face.slip, root_inertia_ * face.spin;
-    whole_moments_ = pushed_.moments();
-    press_evenly();
-    const Vector2& centre = pushed_.centre();
-    rubbing_ << 1, 0, 0, 0, 1, 0, -centre.y(), centre.x(), pushed_.unit();
-    rubbing_ *= -face.friction;
-    shift_ << -face.depth, 0, turning_.point_per_couple.x(), 0, -face.depth, turning_.point_per_couple.y();
+    y_.head<3>() << root_[0] * face.slip, root_[2] * face.spin;
+    of_beyond_ = root_.asDiagonal() * turning_.shift.transpose() * turning_.metric;
   }
 
-  std::optional<FaceFriction> follow();
+  FaceFriction follow();
 
  private:
   Values rate(const Values& y) override;
   double impulse_left(const Values&) override { return face_.normal_impulse - spent_; }
   bool end_stage() override { return true; }
-  std::optional<bool> is_held(Vector3& direction);
-  /// What rounding leaves of y.
-  [[nodiscard]] double rounding() const { return 16 * detail::epsilon * root_mass_ * face_.velocity_scale; }
-  [[nodiscard]] bool solve(const Vector2& slip, double spin) {
-    return solve(turning_.point, slip + spin * Vector2(-pushed_.centre().y(), pushed_.centre().x()), spin);
+  void keep() override {
+    was_at_side_ = pressure_.is_at_side();
+    if (pressure_.is_near_side()) step_error_ = step_of_tilting;
+    jumps_ = jumps_ || (spent_ > 0 && pressure_.has_jumped());
+    pressure_.keep();
   }
-  [[nodiscard]] bool solve(const Vector2& point, const Vector2& u, std::optional<double> spin,
-                           const Vector2& slack = Vector2::Zero());
-  [[nodiscard]] bool solve_from_even_pressure(const Vector2& slip, double spin);
-  void press_evenly() { pressure_ << 1 / whole_moments_(0, 0), 0, 0; }
-  void go_on_to(const Vector3& direction);
+  void go_back() override { pressure_.go_back(); }
+  bool may_step_to(const Values& next, const Values& then, double length) override;
+  [[nodiscard]] HeldFace held() const;
+  bool is_held(const HeldFace& held, Vector3& direction);
+  bool go_on_from_rest(const HeldFace& held);
+  /// What rounding leaves of y.
+  [[nodiscard]] double rounding() const { return 16 * detail::epsilon * root_[0] * face_.velocity_scale; }
 
   const SlidingFace& face_;
   FaceTurning turning_;
-  const ContactArea& area_;
-  PressedArea pushed_;
-  double root_mass_, root_inertia_;
-  Vector3 load_;      ///< y′ without friction
-  Vector3 pressure_;  ///< a, b, c in the units of pushed_, as they were last
-  struct Solution {
-    Vector3 direction = Vector3::Zero(), pressure = Vector3::Zero();
-  };
-  Solution last_, one_before_;       ///< at two directions of slip
-  Vector3 force_ = Vector3::Zero();  ///< (F, K) with them
-  Matrix3 whole_moments_, rubbing_;
-  Eigen::Matrix<double, 2, 3> shift_;  ///< of the pressure point by (F, K)
+  FacePressure pressure_;
+  Vector3 root_;  ///< √m, √m, √J
+  double unit_;   ///< [m·N·s]
+  Vector3 load_;  ///< y′ without friction
+  bool was_at_side_ = false, jumps_ = false, is_lost_ = false;
+  Eigen::Matrix<double, 3, 2> of_beyond_;  ///< of y′ by R − x̂
 };
 
-/// Finds a, b, c and with them F, K for the slip u at the centre: linear equations on the area that is pushed, which is
-/// that of the solution.  Without a spin: a, b, c that have `point` for their pressure point.
-/// @param slack  that the pressure's centre, in units of pushed_, may have beside what the equations ask for
-bool FacePath::solve(const Vector2& point, const Vector2& u, std::optional<double> spin, const Vector2& slack) {
-  constexpr int most_turns = 40;
-  constexpr double settled = 1e-7;  // where the error of Newton's method is its square
-  const Vector2& centre = pushed_.centre();
-  const Vector3 wanted = (Vector3() << 1, (point - centre) / pushed_.unit() + slack).finished();
-  Vector3 before = pressure_;
-  double least = std::numeric_limits<double>::infinity();
-  for (int i = 0; i < most_turns; ++i) {
-    const bool whole = pushed_.press(pressure_);
-    const Matrix3 moments = whole ? whole_moments_ : pushed_.moments();
-    if (!(moments(0, 0) > least_part * whole_moments_(0, 0))) {
-      pressure_ = (before + pressure_) / 2;
-      continue;
-    }
-    Matrix3 rubs = Matrix3::Zero(), equations = moments;
-    if (spin) {
-      rubs = rubbing_ * pushed_.slip_moments(u, *spin * pushed_.unit());
-      equations.bottomRows<2>() -= shift_ * rubs / pushed_.unit();
-    }
-    const double residual = (equations * pressure_ - wanted).norm();
-    if (residual > least) {  // beyond the solution
-      pressure_ = (before + pressure_) / 2;
-      continue;
-    }
-    least = residual;
-    const Vector3 next = equations.partialPivLu().solve(wanted);
-    const bool stays_whole = whole && pushed_.press(next);
-    before = pressure_;
-    pressure_ = next;
-    if (stays_whole || (next - before).norm() <= settled * next.norm()) {
-      force_ = rubs * next;
-      return true;
-    }
+FacePath::Values FacePath::rate(const Values& y) {
+  const auto push = pressure_.against(y.head<2>() / root_[0], y[2] / root_[2], at_once_);
+  Values change(5);
+  change << load_ + Vector3(push.friction.array() / root_.array()) + of_beyond_ * push.beyond, push.beyond / unit_;
+  return change;
+}
+
+/// The share of friction ends its fall within a millionth of slip from where it is least: the rest is of second order.
+bool FacePath::may_step_to(const Values& next, const Values& then, double length) {
+  constexpr double near = 1e-6, ahead = 1e-5;
+  const double size = next.head<3>().norm(), speed = then.head<3>().norm();
+  if (pressure_.has_jumped()) return at_once_;
+  if (!was_at_side_ || length * speed <= near * size) return true;
+  if (!pressure_.is_at_side()) return false;
+  const double share = pressure_.share();
+  (void)rate(next + ahead * size / speed * then);
+  const bool falls = pressure_.share() <= share;
+  (void)rate(next);
+  return falls;
+}
+
+/// Without slip tilting has the inertia of the body about the points that stay where they are, by which C is nearest.
+HeldFace FacePath::held() const {
+  const Matrix2 own = face_.inverse_inertia.inverse().topLeftCorner<2, 2>();
+  const Matrix2 about_ground = own + face_.mass * face_.depth * face_.depth * Matrix2::Identity();
+  const Matrix2 tilting = about_ground.inverse();
+  const Vector2 asked = quarter_turn(about_ground * face_.turn_rate);
+  const NearestInArea nearest(pressure_.corners(), FaceTurning::turned(tilting));
+  const auto pushed = nearest.to(pressure_.in_units(asked));
+  const Vector2 beyond = pressure_.unit() * (pressure_.in_units(asked) - pushed.point);
+  Vector2 tilt = Vector2::Zero();
+  if (!pushed.is_inside) tilt = tilting * quarter_turn(beyond);
+  const Vector2 turn = face_.turn_rate + tilt;
+  Vector3 friction = Vector3::Zero();
+  if (!only_friction_ || !pushed.is_inside) {
+    friction << -face_.mass * face_.depth * quarter_turn(turn),
+        -turning_.inertia * turning_.mixed.dot(turning_.held * turn);
   }
+  return {asked - beyond, -quarter_turn(turning_.held * tilt), friction};
+}
+
+/// Whether friction can hold the face under the pressure that it then has; else where slip goes.
+bool FacePath::is_held(const HeldFace& held, Vector3& direction) {
+  const Vector3 load = -held.friction.array() / root_.array();
+  if (load == Vector3::Zero()) return true;
+  pressure_.press_near(held.point);
+  SlipLetGo slip(load, [&](const Vector3& y) -> Vector3 {
+    return pressure_.friction_against(y.head<2>() / root_[0], y[2] / root_[2]).array() / root_.array();
+  });
+  const bool is_held = slip.is_held();
+  direction = slip.direction();
+  return is_held;
+}
+
+/// Whether the face slips to the end of the impulse; otherwise it is held, by less than it would take where it seems to
+/// be let go and slip dies out.
+bool FacePath::go_on_from_rest(const HeldFace& held) {
+  y_.head<3>().setZero();
+  Vector3 direction;
+  if (is_held(held, direction)) return false;
+  const Values at_rest = y_;
+  const double spent = spent_;
+  pressure_.begin();
+  y_.head<3>() =
+      first_slip * face_.normal_impulse * (held.friction.array() / root_.array()).matrix().norm() * direction;
+  const End end = slide(true);
+  is_lost_ = end == End::no_pressure;
+  if (end == End::impulse_spent) return true;
+  y_ = at_rest;
+  spent_ = spent;
   return false;
 }
 
-/// From even pressure, with the slack that its friction needs, to a pressure without slack, in steps as long as
-/// Newton's method allows: where it fails at once, a pressure may still exist.
-bool FacePath::solve_from_even_pressure(const Vector2& slip, double spin) {
-  constexpr double shortest = 1.0 / 1024;
-  const Vector2& centre = pushed_.centre();
-  const Vector2 u = slip + spin * Vector2(-centre.y(), centre.x());
-  press_evenly();
-  pushed_.press(pressure_);
-  const Vector3 friction = rubbing_ * (pushed_.slip_moments(u, spin * pushed_.unit()) * pressure_);
-  const Vector3 moments = whole_moments_ * pressure_;
-  const Vector2 slack = moments.tail<2>() - (turning_.point + shift_ * friction - centre) / pushed_.unit();
-  for (double done = 0, step = 1; done < 1;) {
-    const Vector3 before = pressure_;
-    const double next = std::fmin(done + step, 1);
-    if (solve(turning_.point, u, spin, (1 - next) * slack)) {
-      done = next;
-      step *= 2;
-      continue;
-    }
-    pressure_ = before;
-    step /= 4;
-    if (step < shortest) return false;
-  }
-  return true;
-}
-
-/// Lets the pressure change as it did between the last two directions of slip, to begin near the solution.
-void FacePath::go_on_to(const Vector3& direction) {
-  const Vector3 way = last_.direction - one_before_.direction;
-  const double part = (direction - last_.direction).dot(way) / way.squaredNorm();
-  if (std::fabs(part) <= 2) pressure_ += part * (last_.pressure - one_before_.pressure);
-}
-
-FacePath::Values FacePath::rate(const Values& y) {
-  const Vector2 slip = y.head<2>() / root_mass_;
-  const double spin = y[2] / root_inertia_;
-  const Vector3 direction = y.head<3>().normalized();
-  go_on_to(direction);
-  if (!solve(slip, spin) && !solve_from_even_pressure(slip, spin))
-    return Vector3::Constant(std::numeric_limits<double>::quiet_NaN());
-  one_before_ = last_;
-  last_ = {direction, pressure_};
-  return load_ + Vector3(force_.x() / root_mass_, force_.y() / root_mass_, force_.z() / root_inertia_);
-}
-
-/// Whether friction can hold the face under the pressure that it then has; nothing if it has none.
-std::optional<bool> FacePath::is_held(Vector3& direction) {
-  const Vector2 force = -root_mass_ * load_.head<2>();
-  const double couple = -root_inertia_ * load_.z();
-  const Vector2 point = turning_.point + shift_ * Vector3(force.x(), force.y(), couple);
-  if (!area_.contains(point)) return {};
-  if (load_ == Vector3::Zero()) return true;
-  press_evenly();
-  if (!solve(point, Vector2::Zero(), {})) return {};
-  pushed_.press(pressure_);
-  SlipLetGo slip(load_, [&](const Vector3& y) -> Vector3 {
-    const Vector2& centre = pushed_.centre();
-    const double spin = y.z() / root_inertia_;
-    const Vector2 u = y.head<2>() / root_mass_ + spin * Vector2(-centre.y(), centre.x());
-    const Vector3 rub = rubbing_ * (pushed_.slip_moments(u, spin * pushed_.unit()) * pressure_);
-    return {rub.x() / root_mass_, rub.y() / root_mass_, rub.z() / root_inertia_};
-  });
-  const bool held = slip.is_held();
-  direction = slip.direction();
-  return held;
-}
-
-std::optional<FaceFriction> FacePath::follow() {
+FaceFriction FacePath::follow() {
   FaceFriction result;
   const Vector3 before = y_.head<3>();
   const bool slips = before.norm() > rounding();
-  End end = slips ? slide() : End::stopped;
+  const End end = slips ? slide() : End::stopped;
+  is_lost_ = end == End::no_pressure;
   if (end == End::stopped) {
-    Vector3 direction;
-    const auto held = is_held(direction);
-    if (!held) return {};
-    result.path =
-        slips ? (*held ? PathKind::slip_stick : PathKind::slip_reslip) : (*held ? PathKind::stick : PathKind::slip);
-    y_.setZero();
-    if (!*held) {
-      y_ = first_slip * face_.normal_impulse * load_.norm() * direction;
-      end = slide(true);
-      if (end == End::stopped) return {};
+    const HeldFace held = this->held();
+    if (go_on_from_rest(held)) {
+      result.path = slips ? PathKind::slip_reslip : PathKind::slip;
+    } else {
+      result.path = slips ? PathKind::slip_stick : PathKind::stick;
+      y_.tail<2>() += (face_.normal_impulse - spent_) / unit_ * held.beyond;
     }
   }
-  if (end == End::no_pressure) return {};
-  const Vector3 change = y_.head<3>() - before - face_.normal_impulse * load_;
-  result.impulse = root_mass_ * change.head<2>();
-  result.couple = root_inertia_ * change.z();
-  result.spin_after = y_[2] / root_inertia_;
+  const Vector2 beyond = unit_ * y_.tail<2>();
+  const Vector3 change = y_.head<3>() - before - face_.normal_impulse * load_ - of_beyond_ * beyond;
+  result.impulse = root_[0] * change.head<2>();
+  result.couple = root_[2] * change.z();
+  result.moment = quarter_turn(beyond);
+  result.has_pressure = !is_lost_;
+  if (step_error_ == step_of_tilting) result.path_error = jumps_ ? error_of_jump : error_of_tilting;
+  result.spin_after = y_[2] / root_[2];
   return result;
 }
 
 }  // namespace
 
-bool slides_straight(const SlidingFace& face) {
+bool slides_straight(const SlidingFace& face, const ContactArea& area) {
   constexpr double rounding = 16 * detail::epsilon;
   const FaceTurning turning(face);
   const Vector2 drift = drift_of_slip(face);
@@ -227,14 +201,16 @@ bool slides_straight(const SlidingFace& face) {
   const double turns = std::fabs(face.spin) + face.normal_impulse * std::fabs(turning.drift);
   if (!(turns * radius <= rounding * face.velocity_scale)) return false;
   const Vector2 line = face.slip.norm() > rounding * face.velocity_scale ? face.slip : drift;
-  if (line == Vector2::Zero()) return true;
+  // A disc has no pushes beside its rebound as a whole: whether it lands so is for its caller to see.
+  const auto may_push = [&](const Vector2& point) { return area.radius > 0 || area.contains(point); };
+  if (line == Vector2::Zero()) return may_push(turning.point);
   const auto off = [&](const Vector2& v) { return std::fabs(cross(line, v)) / line.norm(); };
+  const Vector2 shift = face.friction * face.depth * line.normalized();
   return face.normal_impulse * off(drift) <= rounding * face.velocity_scale &&
-         off(turning.point) <= rounding * (turning.point.norm() + radius);
+         off(turning.point) <= rounding * (turning.point.norm() + radius) && may_push(turning.point + shift) &&
+         may_push(turning.point - shift);
 }
 
-std::optional<FaceFriction> face_friction(const SlidingFace& face, const ContactArea& area) {
-  return FacePath(face, area).follow();
-}
+FaceFriction face_friction(const SlidingFace& face, const ContactArea& area) { return FacePath(face, area).follow(); }
 
 }  // namespace clatter::analytic::space

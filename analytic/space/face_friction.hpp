@@ -12,6 +12,11 @@
 // the moment that turns the body so; q is positive on a part of the area alone where (2) lies outside its kernel.
 // F and K depend on the direction of (U, w) alone, and slide and spin end together.  Thereafter the face sticks if
 // friction can hold it under the pressure that it then has, or slip goes on.
+//
+// Where (2) asks for a point R outside the area, the ground pushes at the point x̂ of face_pressure.hpp, and the moment
+// of the rest tilts the body.  With B from the slopes of its normal velocities, B = Tᵀ (I⁻¹)_hh T, T the quarter turn,
+//     d(U, w)/dP of (1) grows by Sᵀ B (R − x̂),   dω_h/dP = τ + (I⁻¹)_hh T (R − x̂),                     (3)
+// and while the face sticks x̂ is the point nearest to R in the metric of the tilt about points that stay.
 #pragma once
 
 #include <optional>
@@ -38,17 +43,19 @@ struct SlidingFace {
 struct FaceFriction {
   Vector2 impulse = Vector2::Zero();  ///< ∫F dP [N·s]
   double couple = 0;                  ///< ∫K dP, about the vertical through the centre of mass [N·m·s]
+  Vector2 moment = Vector2::Zero();   ///< of the pushes beside that of the rebound as a whole [N·m·s]
   double spin_after = 0;              ///< ω_z [rad/s]
+  bool has_pressure = true;           ///< false: it asks for pushes outside the area, as it does without friction
+  double path_error = 0;              ///< of the impulse, relative, where pushes have come to the boundary of the area
   PathKind path = PathKind::turning_slip;
 };
 
-/// Whether all of the face slips, or is about to, in one direction to rounding, through the pressure point: friction
-/// then has no couple, and all of it may as well act below the centre of mass.
-[[nodiscard]] bool slides_straight(const SlidingFace& face);
+/// Whether all of the face slips, or is about to, in one direction to rounding, through the pressure point, which stays
+/// inside: friction then has no couple, and all of it may as well act below the centre of mass.
+[[nodiscard]] bool slides_straight(const SlidingFace& face, const ContactArea& area);
 
-/// Friction of a face; nothing where (2) asks at any moment for a point that pushes on the area cannot have, or one so
-/// near to its edge that less than 1e-4 of the area is pushed.
-/// Accuracy: 1e-12 of μN and of what (U, w) does to m, J.
-[[nodiscard]] std::optional<FaceFriction> face_friction(const SlidingFace& face, const ContactArea& area);
+/// Friction of a face.
+/// Accuracy: 1e-12 of μN and of what (U, w) does to m, J; where it tilts, FaceFriction::path_error.
+[[nodiscard]] FaceFriction face_friction(const SlidingFace& face, const ContactArea& area);
 
 }  // namespace clatter::analytic::space

@@ -77,6 +77,16 @@ class StrikingGroup {
 
   /// Strikes with these points as a whole; false, and nothing done, if pushes alone cannot do it.
   bool strike(const Points& group);
+  /// Strikes with all that approach, unless something then approaches that friction has not tilted.
+  bool strike_as_a_whole() {
+    StrikingGroup group = *this;
+    group.tilted_ = false;
+    const bool struck = group.strike(approaching());
+    if (group.is_lost_) struck_.leave_open();
+    if (!struck || !(group.tilted_ || group.approaching().empty())) return false;
+    struck_.take(group.struck_);
+    return true;
+  }
   void leave_open() { struck_.leave_open(); }
   void strike_corner(const Point& p) { struck_.strike_at(p.place, {p.index}); }
   [[nodiscard]] bool converges(StrikeSeries& series) { return series.converges(struck_); }
@@ -89,6 +99,8 @@ class StrikingGroup {
 
   StrikingBody struck_;
   Points points_;
+  bool tilted_ = false;
+  bool is_lost_ = false;  ///< friction of a face that has a pressure could not be followed
 };
 
 std::vector<int> indices_of(const StrikingGroup::Points& group) {
@@ -140,8 +152,14 @@ bool StrikingGroup::strike_face(const Points& group, const std::vector<int>& hul
   ContactArea area;
   for (const int i : hull) area.corners.emplace_back(group[static_cast<std::size_t>(i)].arm.head<2>());
   const auto face = struck_.face_rebound(depth, area);
-  if (!face || !area.contains(face->pressure_point)) return false;
+  if (!face) {
+    const auto smooth = struck_.face_rebound(depth);
+    is_lost_ = smooth && struck_.law().law.rubs() &&
+               area.contains(Vector2(-smooth->moment.y(), smooth->moment.x()) / smooth->impulse.z());
+    return false;
+  }
   struck_.push(*face, indices_of(group));
+  tilted_ = face->tilts;
   return true;
 }
 
@@ -151,17 +169,18 @@ std::optional<GroupImpact> rebound_as_a_whole(const Body& body, const State& bef
                                               const Law& law) {
   if (const Corner* rim = level_rim(touching)) return LevelRim(body, before, *rim, law).rebound_as_a_whole();
   StrikingGroup group(body, before, touching, law);
-  if (!group.strike(group.approaching()) || !group.approaching().empty()) return {};
+  if (!group.strike_as_a_whole()) return {};
   GroupImpact result = group.result();
-  result.is_whole = true;
+  result.is_whole = !result.tilts;
   return result;
 }
 
 GroupImpact strike_together(const Body& body, const State& before, std::span<const Corner> touching, const Law& law) {
   if (const Corner* rim = level_rim(touching)) return LevelRim(body, before, *rim, law).strike();
-  if (auto whole = rebound_as_a_whole(body, before, touching, law)) return *whole;
   StrikingGroup group(body, before, touching, law);
   StrikeSeries series;
+  while (group.strike_as_a_whole()) check_number_of_strikes(group.strikes());
+  const bool is_whole = group.strikes() == 1 && group.approaching().empty();
   for (auto fastest = group.fastest(); !fastest.empty(); fastest = group.fastest()) {
     check_number_of_strikes(group.strikes());
     if (group.converges(series)) continue;
@@ -169,7 +188,9 @@ GroupImpact strike_together(const Body& body, const State& before, std::span<con
     if (fastest.size() > 1 && law.law.rubs()) group.leave_open();
     group.strike_corner(fastest.front());
   }
-  return group.result();
+  GroupImpact result = group.result();
+  result.is_whole = is_whole && !result.tilts;
+  return result;
 }
 
 GroupImpact strike_beside(const Body& body, const State& before, std::span<const Corner> arriving,
@@ -182,7 +203,9 @@ GroupImpact strike_beside(const Body& body, const State& before, std::span<const
   touching.insert(touching.end(), held.begin(), held.end());
   const GroupImpact then = strike_together(body, between, touching, law);
   all.is_whole = false;
+  all.tilts = all.tilts || then.tilts;
   all.is_open = all.is_open || then.is_open;
+  all.path_error = std::fmax(all.path_error, then.path_error);
   if (then.order.empty()) return all;
   all.impulse += then.impulse;
   all.moment += then.moment;

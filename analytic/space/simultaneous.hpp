@@ -11,9 +11,10 @@
 //   face   V_z, ω_x, ω_y → −e times themselves (Eq. 10 in space); ω_z changes through the inertia's off-diagonal
 //          elements and by friction, which acts all over the polygon of the corners under a linear pressure
 //          (face_friction.hpp).  The pressure point (−N_y, N_x)/P_z from the centre of mass, N the moment of the
-//          normal impulses, must lie inside the polygon, of each part of the impulse.  A face that slides straight
-//          (slides_straight()) has no couple; it keeps the rule of a flat landing in the plane, friction at the point
-//          below the centre of mass (FaceContact), by which the pressure point is that of the impulse as a whole. (2)
+//          normal impulses, must lie inside the polygon.  Where friction alone asks for pushes outside it, they act
+//          at the polygon's boundary, and the rest of their moment tilts the body; what then still approaches strikes
+//          as it would on its own; an edge or a rim has no such pushes.  A face that slides straight inside
+//          (slides_straight()) has no couple: friction acts at the point below the centre of mass (FaceContact). (2)
 // The viscoelastic law takes e at the approach speed of the edge's point, and of the pressure point that a face has
 // without friction, −V_z + ω·Mω/(m (−V_z)) with M the inverse of the horizontal part of I⁻¹: there the landing is that
 // of one contact.
@@ -34,7 +35,8 @@
 
 namespace clatter::analytic::space {
 
-/// The rebound as a whole of the corners that approach; nothing if pushes alone cannot do it, or if none approaches.
+/// The rebound as a whole of the corners that approach, or what friction that tilts the body makes of it, after which
+/// some may still approach; nothing if pushes alone cannot do it, or if none approaches.
 /// @param touching corners at one height; a single one strikes as in impact.hpp; a level rim touches alone
 /// @throws as strike(); std::domain_error for a level rim beside another corner
 [[nodiscard]] std::optional<GroupImpact> rebound_as_a_whole(const Body& body, const State& before,

@@ -31,13 +31,22 @@ class SlipMotion {
   virtual double impulse_left(const Values& rate) = 0;
   /// Whether the impulse ends where impulse_left() is zero.
   virtual bool end_stage() = 0;
+  /// What rate() goes on from later, of several solutions: that of the last point, and back to it where a step fails.
+  virtual void keep() {}
+  virtual void go_back() {}
+  /// Whether a step is short enough for what rate() holds on to.
+  /// @param then  rate(next), the last one
+  virtual bool may_step_to(const Values& /*next*/, const Values& /*then*/, double /*length*/) { return true; }
 
   /// Follows slip until it stops, as successive forecasts of the stop agree, or until the impulse is spent.
   /// @param from_rest  slip is first_slip, which dies out if friction holds the contact
   End slide(bool from_rest = false);
 
   Values y_;
-  double spent_ = 0;            ///< P
+  double spent_ = 0;  ///< P
+  /// Local error of a step, relative to the largest slip so far, and of what goes along with it.
+  double step_error_ = 4e-15;
+  bool at_once_ = false;        ///< the step is so short that the rate may jump in it
   bool only_friction_ = false;  ///< nothing but friction acts on slip, which can only become less
 
  private:
@@ -48,7 +57,8 @@ class SlipMotion {
   /// Error of a step in what goes along with slip, relative to its size or to 1.
   static double error_along(const Values& next, const Values& error);
   /// What goes along with slip, up to where it stops without turning.
-  void go_straight_to(double stop);
+  /// @param now  rate(y_)
+  void go_straight_to(double stop, const Values& now);
 
   std::size_t size_;
   bool holds_direction_ = false;

@@ -78,7 +78,8 @@ std::optional<FaceRebound> StrikingBody::face_rebound(double depth) const {
 std::optional<FaceRebound> StrikingBody::face_rebound(double depth, const ContactArea& area) const {
   auto rebound = face_rebound(depth);
   const ImpactLaw& law = law_.law;
-  if (!rebound || !law.rubs()) return rebound;
+  if (!rebound) return {};
+  if (!law.rubs()) return area.contains(rebound->pressure_point) ? rebound : std::nullopt;
   const Vector2 turn = inverse_inertia_.topLeftCorner<2, 2>() * rebound->moment.head<2>();
   const Vector3 below(0, 0, -depth);
   const SlidingFace face{.mass = body_.mass,
@@ -90,17 +91,20 @@ std::optional<FaceRebound> StrikingBody::face_rebound(double depth, const Contac
                          .slip = velocity(below).head<2>(),
                          .spin = state_.angular_velocity.z(),
                          .velocity_scale = state_.velocity.norm() + state_.angular_velocity.norm() * depth};
-  if (slides_straight(face)) return rebound;
-  const auto friction = face_friction(face, area);
-  if (!friction) return {};
-  rebound->path = friction->path;
-  if (friction->path == PathKind::stick && friction->couple == 0) return rebound;
+  if (slides_straight(face, area)) return rebound;
+  const FaceFriction friction = face_friction(face, area);
+  rebound->tilts = friction.moment != Vector2::Zero();
+  const Vector2 without_friction(-rebound->moment.y(), rebound->moment.x());
+  if (!friction.has_pressure || (rebound->tilts && !area.contains(without_friction / rebound->impulse.z()))) return {};
+  rebound->path_error = friction.path_error;
+  rebound->path = friction.path;
+  if (friction.path == PathKind::stick && friction.couple == 0 && !rebound->tilts) return rebound;
   const Matrix2 inertia = inverse_inertia_.topLeftCorner<2, 2>().inverse();
-  rebound->impulse.head<2>() = friction->impulse;
-  rebound->moment.head<2>() -= friction->couple * (inertia * inverse_inertia_.block<2, 1>(0, 2));
-  rebound->moment.z() = friction->couple;
+  rebound->impulse.head<2>() = friction.impulse;
+  rebound->moment.head<2>() += friction.moment - friction.couple * (inertia * inverse_inertia_.block<2, 1>(0, 2));
+  rebound->moment.z() = friction.couple;
   rebound->pressure_point = point_of_pushes(rebound->impulse, rebound->moment, below);
-  rebound->spin_after = friction->spin_after;
+  rebound->spin_after = friction.spin_after;
   return rebound;
 }
 
@@ -131,6 +135,8 @@ bool StrikingBody::strike_along(const EdgeContact& edge, const Vector3& from, co
 
 void StrikingBody::push(const FaceRebound& face, const std::vector<int>& points) {
   push(face.impulse, face.moment, face.path, points);
+  impact_.tilts = impact_.tilts || face.tilts;
+  impact_.path_error = std::fmax(impact_.path_error, face.path_error);
   if (face.spin_after) state_.angular_velocity.z() = *face.spin_after;
 }
 

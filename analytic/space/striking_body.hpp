@@ -20,7 +20,9 @@ struct GroupImpact {
   double approach_speed = 0;                         ///< largest of the corners [m/s]
   double energy_loss = 0;                            ///< −[P·(V + V′) + M·(ω + ω′)]/2 [J]
   bool is_whole = false;                             ///< the body rebounds as a whole, in one strike
-  bool is_open = false;  ///< of corners that are equally fast an index decided which strikes first
+  bool tilts = false;                                ///< friction has tilted it beside that
+  bool is_open = false;   ///< of corners that are equally fast an index decided which strikes first
+  double path_error = 0;  ///< of the impulse, relative, where it is more than that of paths without tilting
   /// Indices (Corner::index) of the corners of each strike, in order.
   std::vector<std::vector<int>> order;
   PathKind path = PathKind::frictionless;  ///< of the first strike
@@ -33,6 +35,8 @@ struct FaceRebound {
   Vector2 pressure_point = Vector2::Zero();  ///< of (2) in simultaneous.hpp, from the centre of mass [m]
   PathKind path = PathKind::frictionless;
   std::optional<double> spin_after = {};  ///< ω_z, where friction has a couple about the vertical [rad/s]
+  bool tilts = false;                     ///< the turning is not that of the rebound as a whole
+  double path_error = 0;                  ///< as GroupImpact's
 };
 
 /// Bound on the rounding of a point's normal velocity u during an impact [m/s].  With 2E/m = V² + ω·Iω/m, which bounds

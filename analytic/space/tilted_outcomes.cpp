@@ -282,7 +282,12 @@ bool SectorSearch::strike_whole(StrikingBody& struck, const std::vector<std::siz
   ++strikes_;
   if (struck.law().law.rubs()) ++rubs_;
   if (!whole) return false;
-  struck.push({.impulse = whole->impulse, .moment = whole->moment, .path = whole->path}, points);
+  struck.push({.impulse = whole->impulse,
+               .moment = whole->moment,
+               .path = whole->path,
+               .tilts = whole->tilts,
+               .path_error = whole->path_error},
+              points);
   return true;
 }
 
@@ -297,7 +302,9 @@ void SectorSearch::settle(StrikingBody& struck) {
 }
 
 void SectorSearch::settle_once(StrikingBody& struck) {
-  if (strike_whole(struck, level_)) return;
+  while (!is_spent() && strike_whole(struck, level_)) {
+    if (!find_approach(struck)) return;
+  }
   StrikeSeries series(12);
   std::vector<std::size_t> fastest;
   while (!is_spent() && find_approach(struck)) {

@@ -373,15 +373,61 @@ BOOST_AUTO_TEST_CASE(a_face_that_rests_on_the_ground_keeps_still_where_friction_
   BOOST_TEST(held->angular_velocity_after.z() == 0);
 }
 
-BOOST_AUTO_TEST_CASE(a_spinning_box_so_high_that_friction_would_tip_it_does_not_rebound_as_a_whole) {
+BOOST_AUTO_TEST_CASE(a_spinning_box_so_high_that_friction_would_tip_it_tilts_a_little_where_it_would_tip_a_little) {
   Landing high = landings().front();
   high.friction = 0.5;
   high.velocity = {3, 0, -1};
   high.angular_velocity = {0, 0, 1};
-  high.depth = 0.139;
-  BOOST_TEST(land(high).has_value());
-  high.depth = 0.141;  // of the length 0.14 the pressure may use half
-  BOOST_TEST(!land(high).has_value());
+  const auto at_depth = [&](double depth) {
+    high.depth = depth;
+    return land(high).value();
+  };
+  BOOST_TEST(!at_depth(0.139).tilts);
+  const GroupImpact high_box = at_depth(0.141);  // of the length 0.14 the pressure may use half
+  BOOST_TEST(high_box.tilts);
+  BOOST_TEST(!high_box.is_whole);
+  for (const double depth : {0.139, 0.1395, 0.14, 0.1405, 0.141}) {
+    BOOST_TEST_CONTEXT(depth) {
+      constexpr double step = 1e-9;
+      const GroupImpact lower = at_depth(depth - step), higher = at_depth(depth + step);
+      BOOST_TEST((lower.velocity_after - higher.velocity_after).norm() <= 1e3 * step);
+      BOOST_TEST((lower.angular_velocity_after - higher.angular_velocity_after).norm() <= 1e5 * step);
+    }
+  }
+}
+
+/// The pushes act at the leading edge, with friction against slip: all rates are constant until slip stops.
+BOOST_AUTO_TEST_CASE(a_tall_box_that_slides_straight_is_pushed_at_its_leading_edge_until_slip_stops) {
+  constexpr double tolerance = 1e-12, length = 0.1, height = 0.4, depth = height / 2, friction = 0.4;
+  Landing tall{.name = "tall",
+               .depth = depth,
+               .area = rectangle(length, 0.1),
+               .moments = of_box(length, 0.1, height),
+               .products = Vector3::Zero(),
+               .friction = friction,
+               .restitution = 0.66,
+               .velocity = {0.1, 0, -1},
+               .angular_velocity = {},
+               .velocity_after = {},
+               .spin_after = 0};
+  const double square = tall.moments.y() / mass, turning = (friction * depth - length / 2) / square;
+  const double slowing = friction + depth * turning;
+  for (const double speed : {1e-9, 0.1, 0.7, 5.0}) {
+    const double push = std::fmin(speed / slowing, 1.66);  // per unit of mass
+    for (const double angle : {0.0, 0.4}) {
+      tall.velocity.x() = speed;
+      const auto slid = land(tall, angle);
+      BOOST_TEST_REQUIRE(slid.has_value());
+      if (slid->order.size() > 1) continue;  // the leading edge is pushed down
+      const Quaternion back(Eigen::AngleAxisd(-angle, Vector3::UnitZ()));
+      const Vector3 v = back * slid->velocity_after, w = back * slid->angular_velocity_after;
+      BOOST_TEST_CONTEXT(speed << " turned by " << angle) {
+        BOOST_TEST((v - Vector3(speed - friction * push, 0, 0.66)).norm() <= tolerance * (1 + speed));
+        BOOST_TEST((w - Vector3(0, turning * push, 0)).norm() <= tolerance * 20 * (1 + speed));
+        BOOST_TEST(slid->tilts);
+      }
+    }
+  }
 }
 
 /// Without friction the pressure point would lie outside; Newton's method finds none at once.

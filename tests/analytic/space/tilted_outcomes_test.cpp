@@ -293,7 +293,7 @@ BOOST_AUTO_TEST_CASE(the_sum_of_a_rattle_with_friction_is_that_of_its_strikes) {
   BOOST_TEST((sum.angular_velocity_after - now.angular_velocity).norm() <= 1e-6);
 }
 
-/// Its edges rattle hundreds of times, each time with friction all along them.
+/// Its edges rattle on for dozens of strikes, each time with friction all along them.
 BOOST_AUTO_TEST_CASE(edges_that_rattle_on_give_outcomes_that_mirror_one_another_or_are_left_out_where_asked_for_less) {
   const FlatBox light = needle_in_a_box();
   State before;
@@ -316,7 +316,7 @@ BOOST_AUTO_TEST_CASE(edges_that_rattle_on_give_outcomes_that_mirror_one_another_
       BOOST_TEST(normal_velocity(v, one.impact.angular_velocity_after, corner.place) >= -1e-9);
     }
   }
-  const OutcomeSet some = tilted_outcomes(light.body, before, light.bottom, law, {.rubs = 40});
+  const OutcomeSet some = tilted_outcomes(light.body, before, light.bottom, law, {.rubs = 10});
   double sum = some.open_share;
   for (const TiltedOutcome& one : some.outcomes) sum += one.share;
   BOOST_TEST(sum == 1, boost::test_tools::tolerance(1e-6));
