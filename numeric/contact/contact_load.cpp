@@ -8,6 +8,9 @@
 namespace clatter::numeric {
 namespace {
 
+/// Width of a shadow, over the body's radius, below which some per cent of what it rubs are 1e-10 of all.
+constexpr double narrow_shadow = 1e-6;
+
 constexpr std::size_t most_kept = 64;    ///< polygons that press for which room is made at the start
 constexpr double clip_rounding = 1e-15;  ///< of the largest depth: how far above the ground clipping may put a corner
 
@@ -219,13 +222,25 @@ SlipLoad ContactLoader::slip_load(const GroundView& view, const SlipField& field
   for (const Overhang& part : overhangs_.parts()) {
     const Pressing& lower = pressing_[static_cast<std::size_t>(part.lower)];
     const Pressing& upper = pressing_[static_cast<std::size_t>(part.upper)];
+    // From a corner of its own, since the depth of a steep face over one far from it is lost in rounding, as the exact
+    // integrals of friction over the face's narrow shadow are.
+    const ContactCorner* corners = overhangs_.corners(part);
+    const Vector3 place = corners[0].position;
     Pressing above = lower;
-    const double slope = upper.normal->dot(up);
+    above.origin += place;
     above.weight *= -part.sign;
-    above.depth -= upper.normal->dot(upper.origin - lower.origin) / slope;
-    above.depth_slope += *upper.normal / slope;
-    const ContactPolygon polygon{overhangs_.corners(part), part.count, *lower.normal, lower.origin};
-    add_slip(above, polygon, view, field, rounding_of(lower, view, field), load);
+    above.depth = corners[0].depth;
+    above.depth_slope += *upper.normal / upper.normal->dot(up);
+    above_.assign(corners, corners + part.count);
+    double deepest = 0;
+    for (ContactCorner& corner : above_) {
+      corner.position -= place;
+      deepest = std::max(deepest, corner.depth);
+    }
+    SlipField over = field;
+    over.rough = field.rough || -upper.weight * deepest <= narrow_shadow * body_.radius();
+    const ContactPolygon polygon{above_.data(), part.count, *lower.normal, above.origin};
+    add_slip(above, polygon, view, over, rounding_of(lower, view, field), load);
   }
   return load;
 }

@@ -167,9 +167,10 @@ class ContactLoader final : public ContactSurface {
   const Body& body_;
   const Ground& ground_;
   std::vector<ContactCorner> whole_, below_, part_;
-  std::vector<ContactCorner> side_;  ///< part of a polygon that slips one way
-  std::vector<PlanePoint> plane_;    ///< polygon in its facet's plane
-  std::vector<Pressing> pressing_;   ///< of the last load
+  std::vector<ContactCorner> side_;   ///< part of a polygon that slips one way
+  std::vector<ContactCorner> above_;  ///< an overhang's part
+  std::vector<PlanePoint> plane_;     ///< polygon in its facet's plane
+  std::vector<Pressing> pressing_;    ///< of the last load
   std::vector<ContactCorner> corners_;
   bool looks_up_ = false;   ///< whether a face presses from above
   bool has_parts_ = false;  ///< whether overhangs_ is that of the last load

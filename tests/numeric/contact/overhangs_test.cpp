@@ -177,6 +177,25 @@ BOOST_AUTO_TEST_CASE(friction_is_that_of_columns_each_pressed_by_the_difference_
   }
 }
 
+/// The surface measure has no columns, and walls below the ground by so little have no load of their own.
+BOOST_AUTO_TEST_CASE(walls_that_are_all_but_upright_change_no_friction) {
+  constexpr double depth = 3.5e-8, of_walls = 1e-7;
+  const Body box = box_body({2, 2, 0.5}, 1);
+  for (const Vector3& axis : {Vector3(0, 1, 0), Vector3(0.6, 0.8, 0)}) {
+    for (const double tilt : {2e-10, 1e-9, 1e-8, 1e-7, 1e-6}) {
+      const GroundView view =
+          view_of(box, Eigen::Quaterniond(Eigen::AngleAxisd(tilt, axis)), depth, {0, -1e-7, -1}, {0, 0, 20});
+      const auto friction_by = [&](AreaMeasure area) -> Vector3 {
+        const Ground ground{.stiffness = 1, .static_friction = 1, .sliding_friction = 1, .area = area};
+        ContactLoader loader(box, ground);
+        const double force = loader.load(view).force;
+        return force_of(view, loader.slip_load(view, {})) / force;
+      };
+      BOOST_TEST((friction_by(AreaMeasure::projected) - friction_by(AreaMeasure::surface)).norm() <= of_walls);
+    }
+  }
+}
+
 /// Two shelves above each other on one wall are the wall and the shelves, each by itself.
 BOOST_AUTO_TEST_CASE(a_face_that_looks_up_leans_on_the_next_face_below_it) {
   const std::vector<std::array<int, 3>> wall{{0, 0, 0}, {0, 0, 1}, {0, 0, 2}}, low{{1, 0, 0}, {2, 0, 0}},
