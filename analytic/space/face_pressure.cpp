@@ -10,7 +10,7 @@ namespace clatter::analytic::space {
 namespace {
 
 /// Changes where the error of Newton's method is its square.
-constexpr double settled = 1e-7;
+constexpr double settled_change = 1e-7;
 /// Points no farther beyond a side are on it.
 constexpr double rounding = 64 * std::numeric_limits<double>::epsilon();
 
@@ -139,7 +139,7 @@ bool FacePressure::settle(std::optional<std::size_t> on_side) {
       const Vector3 more = b.pressure_slope * moved;
       before << now.point, now.share;
       next = before + change;
-      is_solved = change.norm() <= settled * (1 + next.norm());
+      is_solved = change.norm() <= settled_change * (1 + next.norm());
       if (!is_solved && b.is_whole && !on_side) {  // all is linear there
         const Vector2 there =
             nearest_.to(without_friction_ + next.z() * (next.head<2>() - without_friction_), 1 - rubbed_margin).point;
