@@ -1,4 +1,3 @@
-#!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Includes point one way: a file includes from its own folder and from those below it, and no components include each
 other in a circle.  A component is a header and the source of its name."""
@@ -126,7 +125,3 @@ class Folders(unittest.TestCase):
     def test_the_includes_of_every_folder_are_seen(self):
         for room, order in ORDERS.items():
             self.assertEqual({folder for _, folder, _, _ in arrows(ROOT, room)} | {order[0]}, set(order))
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -1,4 +1,3 @@
-#!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Every C++ file is as clang-format writes it with the project's .clang-format; its comments are sentences with a subject."""
 
@@ -39,7 +38,3 @@ class Words(unittest.TestCase):
         found = [f"{Path(path).relative_to(ROOT)}:{number}" for path in sources(ROOMS[:3])
                  for number, line in enumerate(Path(path).read_text(encoding="utf-8").splitlines(), 1) if odd.match(line)]
         self.assertEqual(found, [])
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -1,4 +1,3 @@
-#!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What tests of every day import comes with Python, lies beside them, or is a package that tests/run installs for them."""
 
@@ -30,7 +29,3 @@ class Imports(unittest.TestCase):
         missing = {(path.relative_to(TESTS).as_posix(), name) for path in TESTS.rglob("*.py")
                    if path.relative_to(TESTS).parts[0] not in FULL for name in imported(path) if name not in there}
         self.assertEqual(missing, set())
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -1,4 +1,3 @@
-#!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Every file says whose it is and on what terms (reuse.software), and sources say so themselves.
 
@@ -67,7 +66,3 @@ class Licences(unittest.TestCase):
                 self.assertIn(path.relative_to(ROOT).as_posix(), others)
                 self.assertIn(f"Copyright: 2020 {holder}", others)
                 self.assertIn(holder, (MEASURED / "data-licence.txt").read_text(encoding="utf-8"))
-
-
-if __name__ == "__main__":
-    unittest.main()

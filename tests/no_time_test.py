@@ -1,4 +1,3 @@
-#!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 """No test depends on how fast or busy the machine is: none sleeps in a hope, and no limit of time is short enough to decide.
 
@@ -45,7 +44,3 @@ class NoTime(unittest.TestCase):
                   for where, code in code_lines() for found in LIMIT.finditer(code)]
         self.assertGreater(len(limits), 10)
         self.assertEqual([where for where, limit in limits if limit < SHORTEST_LIMIT], [])
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -1,4 +1,3 @@
-#!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The pictures show the program's numbers, with names and units, and their files are the same every time."""
 
@@ -336,7 +335,3 @@ class Files(unittest.TestCase):
     def test_an_unknown_picture_is_refused(self):
         with self.assertRaisesRegex(ValueError, "no picture 13; there are 7, 8"):
             figures.draw(13)
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -75,7 +75,3 @@ class Pages(unittest.TestCase):
         self.assertEqual(re.findall(r'(?:src|href)="(?!#)[^"]*"', page), [])
         for engine in League(DATA, ENGINES / "engines.toml").engines:
             self.assertIn(engine["name"], page)
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -106,7 +106,3 @@ class Solutions(unittest.TestCase):
                 for number, value in zip(numbers, values):
                     error = abs(number - value)
                     self.assertTrue(error <= tolerance * abs(value), f"{number} against {value}")
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -409,7 +409,3 @@ def many_drops():
     step = 1 + max(int(drop) for drop, _ in rows)
     copies = [f"{int(drop) + step * turn},{rest}" for turn in range(200) for drop, rest in rows]
     return "\n".join([*lines[:begin + 1], *copies]) + "\n"
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -125,7 +125,3 @@ class Progress(unittest.TestCase):
         with self.assertRaises(Enough):
             clatter.simulate("phone-sweep", progress=told)
         self.assertEqual(len(seen), 1)
-
-
-if __name__ == "__main__":
-    unittest.main()

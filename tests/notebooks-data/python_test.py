@@ -518,7 +518,3 @@ class Documentation(unittest.TestCase):
         there = {name: re.findall(r"(\w+): ", getattr(compiled, name).__doc__.splitlines()[0])
                  for name in dir(compiled) if callable(getattr(compiled, name)) and name != "Report"}
         self.assertEqual(functions, there)
-
-
-if __name__ == "__main__":
-    unittest.main()

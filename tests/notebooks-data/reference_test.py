@@ -1,4 +1,3 @@
-#!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The reference is built without a warning, opens and is searched offline, has no broken link, and holds every command, key,
 column, public function and public header."""
@@ -7,7 +6,6 @@ import html
 import os
 import re
 import subprocess
-import sys
 import tempfile
 import unittest
 import urllib.parse
@@ -154,7 +152,3 @@ class Reference(unittest.TestCase):
                                  env={"PATH": empty})
         self.assertNotEqual(run.returncode, 0)
         self.assertRegex(run.stderr, r"apt-get install .*nodejs")
-
-
-if __name__ == "__main__":
-    unittest.main(argv=sys.argv)

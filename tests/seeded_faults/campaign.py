@@ -36,7 +36,7 @@ LINKED = re.compile(r"^(?:LOAD )?(?:(\S+\.a)\()?(\S+?\.o)\)?$", re.MULTILINE)
 PASSED = re.compile(r"^ *\d+/\d+ Test +#\d+: (\S+) .* Passed +([\d.]+) sec", re.MULTILINE)
 FAILED = re.compile(r"^ *\d+/\d+ Test +#\d+: (\S+) .*?\*\*\*(?!Skipped|Not Run)(\w+)", re.MULTILINE)
 CASE = re.compile(r"^(\w+)\*$", re.MULTILINE)  # or a whole suite
-CASE_OF_SCRIPT = re.compile(r"^test_\w+ \(__main__\.(\w+)\.(\w+)\)")  # as it begins
+CASE_OF_SCRIPT = re.compile(r"^test_\w+ \((\w+\.\w+)\.(\w+)\)")  # as it begins
 NOTICED = re.compile(r"(?:fatal )?error: in \"|^(?:FAIL|ERROR): ")  # first lines of a failure of Boost.Test and unittest
 
 
@@ -115,8 +115,7 @@ class Test:
         return self.executable == f"tests/{self.name}"
 
     def is_unittest(self):
-        script = Path(self.command[-1])
-        return script.name.endswith("_test.py") and script.is_file()
+        return self.command[-1].endswith("_test.py")
 
     def measure(self):
         """Seconds without a fault.  Later the quickest cases come first, so that a fault is noticed early.  Those of a test
@@ -151,7 +150,7 @@ class Test:
                 begun.append((*case.groups(), now))
 
         start = time.monotonic()
-        if self.part_fails(("-v",), FIRST_SECONDS, watch=watch):
+        if self.part_fails(("-v", self.command[-1]), FIRST_SECONDS, watch=watch):
             raise Refused(f"{self.name} fails without a fault")
         ordered = sorted(classes, key=lambda name: sum(classes[name].values()))
         self.parts = [[f"{name}.{case}" for name in ordered for case in sorted(classes[name], key=classes[name].get)]]
@@ -166,7 +165,9 @@ class Test:
             return functools.reduce(lambda text, paths: text.replace(*paths), (executables or {}).items(), text)
 
         environment = {**os.environ, **{key: replaced(value) for key, value in self.environment.items()}}
-        command = [*map(replaced, self.command), *part, *(["--failfast"] if self.is_unittest() else [])]
+        command = [*map(replaced, self.command), *part]
+        if self.is_unittest():
+            command = [*self.command[:-1], "--failfast", *(part or self.command[-1:])]
         if self.is_in_cpp():
             command.append("--log_sink=stderr")  # at once, since no more is read once it has failed
         with PROCESSES.start(command, cwd=self.folder, env=environment) as process:

@@ -1,4 +1,3 @@
-#!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 """`clatter atlas` against event simulations in 50 digits and in fractions, which know Newton's law alone."""
 
@@ -156,7 +155,3 @@ class Space(unittest.TestCase):
                 path = Path(folder) / f"{body}.svg"
                 self.assertEqual(run("atlas", body, "--plot", str(path)).returncode, 0)
                 self.assertIn("velocity change", path.read_text(encoding="utf-8"))
-
-
-if __name__ == "__main__":
-    unittest.main()

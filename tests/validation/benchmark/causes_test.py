@@ -1,4 +1,3 @@
-#!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Right codes of fixed steps and wrong scenes: what the judge says of each, and in which order."""
 import json
@@ -253,7 +252,3 @@ class Documents(unittest.TestCase):
                 several = len(exact_motion.told("benchmark", "show", problem["id"])["starts"]) > 1
                 self.assertIn("starts: one of these, any will do" if several else "start: the only one", text)
                 self.assertRegex(text, "a motion must (last [0-9.e-]+ s from the first touch|go on beyond the (last impact, [0-9.e-]+ s|impact))")
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -83,7 +83,3 @@ class League(unittest.TestCase):
             self.assertEqual(ended.returncode, 2, ended.stderr)
             self.assertEqual(len(ended.stderr.splitlines()), 1, ended.stderr)
             self.assertIn(words, ended.stderr)
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -1,4 +1,3 @@
-#!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Planted faults: each is found by the score that should find it, and no two look the same."""
 import json
@@ -435,7 +434,3 @@ class PlantedFaults(unittest.TestCase):
                 errors = [one["law_error"] for one in self.scored[name]["impact_scores"]]
                 self.assertEqual(errors.index(max(errors)), place)
                 self.assertLess(sorted(errors)[-2], 1e-9)
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -1,4 +1,3 @@
-#!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Derivatives in answers of others: those of a rod in 40 digits are exact, and each usual mistake gets its name."""
 import json
@@ -137,7 +136,3 @@ class Gradients(unittest.TestCase):
         self.assertEqual(judged["verdict"], "exact", judged["findings"])
         columns["dPz/drestitution"][0] *= -1
         self.assertIn("dPz/drestitution of impact 1 is -", self.judged("corner", columns)["findings"][0])
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -193,7 +193,3 @@ class Catalogue(unittest.TestCase):
                 self.assertTrue(any(f"adapter({part}" in build for part in (name, name.rsplit("-", 1)[0])), name)
         self.assertGreaterEqual(len([engine for engine in engines.values() if engine.package != "clatter"]), 16)
         self.assertTrue(all(one["reason"] for one in absent))
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -1,4 +1,3 @@
-#!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Faults planted in codes for every rigid problem: none passes that changes the motion, and none gets a wrong name."""
 import functools
@@ -487,7 +486,3 @@ class Exact(unittest.TestCase):
                     with self.subTest(problem=problem):
                         self.assertEqual(found["verdict"], "exact", found)
         self.assertGreaterEqual(count, 200)
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -1,4 +1,3 @@
-#!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Every row of a motion counts, and the text and the picture say what the class is by."""
 import json
@@ -134,7 +133,3 @@ class Reasons(Folder):
             self.assertIn(words, script)
         for found in files:
             self.assertAlmostEqual(max(one["error"] for one in found["impact_scores"]) / found["error"], 1, delta=1e-9)
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -1,4 +1,3 @@
-#!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Answers of others: what is read, how it is scored, what is refused."""
 import json
@@ -426,7 +425,3 @@ class Installed(Folder):
         done = subprocess.run([program, "benchmark", "score", "run.csv", "--require", "exact"], cwd=self.folder,
                               env={"PATH": "/usr/bin:/bin"}, capture_output=True, text=True, timeout=3600)
         self.assertEqual(done.returncode, 0, done.stderr)
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -1,13 +1,11 @@
-#!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The answers of notebooks-data/threads: each is what the behaviour of a thread gives, and gets the verdict of the page.
 
-usage: threads_test.py --write     makes the files anew
+Run as a program it makes the files anew.
 """
 import pathlib
 import json
 import math
-import sys
 import unittest
 
 import exact_motion
@@ -134,8 +132,5 @@ class Threads(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    if sys.argv[1:] == ["--write"]:
-        for name, (text, _, _) in THREADS.items():
-            (FOLDER / f"{name}.csv").write_text(text())
-    else:
-        unittest.main()
+    for name, (text, _, _) in THREADS.items():
+        (FOLDER / f"{name}.csv").write_text(text())

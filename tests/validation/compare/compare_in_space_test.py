@@ -1,4 +1,3 @@
-#!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 """clatter compare of drops in space: every body, every format, and one line for each impact that has no limit."""
 
@@ -139,7 +138,3 @@ class Compare(SpaceFolder):
         done = self.json_of("compare", *self.DISC, "--angle", "35", "--tangential-velocity", "1", "--friction", "0.3", "--impacts", "1",
                             "--tilt", "5", status=(1,))
         self.assertIn("not the ground's: μ = 0.3 where the ground has μ = 0.", done["message"])
-
-
-if __name__ == "__main__":
-    unittest.main()

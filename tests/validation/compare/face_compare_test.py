@@ -1,4 +1,3 @@
-#!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 """clatter compare of faces that land level, slide and turn, against a plate on an even bed that is integrated here."""
 
@@ -114,7 +113,3 @@ class Faces(SpaceFolder):
     def test_another_friction_than_the_grounds_is_found(self):
         impact = self.box(THIN, given=["--friction", "0.28"], status=1)
         self.assertFalse(impact["limit_is_discrete"])
-
-
-if __name__ == "__main__":
-    unittest.main()

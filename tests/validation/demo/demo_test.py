@@ -1,4 +1,3 @@
-#!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 """`clatter demo`: the page that it writes, the address that it prints, the browser that it opens.  CLATTER_PROGRAM is the program."""
 
@@ -98,7 +97,3 @@ class Demo(unittest.TestCase):
             done = run(folder=folder, HOME="")
             self.assertEqual((done.returncode, done.stdout, done.stderr.count("\n")), (2, "", 1))
             self.assertIn("--export", done.stderr)
-
-
-if __name__ == "__main__":
-    unittest.main()

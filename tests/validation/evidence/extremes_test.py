@@ -1,4 +1,3 @@
-#!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 """`clatter extremes` as its users meet it.  Costs are measured, not judged."""
 
@@ -82,7 +81,3 @@ class Extremes(unittest.TestCase):
         text = extremes("--help").stdout
         self.assertTrue(re.search("angle, stiffness, damping, restitution", text))
         self.assertLessEqual(max(map(len, text.splitlines())), 80)
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -1,4 +1,3 @@
-#!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The page of `clatter verify --html` in headless Chromium: whole, without script errors, without a request to anywhere."""
 
@@ -128,7 +127,3 @@ class Page(unittest.TestCase):
     def test_it_fits_its_window(self):
         wide = self.driver.run("return [document.documentElement.scrollWidth, window.innerWidth]")
         self.assertLessEqual(wide[0], wide[1])
-
-
-if __name__ == "__main__":
-    unittest.main()

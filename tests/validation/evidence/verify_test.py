@@ -1,4 +1,3 @@
-#!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 """`clatter compare`, `verify` and `figures` as their users meet them."""
 
@@ -219,7 +218,3 @@ class Figures(unittest.TestCase):
             done = run("figures", *arguments)
             self.assertEqual((done.returncode, done.stdout), (2, ""), arguments)
             self.assertEqual(len(done.stderr.splitlines()), 1)
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -1,4 +1,3 @@
-#!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 """clatter explain of a drop in space: each number that it shows against laws of mechanics put into numbers here."""
 
@@ -275,7 +274,3 @@ class Explained(SpaceFolder):
         self.assertLessEqual(max(map(len, texts["table"].splitlines())), 80)
         body = "\n".join(line for line in texts["latex"].splitlines() if not line.startswith("%"))
         self.assertEqual([c for c in body if ord(c) > 127], [])  # nothing that LaTeX would not print
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -1,4 +1,3 @@
-#!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 """clatter gradient: its derivatives are the slopes of clatter sequence, and it says where there are none."""
 
@@ -119,7 +118,3 @@ class GradientInSpace(Slopes):
                                         "restitution": 0.5, "angular-velocity": "0,0,1", "impacts": 1})
         self.assertEqual(done.returncode, 3)
         self.assertEqual([one["parameter"] for one in found["refused"] if one["from_impact"] == 1][:2], ["angle", "tilt"])
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -1,4 +1,3 @@
-#!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 """`clatter measured`: tracked drops from a file to a table, a picture, or one line that says what is wrong."""
 
@@ -122,7 +121,3 @@ class Measured(Folder):
         done = self.run_program("measured", "score", SQUARES, "--plot", self.path("score.svg"), "--plot-script")
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertIn("predicted from impact 1 on", self.read("score.svg"))
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -1,4 +1,3 @@
-#!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Colours of tables: on a terminal alone, and nothing but colours."""
 
@@ -57,7 +56,3 @@ class Colours(unittest.TestCase):
         for text in (plain(table), on_terminal(table, NO_COLOR="1"), on_terminal(table, TERM="dumb"),
                      on_terminal([*table, "--format", "csv"]), on_terminal([*table, "--ascii"]), on_terminal(["keys"])):
             self.assertNotIn("\033", text)
-
-
-if __name__ == "__main__":
-    unittest.main()

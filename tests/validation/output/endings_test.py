@@ -1,4 +1,3 @@
-#!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What a run writes appears whole or not at all, wherever it goes and however it ends, and nothing else stays behind."""
 
@@ -189,7 +188,3 @@ class Signals(Folder):
         self.assertEqual(process.returncode, 130)
         self.assertEqual(os.listdir(self.path("tmp")), [])
         self.assertEqual([name for name in os.listdir(self.folder) if "clatter" in name], [])
-
-
-if __name__ == "__main__":
-    unittest.main()

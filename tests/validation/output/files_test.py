@@ -1,4 +1,3 @@
-#!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What a run reads, or has written, is not overwritten by whatever name."""
 
@@ -160,7 +159,3 @@ class Names(Folder):
             self.assertEqual((done.returncode, done.stderr), (0, b""))
             with open(name + b".out", encoding="utf-8") as file:
                 self.assertIn("continuous", file.read())
-
-
-if __name__ == "__main__":
-    unittest.main()

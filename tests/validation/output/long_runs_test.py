@@ -1,4 +1,3 @@
-#!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Runs of many impacts: the memory that an impact takes, and that rows written one by one are those of the whole report."""
 
@@ -43,7 +42,3 @@ class LongRuns(unittest.TestCase):
                 numbers = [line.strip("| ").replace("?", " ").split()[0] for line in texts[form].splitlines() if line.strip("| ")[:1].isdigit()]
                 self.assertIn("40", numbers)
                 self.assertEqual(sorted(set(map(int, numbers[:40]))), list(range(1, 41)), form)
-
-
-if __name__ == "__main__":
-    unittest.main()

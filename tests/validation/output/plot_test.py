@@ -528,7 +528,3 @@ class Options(unittest.TestCase):
         self.assertRegex(run("completion", "fish").stdout, r"-l plot -r -F ")
         page = run("man").stdout
         self.assertEqual(page.count("\n.TP\n\\&\\-\\-plot\\-script "), 12)
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -1,4 +1,3 @@
-#!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Forms of output: every command that prints rows prints them as table, CSV, JSON, Markdown and LaTeX."""
 
@@ -180,7 +179,3 @@ class Forms(unittest.TestCase):
         result = run("columns", "--only", "sequnce")
         self.assertEqual((result.returncode, result.stdout, len(result.stderr.splitlines())), (2, "", 1))
         self.assertIn("sequence", result.stderr)
-
-
-if __name__ == "__main__":
-    unittest.main()

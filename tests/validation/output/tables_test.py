@@ -1,4 +1,3 @@
-#!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What every command's output has in common: tables for a terminal, a version in every form, help that can be followed."""
 
@@ -210,7 +209,3 @@ class Help(unittest.TestCase):
                 self.assertEqual(result.returncode, 0, (words, result.stderr))
                 done += 1
         self.assertGreater(done, 12)
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -99,7 +99,3 @@ class Plan(unittest.TestCase):
             done = run(*arguments)
             self.assertEqual((done.returncode, done.stdout), (2, ""), arguments)
             self.assertTrue(re.fullmatch(r"clatter: [^\n]+\n", done.stderr), done.stderr)
-
-
-if __name__ == "__main__":
-    unittest.main()

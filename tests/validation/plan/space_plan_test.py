@@ -1,4 +1,3 @@
-#!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 """clatter plan and tradeoff of drops in space: the discrete model in space stands between the plane and the contacts."""
 
@@ -99,7 +98,3 @@ class Plan(SpaceFolder):
         done = self.run_program("tradeoff", "phone-elastic", "--impacts", "1", "--format", "json")
         [point] = [p for p in json.loads(done.stdout)["points"] if p["model"] == "discrete 3D"]
         self.assertIn("stays in its plane", point["failure"])
-
-
-if __name__ == "__main__":
-    unittest.main()

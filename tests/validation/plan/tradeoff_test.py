@@ -1,4 +1,3 @@
-#!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 """`clatter tradeoff` as its users meet it.  Costs are measured, not judged: no test depends on a time."""
 
@@ -72,7 +71,3 @@ class Tradeoff(unittest.TestCase):
             run = tradeoff(name, *arguments)
             self.assertEqual((run.returncode, run.stdout), (2, ""))
             self.assertEqual(len(run.stderr.splitlines()), 1)
-
-
-if __name__ == "__main__":
-    unittest.main()

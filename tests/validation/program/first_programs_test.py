@@ -1,4 +1,3 @@
-#!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The programs that the launcher builds first print what the whole one prints, or leave a scene to the next with nothing written."""
 
@@ -40,7 +39,3 @@ class FirstPrograms(unittest.TestCase):
         self.assertIn(["sequence", "--angle", "10", "--tilt", "5"], left)
         for command in left:
             self.assertTrue("--tilt" in command or set(command) & set(CASE) - IN_PLANE, command)
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -1,4 +1,3 @@
-#!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The program as its users meet it: options, errors, formats, files, exit statuses."""
 
@@ -412,7 +411,3 @@ class Manners(unittest.TestCase):
         self.assertTrue(lines[-1].startswith("# interrupted after"))
         width = next(l for l in lines if l.startswith("theta")).count(",")
         self.assertTrue(all(l.count(",") == width for l in lines if l[0].isdigit()))
-
-
-if __name__ == "__main__":
-    unittest.main()

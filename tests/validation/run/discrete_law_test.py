@@ -1,4 +1,3 @@
-#!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What a scene means: the law, the body and the defaults that the discrete model takes, the same in every command."""
 
@@ -154,7 +153,3 @@ class OneAnswer(EmptyFolder):
             self.assertGreater(answer(command, scene)["body"]["mass"], 0)
             writer.join()
             os.unlink(pipe)
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -1,4 +1,3 @@
-#!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Sums and their errors: what is printed of them, what CSV and JSON carry, and when a run falls short (exit status 3)."""
 
@@ -283,7 +282,3 @@ class Shortfalls(Base):
         rows = records(self.short(*sweep, "--require-digits").stdout)
         self.assertEqual([bool(row["reason"]) for row in rows], [False, True])
         self.assertEqual(run(*sweep).returncode, 0)
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -1,4 +1,3 @@
-#!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Centre and inertia of every body, and what a closed STL surface encloses."""
 
@@ -111,7 +110,3 @@ class Mass(SpaceFolder):
                           text, command)
             if command[0] != "explain":
                 self.assertIn('# body: {"mass":0.0881', self.run_program(*command, *given, "--format", "csv").stdout, command)
-
-
-if __name__ == "__main__":
-    unittest.main()

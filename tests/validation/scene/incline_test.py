@@ -1,4 +1,3 @@
-#!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Sloping ground: what its key and flag mean, which commands take it, and what is refused."""
 
@@ -79,7 +78,3 @@ class Incline(Folder):
                                 ("whose ground is level", "shock", *BOX, "--incline", "20", "--probe", "c:0,0,0"),
                                 ("clatter plan, whose ground is level", "plan", "--angle", "10", "--incline", "20", "--stiffness", "1e9")):
             self.refused(words, *command)
-
-
-if __name__ == "__main__":
-    unittest.main()

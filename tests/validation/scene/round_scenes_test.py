@@ -1,4 +1,3 @@
-#!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Spheres, ellipsoids and capsules as scenes: keys, what is refused, closed forms, and a flight at 30 digits."""
 
@@ -112,7 +111,3 @@ class RoundBodies(SpaceFolder):
                                "--digits", "3")
             self.assertAlmostEqual(run["impacts"][0]["velocity_after"][2], 1, delta=1e-3)
             self.assertLess(abs(run["impacts"][0]["energy_after"] / run["impacts"][0]["energy_before"] - 1), 1e-3)
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -1,4 +1,3 @@
-#!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 """[sweep] of scene files: lists, grids by count and ratio, every impact shown; windows of pictures and histories."""
 
@@ -175,7 +174,3 @@ class Windows(unittest.TestCase):
                     self.assertEqual(done.stderr.count("\n"), 1)
         swept = run("simulate", "phone-sweep", "--window", "0:1", "--plot", "x.svg")
         self.assertEqual(swept.returncode, 2)
-
-
-if __name__ == "__main__":
-    unittest.main()

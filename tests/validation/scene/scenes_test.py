@@ -1,4 +1,3 @@
-#!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 """One language of scenes for every command: files, cases and flags alone; what clatter keys and clatter init say of it."""
 
@@ -156,7 +155,3 @@ class Init(Folder):
             if setting := re.match(r"(?:# )?([a-z_.]+) = ", line):
                 found.add(f"{table}.{setting.group(1)}")
         self.assertEqual(found, {key["key"] for key in keys})
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -1,4 +1,3 @@
-#!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Keys of a drop in space: attitude and velocities, in either model, and the language that has them."""
 
@@ -210,7 +209,3 @@ class Language(SpaceFolder):
             self.assertIn(done.returncode, (0, 2, 3, 4), (flag, text, done.stderr))
             if done.returncode == 2:
                 self.assertRegex(done.stderr, r"\Aclatter: [^\n]+\n\Z", text)
-
-
-if __name__ == "__main__":
-    unittest.main()

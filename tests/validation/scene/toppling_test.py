@@ -1,4 +1,3 @@
-#!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Bodies that turn about a lower edge until they lie: the motion at the touch, and what is refused."""
 
@@ -93,7 +92,3 @@ class Toppling(SpaceFolder):
         rows = records(done.stdout)
         self.assertEqual(len(rows), 5)
         self.assertAlmostEqual(float(rows[4]["energy_before_1"]), energies[0], delta=1e-12 * energies[0])
-
-
-if __name__ == "__main__":
-    unittest.main()

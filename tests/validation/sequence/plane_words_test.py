@@ -1,4 +1,3 @@
-#!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What a first-time reader meets in the plane: names of angles, what a column counts, why models differ, how to go on."""
 
@@ -88,7 +87,3 @@ class HowToGoOn(EmptyFolder):
     def test_the_scene_to_begin_with_fits_a_terminal(self):
         text = run("init").stdout
         self.assertEqual([line for line in text.splitlines() if len(line) > 80], [])
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -1,4 +1,3 @@
-#!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 """clatter sequence of a drop in space: one scene language, one record, laws of mechanics as oracles."""
 
@@ -228,7 +227,3 @@ class Sequence(SpaceFolder):
         data = self.json_of("sequence", *CORNER, "--impacts", "3")["impacts"]
         self.assertEqual([float(row["attitude_q0"]) for row in rows], [row["attitude"][0] for row in data])
         self.assertEqual([float(row["velocity_after_y"]) for row in rows], [row["velocity_after"][1] for row in data])
-
-
-if __name__ == "__main__":
-    unittest.main()

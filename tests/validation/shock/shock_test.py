@@ -1,4 +1,3 @@
-#!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 """`clatter shock` and `clatter ground` as their users meet them: probes, tables, JSON, bad input."""
 
@@ -318,7 +317,3 @@ class Ground(unittest.TestCase):
                 self.assertEqual((found.returncode, found.stdout), (2, ""))
                 self.assertEqual(len(found.stderr.splitlines()), 1)
                 self.assertIn(words, found.stderr)
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -1,4 +1,3 @@
-#!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 """`clatter simulate` as its users meet it: scene files, their errors, overrides, formats, histories, sweeps."""
 
@@ -556,7 +555,3 @@ class Friction(Folder):
             rows = self.json(case, "--stiffness", stiffness, "--impacts", "1")
             self.assertEqual([row["submerged"] for row in rows["impacts"]], [sinks])
             self.assertEqual(["sinks below" in warning for warning in rows["warnings"]], [sinks])  # else: goes deep
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -1,4 +1,3 @@
-#!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 """`clatter map`: its counts change where the paper's folds are, its pixels are what a sweep has, its picture shows them."""
 
@@ -279,7 +278,3 @@ def grey(colour):
     linear = [part / 12.92 if part <= 0.04045 else ((part + 0.055) / 1.055) ** 2.4 for part in parts]
     light = sum(weight * part for weight, part in zip((0.2126, 0.7152, 0.0722), linear))
     return 1.16 * light ** (1 / 3) - 0.16
-
-
-if __name__ == "__main__":
-    unittest.main()

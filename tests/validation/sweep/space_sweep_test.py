@@ -1,4 +1,3 @@
-#!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 """clatter sweep of the discrete model over drops in space: one row per scene or impact, those of the drops by themselves."""
 
@@ -257,7 +256,3 @@ class Sweep(SpaceFolder):
         lines = done.splitlines()
         self.assertIn("corner", next(line for line in lines if line.strip().startswith("n ")).split())
         self.assertEqual([line.split()[1] for line in lines if line[:3].strip().isdigit()][0], "-x-y-z")
-
-
-if __name__ == "__main__":
-    unittest.main()

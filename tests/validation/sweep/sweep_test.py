@@ -1,4 +1,3 @@
-#!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 """`clatter sweep` as its users meet it: the same file however it came about, rows as the other commands have them."""
 
@@ -720,7 +719,3 @@ class Manners(Folder):
     def test_the_scene_may_come_after_the_settings(self):
         self.assertEqual(self.sweep("--set", "drop.angle_deg=10:20:5", "--set", "drop.spin=0", self.scene),
                          self.sweep(self.scene, "--set", "drop.angle_deg=10:20:5", "--set", "drop.spin=0"))
-
-
-if __name__ == "__main__":
-    unittest.main()
