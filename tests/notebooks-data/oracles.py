@@ -1,0 +1,574 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Answers of the notebooks' exercises by other means than clatter's: closed forms, own root-finders, own integrations.
+
+ORACLES: exercise to (function that gives the expected numbers, relative tolerance).
+"""
+
+import math
+from decimal import Decimal, getcontext
+from math import cos, degrees, pi, radians, sin, sqrt
+
+getcontext().prec = 60
+
+
+def root(function, low, high, steps=200):
+    """Where the function changes its sign, by halving."""
+    falls = function(low) > 0
+    for _ in range(steps):
+        middle = (low + high) / 2
+        low, high = (middle, high) if (function(middle) > 0) == falls else (low, middle)
+    return (low + high) / 2
+
+
+def largest(function, low, high):
+    """Golden section: where, and how much."""
+    ratio = (sqrt(5) - 1) / 2
+    for _ in range(100):
+        left, right = high - ratio * (high - low), low + ratio * (high - low)
+        low, high = (low, right) if function(left) > function(right) else (left, high)
+    return (low + high) / 2, function((low + high) / 2)
+
+
+def runge_kutta(slope, y, h):
+    """A step of the classical method."""
+    a = slope(y)
+    b = slope([x + h / 2 * k for x, k in zip(y, a)])
+    c = slope([x + h / 2 * k for x, k in zip(y, b)])
+    d = slope([x + h * k for x, k in zip(y, c)])
+    return [x + h / 6 * (k + 2 * m + 2 * n + o) for x, k, m, n, o in zip(y, a, b, c, d)]
+
+
+def rod_blow(c, e=1):
+    """V and Ω of the unit rod that strikes with |v| = 1, c the cosine of its inclination."""
+    impulse = (1 + e) / (1 + 3 * c * c)
+    return impulse - 1, 6 * c * impulse
+
+
+# ---------------------------------------------------------------- 1 and 2: the rod, small angles in 60 digits
+
+def sin_cos(x):
+    """Taylor series of sine and cosine of a small Decimal."""
+    sine, cosine, term = Decimal(0), Decimal(0), Decimal(1)
+    for n in range(80):
+        if n % 2:
+            sine += term * (-1) ** (n // 2)
+        else:
+            cosine += term * (-1) ** (n // 2)
+        term *= x / (n + 1)
+    return sine, cosine
+
+
+def first_three(theta):
+    """Angles and impulses of the first three elastic blows; a flight leads to sin a + (2 v/spin)(a + b) = sin b, by Newton."""
+    angle, v, spin, angles, impulses = theta, Decimal(-1), Decimal(0), [], []
+    for n in range(3):
+        sine, cosine = sin_cos(angle)
+        d_t = cosine / 2 * (1 if n == 1 else -1)
+        impulse = -2 * (v - spin * d_t) / (1 + 12 * d_t * d_t)
+        v, spin = v + impulse, spin - 12 * d_t * impulse
+        angles.append(angle)
+        impulses.append(impulse)
+        slope, start = 2 * v / abs(spin), angle
+        for _ in range(12):
+            s, c = sin_cos(angle)
+            angle -= (sine + slope * (start + angle) - s) / (slope - c)
+    return angles, impulses
+
+
+def exponent_and_factor():
+    theta = Decimal("1e-6")
+    once, twice = (2 - sum(first_three(angle)[1]) for angle in (theta, 2 * theta))
+    factor = once / theta**4
+    assert abs(factor - Decimal(243) / 512) < Decimal("1e-9")
+    return [float((twice / once).ln() / Decimal(2).ln()), float(factor)]
+
+
+def gamma_factor():
+    theta = Decimal("1e-6")
+    return [float((first_three(theta)[0][2] - theta) / theta**3)]
+
+
+def first_blow():
+    v, spin = rod_blow(cos(radians(30)))
+    return [v + 1, v, spin]
+
+
+def forty_five():
+    """Eq. 12 solved for theta; P2/P1 from the approach speeds and the effective masses of the ends."""
+    beta = pi / 4
+    theta = root(lambda t: sin(t) + (1 - 3 * cos(t) ** 2) / (6 * cos(t)) * (t + beta) - sin(beta), radians(30), radians(58))
+    v, spin = rod_blow(cos(theta))
+    return [degrees(theta), (spin * cos(beta) / 2 - v) * (1 + 3 * cos(theta) ** 2) / (1 + 3 * cos(beta) ** 2)]
+
+
+def grazing(e):
+    """Smallest height of the right end over the flight is zero at the fold."""
+    def lowest(theta):
+        v, spin = rod_blow(cos(theta), e)
+        time, depth = largest(lambda t: -(sin(theta) / 2 + v * t + sin(theta - spin * t) / 2), theta / spin, (theta + radians(120)) / spin)
+        return time, -depth
+
+    theta = root(lambda t: lowest(t)[1], radians(60), radians(75), 100)
+    v, spin = rod_blow(cos(theta), e)
+    assert abs(cos(spin * lowest(theta)[0] - theta) - 2 * v / spin) < 1e-6
+    return [degrees(theta), degrees(math.acos(2 * v / spin))]
+
+
+# ---------------------------------------------------------------- 3: gravity
+
+def bouncing(e, v, g, last=1e-18):
+    """Time and impulse per mass, bounce by bounce until nothing is left."""
+    time, impulse = 0.0, (1 + e) * v
+    while v > last:
+        v *= e
+        time += 2 * v / g
+        impulse += (1 + e) * v
+    return [time, impulse]
+
+
+def one_per_cent(theta):
+    """Eq. 12 with gravity, solved for G at beta = 0.99 of that without gravity."""
+    v, spin = rod_blow(cos(theta))
+    k = 2 * v / spin
+    beta = 0.99 * root(lambda b: sin(theta) + k * (theta + b) - sin(b), 0.0, pi / 4)
+    number = (sin(theta) + k * (theta + beta) - sin(beta)) / ((theta + beta) / spin) ** 2
+    return [number, 1 / (2 * number)]
+
+
+def both_ends(g):
+    """Flight in small steps: the angle at which left and right end reach the floor together, and when."""
+    def touch(theta):
+        """The inclination where the lower end is down, and the time then."""
+        v, spin = rod_blow(cos(theta))
+
+        def lower(t):
+            return sin(theta) / 2 + v * t - g * t * t / 2 - abs(sin(theta - spin * t)) / 2
+        t = 1e-3
+        while lower(t) > 0:
+            t += 1e-3
+        t = root(lower, t - 1e-3, t)
+        return theta - spin * t, t
+
+    theta = root(lambda angle: -touch(angle)[0], radians(50), radians(70))
+    return [degrees(theta), touch(theta)[1]]
+
+
+# ---------------------------------------------------------------- 4: friction
+
+def sticking_and_jamming():
+    """Of the impact equations: the ratio that leaves no slip; the ratio at which u stops rising."""
+    def rates(theta, ratio):
+        """Change of the contact point's (u, slip) by P_n = 1 with P_t = ratio, from Newton-Euler."""
+        d_t, d_n = -cos(theta) / 2, -sin(theta) / 2
+        spin = 12 * (d_n * ratio - d_t)
+        return 1 - spin * d_t, ratio + spin * d_n
+
+    return [root(lambda ratio: rates(radians(30), ratio)[1], 0, 2), root(lambda ratio: rates(radians(60), ratio)[0], 0, 5)]
+
+
+def most_loss():
+    """mu = AB/(2AC - B^2) and 9/80 J of 1/2 J at A = C = 5/2, B = 3/2."""
+    A = C = 2.5
+    B = 1.5
+    mu = A * B / (2 * A * C - B * B)
+    return [mu, 100 * 2 * mu * (B - C * mu) / (A - B * mu) ** 2 / 0.5]
+
+
+def march(slip, e, law, mu=0.5, theta=radians(45), step=2e-6):
+    """Impact in small steps of P_n, Coulomb's law at each step."""
+    d_t, d_n = -cos(theta) / 2, -sin(theta) / 2
+    P, u, work, rate, compression, taken = 0.0, -1.0, 0.0, 1.0, None, 0.0
+    while True:
+        if compression is None and u >= 0:
+            compression, taken = P - u / rate, -work
+        if compression is not None:
+            done = {"newton": u >= e, "poisson": P >= (1 + e) * compression, "stronge": work >= -(1 - e * e) * taken}
+            if done[law]:
+                return P
+        ratio = -mu if slip > 0 else mu
+        spin = 12 * (d_n * ratio - d_t)
+        rate = 1 - spin * d_t
+        slip += (ratio + spin * d_n) * step
+        work += (u + rate * step / 2) * step
+        u += rate * step
+        P += step
+
+
+def three_laws():
+    end = 1.5 / (1 + 3 / 2 + 3 / 2 * 0.5)  # P_n without a stop of the slip
+    return [end * (3 / 2 + (1 + 3 / 2) * 0.5), *(march(0.8, 0.5, law) for law in ("newton", "poisson", "stronge"))]
+
+
+# ---------------------------------------------------------------- 5: the ground
+
+def landing(mass, force, speed, step):
+    """m x'' = -force(x, x') from x = 0: duration, speed of departure, peak force."""
+    x, w, t, peak = 0.0, speed, 0.0, 0.0
+    while True:
+        new_x, new_w = runge_kutta(lambda y: (y[1], -force(*y) / mass), [x, w], step)
+        if new_x <= 0:
+            part = x / (x - new_x)
+            return t + part * step, -(w + part * (new_w - w)), peak
+        x, w, t = new_x, new_w, t + step
+        peak = max(peak, force(x, w))
+
+
+def phone():
+    """The stiffness at which an integrated landing peaks at 1000 g, and its duration."""
+    mass, face = 0.088, 0.10566 * 0.04394
+
+    def run(k):
+        return landing(mass, lambda x, w: k * face * x, 4.4, 2e-6)
+    k = root(lambda k: run(k)[2] - 1000 * 9.81 * mass, 1e7, 1e9, 40)
+    return [k, 1e3 * run(k)[0]]
+
+
+def damped():
+    """The restitution does not depend on mass and area, so both are 1 here, and k too."""
+    def restitution(s):
+        return landing(1, lambda x, w: (1 + s * w) * x, 1, 2e-3)[1]
+    s = root(lambda s: restitution(s) - 0.5, 0.5, 3, 40)
+    return [s * 1e8 / 2, restitution(s / 4)]
+
+
+def edge():
+    """F = K x^2 against the mass that the edge feels; x' = v sqrt(1 - (x/x_max)^3), Beta function."""
+    length, width, thickness, mass, k, speed = 0.1, 0.05, 0.02, 0.1, 1e14, 1.0
+    s = c = sqrt(0.5)
+    d_t = -(length * c - thickness * s) / 2
+    effective = 1 / (1 / mass + d_t**2 * 12 / mass / (length**2 + thickness**2))
+    K = k * width / 2 * (1 / s + 1 / c)
+    depth = (1.5 * effective * speed**2 / K) ** (1 / 3)
+    return [K * depth**2, 2e6 * depth / speed * sqrt(pi) * math.gamma(4 / 3) / math.gamma(5 / 6)]
+
+
+# ---------------------------------------------------------------- 6: the phone
+
+L, W, T, MASS, GRAVITY = 0.10566, 0.04394, 0.01905, 0.08814, 9.81
+INERTIA = MASS * (L * L + T * T) / 12
+
+
+def grown(thick, spin, time):
+    """Growth of a small disturbance in that time, by Euler's equations, after it has settled into its growing form."""
+    I1, I2, I3 = W**2 + thick**2, L**2 + thick**2, L**2 + W**2
+
+    def run(w, time, steps):
+        for _ in range(steps):
+            w = runge_kutta(lambda w: ((I2 - I3) * w[1] * w[2] / I1, (I3 - I1) * w[2] * w[0] / I2, (I1 - I2) * w[0] * w[1] / I3), w, time / steps)
+        return w
+
+    settled = run([1e-30, spin, 0.0], 0.6, 3000)
+    return math.log(run(settled, time, 3000)[0] / settled[0])
+
+
+def rate():
+    value = grown(T, 53.5, 0.5) / 0.5
+    return [value, 10 * math.log(10) / value]
+
+
+def corners(phi):
+    """(x, z) of the corners of the section about the centre in order; at phi > 0 the left end is low."""
+    c, s = cos(phi), sin(phi)
+    return [(c * x - s * z, s * x + c * z) for x, z in ((-L / 2, -T / 2), (L / 2, -T / 2), (L / 2, T / 2), (-L / 2, T / 2))]
+
+
+SPEED = sqrt(2 * GRAVITY * (1 + min(z for _, z in corners(radians(10)))))
+
+
+def discrete():
+    """Impulses at corners, flights scanned in small steps for the first corner to come down; d(phi)/dt = -spin."""
+    phi, v, spin, impulses = radians(10), -SPEED, 0.0, []
+    for _ in range(2):
+        at = min(corners(phi), key=lambda corner: corner[1])
+        z = -at[1]
+        P = -2 * (v - spin * at[0]) / (1 / MASS + at[0] ** 2 / INERTIA)
+        impulses.append(P)
+        v, spin = v + P / MASS, spin - at[0] * P / INERTIA
+
+        def lowest(t):
+            return z + v * t - GRAVITY * t * t / 2 + min(height for _, height in corners(phi - spin * t))
+        t = 1e-7
+        while lowest(t) > 0 and t < 0.01:
+            t += 1e-7
+        t = root(lowest, t - 1e-7, t, 60)
+        phi, v = phi - spin * t, v - GRAVITY * t
+    return impulses[1] / impulses[0]
+
+
+def load(z, phi, k):
+    """Force up and moment (sign of spin) of k delta over the submerged surface: four edges times the width, two side walls."""
+    points = [(x, -(z + height)) for x, height in corners(phi)]  # (lever, depth)
+    wet, force, moment = [], 0.0, 0.0
+    for (x1, d1), (x2, d2) in zip(points, points[1:] + points[:1]):
+        if d1 > 0:
+            wet.append((x1, d1))
+        if d1 <= 0 and d2 <= 0:
+            continue
+        length = math.hypot(x2 - x1, d2 - d1)
+        if d1 * d2 < 0:
+            part = d1 / (d1 - d2)
+            cut = (x1 + part * (x2 - x1), 0.0)
+            wet.append(cut)
+            length *= part if d1 > 0 else 1 - part
+            (x1, d1), (x2, d2) = ((x1, d1), cut) if d1 > 0 else (cut, (x2, d2))
+        d1, d2 = max(d1, 0.0), max(d2, 0.0)
+        force += k * W * length * (d1 + d2) / 2
+        moment -= k * W * length * (x1 * (2 * d1 + d2) + x2 * (d1 + 2 * d2)) / 6
+    for i in range(1, len(wet) - 1):  # both side walls, in triangles
+        triangle = (wet[0], wet[i], wet[i + 1])
+        (xa, da), (xb, db), (xc, dc) = triangle
+        area = abs((xb - xa) * (dc - da) - (xc - xa) * (db - da)) / 2
+        depth, lever = da + db + dc, xa + xb + xc
+        force += 2 * k * area * depth / 3
+        moment -= 2 * k * area * (depth * lever + sum(x * d for x, d in triangle)) / 12
+    return force, moment
+
+
+def continuous(k, step):
+    """Ratio of the impulses of the first two contacts of the elastic phone, planar."""
+    def slope(y):
+        force, moment = load(y[0], y[1], k)
+        return y[2], -y[3], force / MASS - GRAVITY, moment / INERTIA, force
+
+    phi = radians(10)
+    state = [-min(z for _, z in corners(phi)), phi, -SPEED, 0.0, 0.0]  # z, phi, v, spin, impulse
+    impulses, taken, touching = [], 0.0, True
+    while len(impulses) < 2:
+        state = runge_kutta(slope, state, step)
+        now = state[0] + min(z for _, z in corners(state[1])) < 0
+        if touching and not now:
+            impulses.append(state[4] - taken)
+            taken = state[4]
+        touching = now
+    return impulses[1] / impulses[0]
+
+
+# ---------------------------------------------------------------- 7 and 8: accuracy, and what is largest
+
+def stiffness_for_four_digits():
+    """d'' = g - w^2 d from d = 0, d' = v: w t = pi + 2 atan(g / (w v)); and g t / (2 v) = 1e-4."""
+    gravity, speed, mass, face = 9.81, 1.0, 0.1, 0.1 * 0.05
+    omega = root(lambda w: gravity * (pi + 2 * math.atan(gravity / (w * speed))) / w / (2 * speed) - 1e-4, 1e3, 1e7, 100)
+    return [omega**2 * mass / face / 1e9]
+
+
+def second_impulse(angle, e):
+    """Thin rod, m = L = v = 1: Eq. 8, free flight to the earliest contact of the other end, Eq. 8."""
+    theta = radians(angle)
+    rise, spin = rod_blow(cos(theta), e)
+    turned = root(lambda turned: sin(theta) / 2 + rise * turned / spin - sin(turned - theta) / 2, 0.0, theta + math.acos(2 * rise / spin), 100)
+    cosine = cos(turned - theta)
+    return (1 + e) * (spin / 2 * cosine - rise) / (1 + 3 * cosine**2)
+
+
+def flat_peak(s):
+    """Largest (1 + s w) x of x'' = -(1 + s x') x, w = x'; first integral x^2/2 = (1 - w)/s - ln((1 + s)/(1 + s w))/s^2."""
+    def force(w):
+        half = (1 - w) / s - math.log((1 + s) / (1 + s * w)) / s**2
+        return (1 + s * w) * sqrt(max(0.0, 2 * half))
+    return largest(force, 0.0, 1.0)[1]
+
+
+def best_damping():
+    speed, stiffness, face = sqrt(2 * 9.81), 1e8, L * W
+    s, negative = largest(lambda s: -flat_peak(s), 0.05, 1.5)
+    return [s * stiffness / speed / 1e7, -negative * speed * sqrt(stiffness * face * MASS), 100 * (1 + negative)]
+
+
+def edges_together(degrees, stiffness=1e10, speed=4.4294, step=2e-8):
+    """Planar drop of the phone on one edge, elastic load k * depth per unit surface on bottom, end and side faces.  Does the
+    other edge touch before the first has left?"""
+    def heights(z, angle):
+        return z - L / 2 * sin(angle) - T / 2 * cos(angle), z + L / 2 * sin(angle) - T / 2 * cos(angle)
+
+    def slope(state):
+        z, angle, rise, turn = state
+        depth = -heights(z, angle)[0]
+        if depth <= 0:
+            return rise, turn, 0.0, 0.0
+        sine, cosine = sin(angle), cos(angle)
+        edge = -L / 2 * cosine + T / 2 * sine
+        along = min(depth / sine, L) if sine > 0 else L
+        up = depth / cosine
+        bottom, end = stiffness * W * depth * along / 2, stiffness * W * depth * up / 2
+        sides = 2 * stiffness * depth * along * up / 6
+        right, left = edge + along * cosine, edge - up * sine
+        moment = (bottom * (2 * edge + right) + end * (2 * edge + left)) / 3 + sides * (2 * edge + right + left) / 4
+        return rise, turn, (bottom + end + sides) / MASS, moment / INERTIA
+
+    angle = radians(degrees)
+    state = [L / 2 * sin(angle) + T / 2 * cos(angle), angle, -speed, 0.0]
+    while True:
+        state = runge_kutta(slope, state, step)
+        first, second = heights(*state[:2])
+        if second <= 0 or first > 0:
+            return second <= 0
+
+
+# ---------------------------------------------------------------- 9 and 10: in space, and what others compute
+
+def felt_mass():
+    """The cube of side 1 and mass 1 as a contact matrix: W = 1 − [r]× I⁻¹ [r]×, its vertical part, r found by turning the body."""
+    tilt, reach = radians(20), sqrt(3) / 2
+    r = (reach * sin(tilt), 0.0, -reach * cos(tilt))
+    turning = [6 * part for part in (r[1], -r[0])]  # r × z, and I = 1/6
+    return [1 / (1 + turning[0] * r[1] - turning[1] * r[0])]  # z · (ω × r)
+
+
+def shell_over_solid(cells=400):
+    """Sums of y² + z² over the six faces of a cube, and over its volume by slices."""
+    square = sum(((i + 0.5) / cells - 0.5) ** 2 for i in range(cells)) / cells
+    across, along = 2 * square, square + 0.25  # faces x = ±1/2, and the other four
+    return [((2 * across + 4 * along) / 6) / (2 * square)]
+
+
+def caught(frames=100_000):
+    """Contacts that begin at evenly spread phases of the frame's interval."""
+    share = 1.8e-3 / 4e-3
+    return [100 * sum((i + 0.5) / frames + share > 1 for i in range(frames)) / frames]
+
+
+def interval():
+    """The rod of 1 m and 1 kg at 1.5 m/s: end a is struck at 10°, and end b found on the ground."""
+    theta = radians(10)
+    rise, turning = (1.5 * part for part in rod_blow(cos(theta)))
+
+    def height(time):
+        return sin(theta) / 2 + rise * time + sin(theta - turning * time) / 2
+
+    high = 0.1
+    while height(high) > 0:
+        high += 0.001
+    return root(height, 1e-6, high, 60)
+
+
+# ---------------------------------------------------------------- 11 and 12: close to flat
+
+def struck(arms, gyration_square, restitution=1.0, most=10_000):
+    """Approach speeds of a rod that falls flat with |v| = 1, contacts at -arms[0] (first) and arms[1], one after the other."""
+    place = (-arms[0], arms[1])
+    v, spin, speeds = -1.0, 0.0, []
+    while len(speeds) < most:
+        x = place[len(speeds) % 2]
+        approach = -(v - spin * x)
+        if approach <= 0:
+            break
+        impulse = (1 + restitution) * approach / (1 + x * x / gyration_square)
+        v += impulse
+        spin -= x * impulse / gyration_square
+        speeds.append(approach)
+    return speeds
+
+
+def opposite_second(length, width, thickness, restitution):
+    """A corner strikes, the body turns about x and y, the opposite corner strikes."""
+    x, y = length / 2, width / 2
+    about_y, about_x = (length**2 + thickness**2) / 12, (width**2 + thickness**2) / 12
+    impulse = (1 + restitution) / (1 + x * x / about_y + y * y / about_x)
+    v, along, across = -1 + impulse, -x * impulse / about_y, -y * impulse / about_x  # rates of the slope
+    return [-(v + along * x + across * y)]
+
+
+def lower_end(hits, count, z=1.96):
+    """The share p whose distance from the one found is z of its own standard deviations."""
+    found = hits / count
+    return [100 * root(lambda p: found - p - z * sqrt(p * (1 - p) / count), 0.0, found, 60)]
+
+
+# ---------------------------------------------------------------- 13 and 14: rest, and a part inside
+
+def impacts():
+    """Speeds from impact to impact."""
+    speed, count = 1.0, 0
+    while speed**2 >= 1e-3:
+        speed, count = 0.75 * speed, count + 1
+    return [count]
+
+
+def rocking(n=400):
+    """The plane cube as n × n points: before the landing it turns about (0, 0), after it about (1, 0)."""
+    places = [(i + 0.5) / n for i in range(n)]
+    square = sum(x * x for x in places) / n
+    # Momentum about the new edge of velocities (-z, x): the mean of x (x - 1) + z z.
+    return [((2 * square - sum(places) / n) / (2 * square)) ** 2]
+
+
+STANDARD = 9.80665
+
+
+def boundary():
+    """Where an impulsive pulse, and a long one, bring an undamped oscillator to its fragility."""
+    omega, fragility = 2 * pi * 200, 150 * STANDARD
+    impulsive = root(lambda v: omega * v - fragility, 0, 10)  # it leaves with v and swings to ω z = v
+    # Energy under a constant push A: ω² z²/2 = A z at the turn, ω² z = 2 A.
+    return [impulsive, root(lambda a: 2 * a - fragility, 0, 1e5)]
+
+
+def height():
+    """The fall whose speed, with the rebound, is the integral of the half sine."""
+    parts = 20_000  # by the middle of each: within 1e-9
+    change = sum(1500 * STANDARD * sin(pi * (i + 0.5) / parts) for i in range(parts)) * 5e-4 / parts
+    return [root(lambda h: 1.5 * sqrt(2 * STANDARD * h) - change, 0, 10)]
+
+
+def quarter():
+    """The rod as two rigid collisions, by conservation of energy and of angular momentum about the struck end."""
+    v, w = -1.0, 0.0  # of the centre, upward, and counter-clockwise
+    for end in (-0.5, 0.5):
+        before = (v, w)
+        # P at `end`: v + P, w + 12 P end; the end's velocity v + w end reverses.
+        push = -2 * (v + w * end) / (1 + 12 * end * end)
+        v, w = v + push, w + 12 * push * end
+        assert abs(v * v + w * w / 12 - before[0] ** 2 - before[1] ** 2 / 12) < 1e-12
+    return [(v - before[0]) + (w - before[1]) / 4]
+
+
+# Of printed numbers a tolerance is half a unit of the last digit at most, but for what is said.
+ORACLES = {
+    "1.1": (first_blow, 5e-6),
+    "1.2": (lambda: [degrees(math.acos(sqrt(0.5 / 3))), 6 * sqrt(0.5 / 3)], 5e-6),  # 3 cos^2 = e, Omega = 6 cos
+    "1.3": (exponent_and_factor, 2e-4),  # the limit theta -> 0; at 0.1 deg the next term is some theta^2 = 3e-6
+    "2.1": (forty_five, 5e-6),
+    "2.2": (lambda: grazing(0.5), 5e-6),
+    "2.3": (gamma_factor, 5e-4),  # 1.688 stands for 1.6875
+    "3.1": (lambda: bouncing(0.7, 1.0, 9.81), 5e-6),
+    "3.2": (lambda: one_per_cent(radians(20)), 5e-5),
+    "3.3": (lambda: both_ends(9.81), 5e-5),
+    "4.1": (sticking_and_jamming, 1e-5),
+    "4.2": (most_loss, 1e-5),  # the search finds mu to 1e-7 (flat maximum)
+    "4.3": (three_laws, 2e-5),  # the march ends within a step, 2e-6 of 0.5 N s, and reverses within one
+    "5.1": (phone, 1e-5),  # 700 steps: the peak is met within (pi/1400)^2/2 = 3e-6 in force, 5e-6 in k
+    "5.2": (damped, 1e-5),  # 1600 steps and linear interpolation at the end
+    "5.3": (edge, 1e-3),  # the limit of a rigid body that does not turn; the gap shrinks like the contact time, k^(-1/3)
+    "6.1": (rate, 1e-5),  # steps of 0.2 ms
+    "6.2": (lambda: [1e3 * root(lambda thick: grown(thick, 53.5, 0.4456) - math.log(1000), 0.030, 0.0435, 25)], 1e-5),
+    # Discrete: scan in steps of 0.1 µs.  Continuous: steps of 1 µs and 0.1 µs.
+    "6.3": (lambda: [discrete(), continuous(1e8, 1e-6), continuous(1e14, 1e-7)], 4e-4),
+    "7.1": (lambda: [10 ** (3 / order) for order in (3, 2, 8)], 1e-5),
+    # Simpson's rule over the kinks at touch-down and lift-off, half a step out of phase: E differs by -1/24 to 1/24, to
+    # leading order in w h = 0.03; the next order is the same for each phase.
+    "7.2": (lambda: [(pi / 100.5) ** 2 / 12 * 1e6], 5e-3),
+    "7.3": (stiffness_for_four_digits, 2e-3),
+    "8.1": (lambda: list(largest(lambda angle: second_impulse(angle, 0.8), 40, 52)), 1e-4),  # a flat maximum gives its place to 1e-8
+    "8.2": (best_damping, 5e-3),
+    "8.3": (lambda: [root(lambda angle: -1.0 if edges_together(angle) else 1.0, 0.3, 1.2, 12)], 2e-3),  # to 2e-4 degrees
+    "9.1": (felt_mass, 1e-3),
+    "9.2": (shell_over_solid, 5e-4),
+    "9.3": (caught, 1e-3),
+    "10.1": (lambda: [1 - (1 + 0.98) / (1 + 1.0)], 1e-9),  # impulses that reverse a point with e = 1 and with e = 0.98
+    "10.2": (lambda: [interval(), 10 * interval()], 5e-3),
+    "10.3": (lambda: [math.log(0.02 / 0.0013, 4)], 5e-3),  # the power of the step that leads from one error to the other
+    "11.1": (lambda: [len(struck((50, 50), 1))], 0),
+    # Between strikes that end and those that do not: the first restitution at which fewer than 300 are found.
+    "11.2": (lambda: [root(lambda e: 299.5 - len(struck((4, 4), 1, e, 300)), 0.3, 0.5, 40)], 1e-3),
+    "11.3": (lambda: [struck((0.3, 0.7), 1 / 12)[1]], 1e-5),
+    "12.1": (lambda: opposite_second(0.2, 0.1, 0.01, 1), 1e-5),
+    "12.2": (lambda: opposite_second(0.2, 0.1, 0.01, 0.5), 1e-5),
+    "12.3": (lambda: lower_end(130, 200), 1e-3),
+    "13.1": (lambda: bouncing(0.75, 4.0, 9.81, 1e-14), 1e-5),
+    "13.2": (impacts, 1e-9),
+    "13.3": (rocking, 1e-4),
+    "14.1": (boundary, 1e-5),
+    "14.2": (height, 1e-5),
+    "14.3": (quarter, 1e-9),
+}
