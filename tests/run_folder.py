@@ -2,10 +2,13 @@
 """Runs of the program, also in a folder of their own.  CLATTER_PROGRAM is the program, CLATTER_ROOT the source tree."""
 
 import csv
+import json
 import os
+import shlex
 import subprocess
 import tempfile
 import unittest
+from pathlib import Path
 
 PROGRAM = os.environ["CLATTER_PROGRAM"]
 ROOT = os.environ["CLATTER_ROOT"]
@@ -29,12 +32,39 @@ def run(*arguments, **options):
     return subprocess.run([PROGRAM, *arguments], **{"capture_output": True, "text": True, "timeout": 3000, **options})
 
 
+def printed(*arguments, status=(0,), **options):
+    """What a run prints that ends with one of these statuses."""
+    done = run(*arguments, **options)
+    if done.returncode not in status:
+        raise AssertionError((arguments, done.returncode, done.stderr))
+    return done.stdout
+
+
+def json_of(*arguments, **options):
+    return json.loads(printed(*arguments, "--format", "json", **options))
+
+
 def records(text):
     """Rows of a CSV text, without the comments above them."""
     return list(csv.DictReader(line for line in text.splitlines(True) if not line.startswith("#")))
 
 
+def rows_of(*arguments, **options):
+    return records(printed(*arguments, "--format", "csv", **options))
+
+
+def stl(triangles):
+    """An STL file of triangles of three corners each, counterclockwise seen from outside."""
+    text = "solid body\n"
+    for triangle in triangles:
+        corners = "".join("vertex %r %r %r\n" % tuple(corner) for corner in triangle)
+        text += "facet normal 0 0 0\nouter loop\n" + corners + "endloop\nendfacet\n"
+    return text + "endsolid body\n"
+
+
 class EmptyFolder(unittest.TestCase):
+    """In which the program runs."""
+
     def setUp(self):
         folder = tempfile.TemporaryDirectory()
         self.addCleanup(folder.cleanup)
@@ -53,13 +83,8 @@ class EmptyFolder(unittest.TestCase):
             return file.read()
 
 
-class Folder(EmptyFolder):
-    """With a scene and its mesh, in which the program runs."""
-
-    def setUp(self):
-        super().setUp()
-        self.write("scene.toml", MESHED)
-        self.write("body.stl", TETRAHEDRON)
+    def records(self, name):
+        return records(self.read(name))
 
     def contents(self):
         """Names with what is below them: a link's target, a file's text."""
@@ -67,17 +92,36 @@ class Folder(EmptyFolder):
         for folder, folders, files in os.walk(self.folder):
             for name in folders + files:
                 path = os.path.join(folder, name)
-                found[path] = os.readlink(path) if os.path.islink(path) else self.read(path) if os.path.isfile(path) else None
+                found[path] = os.readlink(path) if os.path.islink(path) else os.path.isfile(path) and Path(path).read_bytes()
         return found
 
     def run_program(self, *arguments, **options):
         return run(*arguments, **{"cwd": self.folder, **options})
 
+    def json_of(self, *arguments, status=(0, 3), **options):
+        return json_of(*arguments, status=status, **{"cwd": self.folder, **options})
+
     def refused(self, words, *arguments, status=2, **options):
         """One line that says so, and nothing has changed."""
         before = self.contents()
         done = self.run_program(*arguments, **options)
-        self.assertEqual(done.returncode, status, (arguments, done.stderr))
+        self.assertEqual((done.returncode, done.stdout or ""), (status, ""), (arguments, done.stderr))
         self.assertRegex(done.stderr, r"\Aclatter: [^\n]+\n\Z", arguments)
         self.assertIn(words, done.stderr, arguments)
         self.assertEqual(self.contents(), before, arguments)
+        return done.stderr
+
+    def each_refused(self, table, *command, **options):
+        """Arguments, as one types them or apart, and what is said of them."""
+        for arguments, words in table.items():
+            with self.subTest(arguments):
+                self.refused(words, *command, *(shlex.split(arguments) if isinstance(arguments, str) else arguments), **options)
+
+
+class Folder(EmptyFolder):
+    """With a scene and its mesh."""
+
+    def setUp(self):
+        super().setUp()
+        self.write("scene.toml", MESHED)
+        self.write("body.stl", TETRAHEDRON)

@@ -1,11 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """A box with its mass off its centre, Euler parameters, and rows of a run that are compared."""
 
-import json
 import math
 
-from run_folder import Folder
-from stl_text import stl
+from run_folder import Folder, stl
 
 SIZE, MASS = (0.10566, 0.04394, 0.01905), 0.08814
 BOX = ["--body", "box", "--size", "x".join(map(str, SIZE)), "--mass", str(MASS), "--stiffness", "1e9", "--gravity", "9.81"]
@@ -41,6 +39,20 @@ def cross(a, b):
     return tuple(a[i - 2] * b[i - 1] - a[i - 1] * b[i - 2] for i in range(3))
 
 
+def box_faces(size):
+    """A box about the origin as triangles, counterclockwise seen from outside."""
+    faces = []
+    for axis in range(3):
+        for side in (-1, 1):
+            square = [[0.0] * 3 for _ in range(4)]
+            for corner, signs in zip(square, ((-1, -1), (1, -1), (1, 1), (-1, 1))):
+                for k, sign in zip((0, 1, 2), (side, *signs)):
+                    corner[(axis + k) % 3] = sign * size[(axis + k) % 3] / 2
+            a, b, c, d = square[::side]
+            faces += [(a, b, c), (a, c, d)]
+    return faces
+
+
 def box_moments(size, mass):
     x, y, z = (s * s for s in size)
     return [mass * m / 12 for m in (y + z, x + z, x + y)]
@@ -65,11 +77,6 @@ def l_shape(height):
 
 
 class SpaceFolder(Folder):
-    def json_of(self, *arguments, status=(0, 3)):
-        done = self.run_program(*arguments, "--format", "json")
-        self.assertIn(done.returncode, status, (arguments, done.stderr))
-        return json.loads(done.stdout)
-
     def same_rows(self, some, others, tolerance, change=lambda name, value: value):
         """Numbers agree within the tolerance of the sequence's sizes."""
         self.assertEqual(len(some["impacts"]), len(others["impacts"]))

@@ -6,9 +6,10 @@ import shutil
 import subprocess
 import unittest
 
-from run_folder import CASES, PROGRAM, Folder
+from run_folder import PROGRAM, ROOT, Folder, case
 
-MEASURED = os.path.join(os.environ["CLATTER_ROOT"], "validation", "measured")
+MEASURED = os.path.join(ROOT, "validation", "measured")
+SWEEP = ["sweep", "rod-at-1ms", "--model", "discrete"]
 
 
 class Overwriting(Folder):
@@ -40,7 +41,7 @@ class Overwriting(Folder):
 
     def test_no_output_overwrites_a_file_to_score(self):
         self.write("run.csv", "# problem: rod-10\nt,place,Pn,Pt,V,Omega\n0,a,0.5,0,0,1\n")
-        shutil.copy(os.path.join(CASES, "rod-10.toml"), self.path("rod.toml"))
+        shutil.copy(case("rod-10"), self.path("rod.toml"))
         for spelling in self.spellings("run.csv"):
             self.refused("must be another file than run.csv, which is read", "benchmark", "score", "run.csv", "--output", spelling)
             self.refused("must be another file than run.csv, which is read", "compare", "rod.toml", "--against", "run.csv", "--output", spelling)
@@ -99,11 +100,9 @@ class Overwriting(Folder):
 class Links(Folder):
     def test_a_symbolic_link_is_written_through(self):
         """Its target is replaced whole, with the permissions that it had; the link stays one."""
-        expected = self.run_program("sequence", "--angle", "10").stdout
-        swept = self.run_program("sweep", os.path.join(CASES, "rod-at-1ms.toml"), "--model", "discrete").stdout
         os.mkdir(self.path("away"))
-        for arguments, text in ((["sequence", "--angle", "10"], expected),
-                                (["sweep", os.path.join(CASES, "rod-at-1ms.toml"), "--model", "discrete"], swept)):
+        for arguments in (["sequence", "--angle", "10"], SWEEP):
+            text = self.run_program(*arguments).stdout
             for target in ("away/there", "away/new", self.path("away/absolute")):
                 self.write("away/there", "old")
                 os.chmod(self.path("away/there"), 0o640)
@@ -148,7 +147,6 @@ class Names(Folder):
                 self.refused(option, *command, option, name)
             self.refused("--plot", "sequence", "--angle", "10", "--plot", name + ".svg")
         self.refused("out.part", "sweep", "scene.toml", "--output", "y" * 240 + "out")  # FILE.part.digests is longer
-
 
     def test_a_name_of_any_bytes_is_read_and_written(self):
         name = os.fsencode(self.folder) + b"/s\xff\xc3(\n'.toml"

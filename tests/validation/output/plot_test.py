@@ -13,7 +13,7 @@ import unittest
 import xml.etree.ElementTree as ElementTree
 
 from run_folder import PROGRAM, EmptyFolder, case, records, run
-from waiting import sizes, until
+from waiting import until
 
 # A level face whose small tilts have four outcomes.
 FACE = ["--body", "box", "--size", "0.1514x0.08958x0.1433", "--mass", "0.584", "--velocity=0,0,-1",
@@ -85,6 +85,8 @@ class Pictures(InFolder):
                     self.assertIn(words, texts)
                 script = self.read("p.gnuplot")
                 self.assertRegex(script, r"\A# clatter \d+\.\d+\.\d+, " + arguments[0])
+                if name == "simulate":
+                    self.assertEqual(json.loads(re.search(r"(?m)^# scene: (.*)", script)[1])["run"]["impacts"], 3)
                 again = self.path("again")
                 shutil.rmtree(again, ignore_errors=True)
                 os.mkdir(again)
@@ -130,11 +132,6 @@ class Pictures(InFolder):
                 plain = run(*arguments)
                 self.assertEqual(run(*arguments, "--plot", self.path("p.svg")).stdout, plain.stdout, (name, form))
 
-    def test_whole_scene_stands_in_the_script(self):
-        self.plotted(*COMMANDS["simulate"][0], "--spin", "0.125")
-        line = [line for line in self.read("p.gnuplot").splitlines() if line.startswith("# scene: ")][0]
-        self.assertEqual(json.loads(line[len("# scene: "):])["drop"]["spin"], 0.125)
-
     def test_names_are_quoted(self):
         name = "it's `touch x` $HOME"
         done = run("sequence", "--angle", "10", "--plot", self.path(name + ".svg"), "--plot-script")
@@ -155,14 +152,32 @@ class Pictures(InFolder):
             ElementTree.fromstring(self.read("p.svg"))
 
 
+# What is drawn of the rows of CSV: for each block x, y and which rows.
+DRAWN = [
+    (COMMANDS["sequence"][0], {f"panel2_{i}": ("start", "impulse_normal", {"end": end}) for i, end in enumerate("ab")}),
+    (COMMANDS["angles"][0], {block: ("theta_deg", column, {}) for block, column in (
+        ("panel1_1", "beta_deg"), ("panel1_3", "gamma_deg"), ("panel2_1", "P1"), ("panel2_3", "P2"), ("panel2_5", "P3"))}),
+    (["angles", "--step", "5", "--gravity-number", "0.5", "--as-printed"], {f"panel1_{2 * i + 1}": ("theta_deg", column, {}) for i, column in
+                                                                            enumerate(("beta_deg", "beta_printed_deg", "beta_printed_negative_g_deg"))}),
+    (["sweep", case("phone-damped"), "--model", "discrete", "--set", "drop.angle_deg=10:40:10"],
+     {f"panel{i + 1}_0": ("drop.angle_deg", column, {}) for i, column in enumerate(("impacts", "total_normal_impulse", "energy_loss"))}),
+    (COMMANDS["simulate, swept"][0], {f"panel{i + 1}_0": ("sliding_friction", column, {"n": "1"}) for i, column in
+                                      enumerate(("velocity_after_z", "angular_velocity_after_y", "impulse_normal", "energy_loss"))}),
+    *((COMMANDS[name][0], {f"panel1_{i}": (x, column, {"quantity": "impulse_normal", **more}) for i, column in
+                           enumerate(("discrete", "continuous", "limit"))}) for name, x, more in
+      (("compare", "n", {}), ("compare, swept", "sliding_friction", {"n": "1"}))),
+]
+
+
 class Data(InFolder):
-    def test_sequence_draws_the_impulses_that_it_prints(self):
-        out, drawn = self.plotted(*COMMANDS["sequence"][0], "--format", "json")
-        impacts = json.loads(out)["impacts"]
-        for block, end in (("panel2_0", "a"), ("panel2_1", "b")):
-            expected = [[i["start"], i["impulse_normal"]] for i in impacts if i["end"] == end]
-            self.assertGreater(len(expected), 3)
-            self.assertEqual(drawn[block], expected)
+    def test_commands_draw_the_rows_that_they_print(self):
+        for command, blocks_of in DRAWN:
+            out, drawn = self.plotted(*command, "--format", "csv")
+            for block, (x, y, wanted) in blocks_of.items():
+                rows = [row for row in records(out) if row[y] and all(row[name] == value for name, value in wanted.items())]
+                with self.subTest(command=command, block=block):
+                    self.assertGreater(len(rows), 2)
+                    self.assertEqual(drawn[block], [[float(row[x]), float(row[y])] for row in rows])
 
     def test_sequence_draws_ends_that_touch_the_ground_at_their_impacts_only(self):
         out, drawn = self.plotted(*COMMANDS["sequence"][0], "--format", "json")
@@ -193,15 +208,6 @@ class Data(InFolder):
         self.assertLess(os.path.getsize(self.path("p.svg")), 300_000)
         self.assertLess(len(drawn["panel1_0"]), 5000)
 
-    def test_angles_draws_the_rows_that_it_prints(self):
-        out, drawn = self.plotted(*COMMANDS["angles"][0], "--format", "csv")
-        rows = records(out)
-        for block, column in (("panel1_1", "beta_deg"), ("panel1_3", "gamma_deg"), ("panel2_1", "P1"), ("panel2_3", "P2"),
-                              ("panel2_5", "P3")):
-            expected = [[float(row["theta_deg"]), float(row[column])] for row in rows if row[column]]
-            self.assertGreater(len(expected), 10)
-            self.assertEqual(drawn[block], expected)
-
     def test_curves_of_angles_go_on_to_their_folds_however_far_apart_the_rows_are(self):
         for step in ("2", "10"):
             _, drawn = self.plotted("angles", "--step", step)
@@ -212,12 +218,6 @@ class Data(InFolder):
                 self.assertTrue(end is None or end - 0.05 < angle < end + 1e-3, angle)
                 thetas = [point[0] for point in drawn[block]]
                 self.assertLess(max(b - a for a, b in zip(thetas, thetas[1:])), 0.2)
-
-    def test_angles_draws_both_printed_forms(self):
-        out, drawn = self.plotted("angles", "--step", "5", "--gravity-number", "0.5", "--as-printed", "--format", "csv")
-        for i, column in enumerate(("beta_deg", "beta_printed_deg", "beta_printed_negative_g_deg")):
-            expected = [[float(row["theta_deg"]), float(row[column])] for row in records(out) if row[column]]
-            self.assertEqual(drawn[f"panel1_{2 * i + 1}"], expected)
 
     def test_of_very_many_angles_some_thousand_are_drawn_and_the_ends_of_branches_stay(self):
         out, drawn = self.plotted("angles", "--count", "100001", "--gravity-number", "0.5", "--format", "csv")
@@ -282,12 +282,6 @@ class Data(InFolder):
         self.plotted("simulate", case("rod-45"))  # one blow
         self.assertNotIn("impacts 1 to", self.read("p.gnuplot"))
 
-    def test_a_sweep_over_one_key_is_drawn_as_curves(self):
-        out, drawn = self.plotted("sweep", case("phone-damped"), "--model", "discrete", "--set", "drop.angle_deg=10:40:10")
-        rows = records(out)
-        for block, column in (("panel1_0", "impacts"), ("panel2_0", "total_normal_impulse"), ("panel3_0", "energy_loss")):
-            self.assertEqual(drawn[block], [[float(row["drop.angle_deg"]), float(row[column])] for row in rows])
-
     def test_a_sweep_over_two_keys_has_a_curve_for_each_value_of_the_first_or_of_that_with_few(self):
         restitution = ("--set", "impact.restitution=0.5,0.9")
         for settings in ((*restitution, "--set", "drop.angle_deg=10:40:10"), ("--set", "drop.angle_deg=10:34:2", *restitution)):
@@ -296,13 +290,6 @@ class Data(InFolder):
                 self.assertEqual(drawn[f"panel2_{i}"], [[float(row["drop.angle_deg"]), float(row["total_normal_impulse"])]
                                                         for row in records(out) if row["impact.restitution"] == value])
             self.assertIn("impact.restitution = 0.5", self.read("p.gnuplot"))
-
-    def test_the_panel_below_a_map_is_as_wide_as_any(self):
-        self.plotted("sweep", case("phone-corner"), "--set", "drop.attitude=uniform", "--random", "50", "--model", "discrete",
-                     "--columns", "impulse_normal_1")
-        bars = ElementTree.fromstring(self.read("p.svg")).find(".//{*}g[@id='clatter_plot_1b']")
-        numbers = [float(x) for x in re.findall(r"(-?[\d.]+),-?[\d.]+", "".join(ElementTree.tostring(bars, "unicode")))]
-        self.assertGreater(max(numbers) - min(numbers), 500)
 
     def test_columns_of_texts_are_not_drawn(self):
         _, drawn = self.plotted("sweep", case("phone-corner"), "--set", "drop.attitude=uniform", "--random", "9", "--model", "discrete",
@@ -315,17 +302,16 @@ class Data(InFolder):
                      "--set", "run.impacts=6", "--columns", "impulse_normal_6")
         self.assertIn("no number to draw here", self.read("p.svg"))
 
-    def test_a_sweep_of_random_drops_is_drawn_as_a_histogram_of_all_of_them(self):
+    def test_random_drops_stand_in_a_histogram_and_on_an_equal_area_map_where_they_point_down(self):
         out, drawn = self.plotted("sweep", case("phone-corner"), "--set", "drop.attitude=uniform", "--random", "50", "--model", "discrete",
                                   "--columns", "impulse_normal_1")
         values = [float(row["impulse_normal_1"]) for row in records(out) if row["impulse_normal_1"]]
         bars = drawn["panel2_0"]
         self.assertEqual((bars[0][0], round(bars[-1][0], 12)), (min(values), round(max(values), 12)))
         self.assertEqual(sum(bar[2] for bar in bars[::2]), len(values))
-
-    def test_random_drops_stand_on_an_equal_area_map_where_they_point_down(self):
-        out, drawn = self.plotted("sweep", case("phone-corner"), "--set", "drop.attitude=uniform", "--random", "50", "--model", "discrete",
-                                  "--columns", "impulse_normal_1")
+        below = ElementTree.fromstring(self.read("p.svg")).find(".//{*}g[@id='clatter_plot_1b']")  # as wide as any panel
+        numbers = [float(x) for x in re.findall(r"(-?[\d.]+),-?[\d.]+", "".join(ElementTree.tostring(below, "unicode")))]
+        self.assertGreater(max(numbers) - min(numbers), 500)
         seen = []
         for fifth in range(5):
             for x, y in drawn[f"panel1_{fifth + 1}"]:
@@ -342,11 +328,6 @@ class Data(InFolder):
             self.assertLess(math.dist(nearest[:3], down), 1e-9)
             self.assertEqual(nearest[3], rank // 10)
 
-    def test_rows_that_cannot_be_drawn_are_refused_before_the_run(self):
-        for more in (["--summary"], ["--rows", "impact"]):
-            done = run("sweep", case("rod-10"), "--set", "drop.angle_deg=10,20", "--plot", self.path("p.svg"), *more)
-            self.assertEqual((done.returncode, done.stdout, os.path.exists(self.path("p.svg"))), (2, "", False))
-
     def test_a_long_history_is_thinned_and_keeps_its_peaks(self):
         out, drawn = self.plotted("simulate", case("rod-10"), "--method", "tvd-rk3", "--step", "2e-7", "--history",
                                   self.path("h.csv"), "--format", "json")
@@ -359,17 +340,9 @@ class Data(InFolder):
         self.assertTrue(set(peaks) <= set(shown))
         self.assertEqual((shown[0], shown[-1]), (history[0], history[-1]))
 
-    def test_swept_simulate_draws_the_first_impacts(self):
-        out, drawn = self.plotted(*COMMANDS["simulate, swept"][0], "--format", "csv")
-        rows = [row for row in records(out) if row["n"] == "1"]
-        for i, column in enumerate(("velocity_after_z", "angular_velocity_after_y", "impulse_normal", "energy_loss")):
-            self.assertEqual(drawn[f"panel{i + 1}_0"], [[float(row["sliding_friction"]), float(row[column])] for row in rows])
-
-    def test_compare_draws_the_impulses_and_deviations_that_it_prints(self):
+    def test_compare_draws_deviations_of_the_size_of_those_that_it_prints(self):
         out, drawn = self.plotted(*COMMANDS["compare"][0], "--format", "json")
         impacts = json.loads(out)["impacts"]
-        for i, name in enumerate(("discrete", "continuous", "limit")):
-            self.assertEqual(drawn[f"panel1_{i}"], [[k["n"], k["numbers"]["impulse_normal"][name]] for k in impacts])
         # Scales of the numbers: time and speed at large (1 m/s falls, nothing is faster but an end), mass 1 kg, 1 radian.
         for k, (n, deviation), (_, miss) in zip(impacts, drawn["panel2_0"], drawn["panel2_2"]):
             self.assertEqual(k["n"], n)
@@ -377,13 +350,6 @@ class Data(InFolder):
             self.assertGreaterEqual(deviation, impulse / 2)
             self.assertLess(deviation, 0.1)
             self.assertLess(miss, 1e-6)
-
-    def test_swept_compare_draws_the_first_impacts(self):
-        out, drawn = self.plotted(*COMMANDS["compare, swept"][0], "--format", "json")
-        runs = json.loads(out)["runs"]
-        for i, name in enumerate(("discrete", "continuous", "limit")):
-            expected = [[one["sliding_friction"], one["impacts"][0]["numbers"]["impulse_normal"][name]] for one in runs]
-            self.assertEqual(drawn[f"panel1_{i}"], expected)
 
     def test_tradeoff_draws_the_points_that_it_prints(self):
         out, drawn = self.plotted(*COMMANDS["tradeoff"][0], "--format", "json")
@@ -420,41 +386,19 @@ class Data(InFolder):
 
 
 class Refused(InFolder):
-    def refused(self, arguments, words, **options):
-        before = sorted(os.listdir(self.folder))
-        done = run(*arguments, cwd=self.folder, **options)
-        self.assertEqual((done.returncode, done.stdout), (2, ""), (arguments, done.stderr))
-        self.assertRegex(done.stderr, r"\Aclatter: [^\n]+\n\Z")
-        self.assertIn(words, done.stderr)
-        self.assertEqual(sorted(os.listdir(self.folder)), before)
-
     def test_what_is_wrong_is_one_line_and_nothing_is_written(self):
-        for name, (arguments, _, _) in COMMANDS.items():
-            with self.subTest(name):
-                for wrong in ("p.pdf", "p", "p.svg.gz", ".svg"):
-                    self.refused([*arguments, "--plot", wrong], "must end in .svg or .png")
-                self.refused([*arguments, "--plot", "no/p.svg"], "--plot no/p.svg")
-                self.refused([*arguments, "--plot-script"], "--plot-script: needs --plot")
-                self.refused([*arguments, "--plot", "p.svg", "--output", "./p.svg"], "must be another file than --output")
-                self.refused([*arguments, "--plot", "p.svg", "--plot-script", "--output", "p.gnuplot"],
-                             "must be another file than --output")
+        for arguments, _, _ in COMMANDS.values():
+            self.each_refused({**{f"--plot {wrong}": "must end in .svg or .png" for wrong in ("p.pdf", "p", "p.svg.gz", ".svg")},
+                               "--plot no/p.svg": "--plot no/p.svg", "--plot-script": "--plot-script: needs --plot",
+                               "--plot p.svg --output ./p.svg": "must be another file than --output",
+                               "--plot p.svg --plot-script --output p.gnuplot": "must be another file than --output"}, *arguments)
+        self.each_refused({more: "--plot" for more in ("--summary", "--rows impact")}, "sweep", "rod-10", "--set", "drop.angle_deg=10,20", "--plot", "p.svg")
 
     def test_without_gnuplot_the_package_is_named(self):
         os.mkdir(self.path("empty"))
-        for name, (arguments, _, _) in COMMANDS.items():
+        for arguments, _, _ in COMMANDS.values():
             for picture in ("p.svg", "p.png"):
-                self.refused([*arguments, "--plot", picture], "install the package gnuplot-nox",
-                             env={**os.environ, "PATH": self.path("empty")})
-
-    def test_scene_and_history_are_not_overwritten(self):
-        for command in ("simulate", "compare", "tradeoff"):
-            for scene in ("scene.svg", "scene.gnuplot"):
-                shutil.copy(case("rod-45"), self.path(scene))
-                self.refused([command, scene, "--plot", "scene.svg", "--plot-script"], "which is read")
-                os.remove(self.path(scene))
-        for history in ("p.svg", "p.gnuplot"):
-            self.refused(["simulate", case("rod-45"), "--plot", "p.svg", "--plot-script", "--history", history],
-                         "must be another file than --history")
+                self.refused("install the package gnuplot-nox", *arguments, "--plot", picture, env={**os.environ, "PATH": self.path("empty")})
 
 
 class InSpace(InFolder):
@@ -471,6 +415,10 @@ class InSpace(InFolder):
 
 
 class WithoutPicture(InFolder):
+    def limited(self, name, evaluations):
+        with open(case(name), encoding="utf-8") as file:
+            return self.write("scene.toml", file.read().replace("[run]", f"[run]\nevaluation_limit = {evaluations}"))
+
     def test_an_interrupted_run_writes_none(self):
         with open(self.path("rows.csv"), "wb") as rows:
             running = subprocess.Popen([PROGRAM, "angles", "--count", "50000000", "--format", "csv", "--plot",
@@ -482,32 +430,14 @@ class WithoutPicture(InFolder):
         self.assertRegex(complaint, r"\Aclatter: --plot [^\n]+: no picture: interrupted\n\Z")
         self.assertEqual(os.listdir(self.folder), ["rows.csv"])
 
-    def test_killed_at_once_it_leaves_no_file_behind(self):
-        running = subprocess.Popen([PROGRAM, "angles", "--count", "50000000", "--format", "csv", "--output",
-                                    self.path("rows.csv"), "--plot", self.path("p.svg"), "--plot-script"])
-        until(lambda: any(sizes(self.folder).values()), running)
-        running.send_signal(signal.SIGTERM)
-        running.send_signal(signal.SIGINT)  # of two interrupts the second does not wait
-        self.assertEqual(running.wait(timeout=30000), 130)
-        self.assertEqual(os.listdir(self.folder), [])
-
     def test_a_run_without_a_row_writes_none_and_says_so(self):
-        with open(case("rod-45"), encoding="utf-8") as file:
-            text = file.read()
-        with open(self.path("scene.toml"), "w", encoding="utf-8") as file:
-            file.write(text.replace("[run]", "[run]\nevaluation_limit = 10"))
-        done = run("simulate", self.path("scene.toml"), "--method", "rk4", "--tolerance", "1e-6", "--plot",
-                   self.path("p.svg"))
+        done = run("simulate", self.limited("rod-45", 10), "--method", "rk4", "--tolerance", "1e-6", "--plot", self.path("p.svg"))
         self.assertEqual(done.returncode, 3, done.stderr)
         self.assertIn("no picture: no impact was computed", done.stderr)
         self.assertEqual(os.listdir(self.folder), ["scene.toml"])
 
     def test_a_run_that_ends_early_draws_its_rows(self):
-        with open(case("phone-damped"), encoding="utf-8") as file:
-            text = file.read()
-        with open(self.path("scene.toml"), "w", encoding="utf-8") as file:
-            file.write(text.replace("[run]", "[run]\nevaluation_limit = 3000"))
-        out, drawn = self.plotted("simulate", self.path("scene.toml"), "--method", "rk8pd", "--tolerance", "1e-8", "--format",
+        out, drawn = self.plotted("simulate", self.limited("phone-damped", 3000), "--method", "rk8pd", "--tolerance", "1e-8", "--format",
                                   "json", status=3)
         result = json.loads(out)
         self.assertEqual(result["outcome"], "evaluation-limit")
@@ -515,16 +445,3 @@ class WithoutPicture(InFolder):
         for impact in result["impacts"]:  # the contact in which the run ended is drawn, too, but is no row
             nearest = min((force for _, force in drawn["panel2_0"]), key=lambda force: abs(force - impact["peak_force"]))
             self.assertAlmostEqual(nearest, impact["peak_force"], delta=1e-12 * nearest)
-
-
-class Options(unittest.TestCase):
-    def test_help_completion_and_man_page_list_them(self):
-        for arguments, _, _ in COMMANDS.values():
-            self.assertRegex(run(arguments[0], "--help").stdout, r"--plot FILE[^-]*--plot-script")
-            for shell in ("bash", "zsh", "fish"):
-                self.assertIn("plot-script", run("completion", shell).stdout)
-        self.assertRegex(run("completion", "bash").stdout, r"(?m)^ +\S*--plot\S*\) COMPREPLY=\(\$\(compgen -f ")
-        self.assertRegex(run("completion", "zsh").stdout, r"'--plot\[[^\]]*\]:file:_files'")
-        self.assertRegex(run("completion", "fish").stdout, r"-l plot -r -F ")
-        page = run("man").stdout
-        self.assertEqual(page.count("\n.TP\n\\&\\-\\-plot\\-script "), 12)
