@@ -26,7 +26,7 @@ test_packages=(libboost-test-dev python3 python3-numpy python3-matplotlib python
 # common.  The Python module, the figures and the
 # notebooks take the line of Python packages.
 # shellcheck disable=SC2034
-full_packages=(ccache clang-format libgmsh-dev libbenchmark-dev zsh fish groff-base chromium chromium-driver emscripten firefox-esr nodejs npm zopfli "${mpi_packages[@]}"
+full_packages=(ccache clang-format libgmsh-dev libbenchmark-dev zsh fish groff-base chromium emscripten firefox-esr nodejs npm zopfli "${mpi_packages[@]}"
                "${hdf5_packages[@]}" python3-h5py
                pybind11-dev python3-dev jupyter-nbconvert python3-ipykernel mypy
                python3-venv python3-sphinx furo python3-myst-parser libjs-katex pkg-config dpkg-dev lintian

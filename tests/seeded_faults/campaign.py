@@ -20,9 +20,8 @@ from dataclasses import dataclass
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent.parent
-# Two build the project themselves, the third starts a browser that asks for more memory than faults may have, and the
-# fourth fails with any fault.
-LEFT_OUT = {"launcher_test", "install.packages_test", "validation.evidence.page_test", "seeded_faults.places"}
+# Two build the project themselves, and the third fails with any fault.
+LEFT_OUT = {"launcher_test", "install.packages_test", "seeded_faults.places"}
 TEST_SECONDS = 60  # or four times what the slowest of the tests takes without a fault, if that is known
 FIRST_SECONDS = 2400
 VERIFY_SECONDS = 600
@@ -36,7 +35,6 @@ LINKED = re.compile(r"^(?:LOAD )?(?:(\S+\.a)\()?(\S+?\.o)\)?$", re.MULTILINE)
 PASSED = re.compile(r"^ *\d+/\d+ Test +#\d+: (\S+) .* Passed +([\d.]+) sec", re.MULTILINE)
 FAILED = re.compile(r"^ *\d+/\d+ Test +#\d+: (\S+) .*?\*\*\*(?!Skipped|Not Run)(\w+)", re.MULTILINE)
 CASE = re.compile(r"^(\w+)\*$", re.MULTILINE)  # or a whole suite
-CASE_OF_SCRIPT = re.compile(r"^test_\w+ \((\w+\.\w+)\.(\w+)\)")  # as it begins
 NOTICED = re.compile(r"(?:fatal )?error: in \"|^(?:FAIL|ERROR): ")  # first lines of a failure of Boost.Test and unittest
 
 
@@ -118,10 +116,8 @@ class Test:
         return self.command[-1].endswith("_test.py")
 
     def measure(self):
-        """Seconds without a fault.  Later the quickest cases come first, so that a fault is noticed early.  Those of a test
-        in C++ are run one by one, but for those that take a second together."""
-        if self.is_unittest():
-            return self.measure_script()
+        """Seconds without a fault.  Later the quickest cases come first, so that a fault is noticed early, of a test in C++:
+        these are run one by one, but for those that take a second together."""
         parts = self.parts
         if self.is_in_cpp():
             parts = [(f"--run_test={name}",) for name in CASE.findall(run([*self.command, "--list_content"])[0])]
@@ -136,45 +132,25 @@ class Test:
         self.parts = [sum(ordered[:quick], ())] * (quick > 0) + ordered[quick:]
         return sum(seconds.values())
 
-    def measure_script(self):
-        """The cases of a class stay together, since they share what it prepares."""
-        classes = collections.defaultdict(dict)
-        begun = []
-
-        def watch(line):
-            now = time.monotonic()
-            if begun:
-                name, case, since = begun[-1]
-                classes[name][case] = now - since
-            if case := CASE_OF_SCRIPT.match(line):
-                begun.append((*case.groups(), now))
-
-        start = time.monotonic()
-        if self.part_fails(("-v", self.command[-1]), FIRST_SECONDS, watch=watch):
-            raise Refused(f"{self.name} fails without a fault")
-        ordered = sorted(classes, key=lambda name: sum(classes[name].values()))
-        self.parts = [[f"{name}.{case}" for name in ordered for case in sorted(classes[name], key=classes[name].get)]]
-        return time.monotonic() - start
-
     def fails(self, limit, executables):
         """How: empty if it passes.  `executables`: what to run instead, with another path, of what was built."""
         return next(filter(None, (self.part_fails(part, limit, executables) for part in self.parts)), "")
 
-    def part_fails(self, part, limit, executables=None, watch=lambda line: None):
+    def part_fails(self, part, limit, executables=None):
         def replaced(text):
             return functools.reduce(lambda text, paths: text.replace(*paths), (executables or {}).items(), text)
 
         environment = {**os.environ, **{key: replaced(value) for key, value in self.environment.items()}}
         command = [*map(replaced, self.command), *part]
         if self.is_unittest():
-            command = [*self.command[:-1], "--failfast", *(part or self.command[-1:])]
+            command.insert(-1, "--failfast")
         if self.is_in_cpp():
             command.append("--log_sink=stderr")  # at once, since no more is read once it has failed
         with PROCESSES.start(command, cwd=self.folder, env=environment) as process:
             timer = threading.Timer(limit, end_group, [process.pid])
             timer.start()
             try:
-                noticed = any(watch(line) or NOTICED.search(line) for line in process.stdout)
+                noticed = any(NOTICED.search(line) for line in process.stdout)
                 status = 1 if noticed else process.wait()
             finally:
                 timer.cancel()

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A browser on the page of `clatter demo`, for its tests.
+// A browser on the page of `clatter demo`, or on another, for its tests.
 // DEMO_PAGE: the folder in which it was built. CLATTER_PROGRAM: the program to compare with. CHROMIUM, FIREFOX: the browsers.
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";

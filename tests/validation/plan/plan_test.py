@@ -1,25 +1,33 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""clatter plan, and the runs that follow it."""
+"""clatter plan, the runs that follow it, and clatter tradeoff.  Costs are measured, not judged: no test depends on a time."""
 
-import json
-import os
 import re
 import shlex
 import shutil
-import tempfile
 import unittest
 
-from run_folder import CASES, case, run
+from run_folder import CASES, EmptyFolder, case, json_of, run
+from space_folder import MASS, SIZE, SpaceFolder
 
 SCENES = ("rod-10", "rod-45", "rod-friction-03", "rod-damped", "phone-elastic", "phone-damped", "phone-corner", "box-flat")
+RUNGS = ["closed form", "discrete", "discrete 3D", "planar", "spatial"]
+CORNER = "corner.toml"
+TEXT = f"""[drop]
+angle_deg = 30
+tilt_deg = 40
+[body]
+shape = "box"
+size = {list(SIZE)}
+mass = {MASS}
+[ground]
+stiffness = 1e9
+[run]
+impacts = 2
+digits = 3
+"""
 
 
-def parsed(*arguments):
-    done = run(*arguments, "--format", "json")
-    return json.loads(done.stdout)
-
-
-class Plan(unittest.TestCase):
+class Plan(EmptyFolder):
     def test_every_scene_of_the_measured_table_has_a_plan_that_fits_80_columns(self):
         for scene in SCENES:
             done = run("plan", case(scene), "--digits", "4")
@@ -32,41 +40,35 @@ class Plan(unittest.TestCase):
 
     def test_command_of_the_plan_gives_the_digits(self):
         for scene, digits in (("rod-10", 5), ("phone-damped", 4), ("phone-corner", 6)):
-            plan = parsed("plan", case(scene), "--digits", str(digits))
+            plan = json_of("plan", case(scene), "--digits", str(digits))
             command = shlex.split(plan["choice"]["command"])
             self.assertEqual(command[0], "clatter")
-            result = parsed(*command[1:])
+            result = json_of(*command[1:])
             self.assertLessEqual(plan["choice"]["error"], 10.0**-digits)
             impacts = len(result["impacts"])
             self.assertEqual(impacts, plan["impacts"])
             # True values by another method at a much smaller tolerance.
             extra = ["--planar"] if "--planar" in command else []
-            true = parsed("simulate", case(scene), "--method", "rkf45", "--tolerance", "1e-13", *extra)
+            true = json_of("simulate", case(scene), "--method", "rkf45", "--tolerance", "1e-13", *extra)
             for row, expected in zip(result["impacts"], true["impacts"]):
                 speed = max(abs(v) for r in true["impacts"] for v in r["velocity_after"] + [r["approach_speed"]])
                 for value, correct in zip(row["velocity_after"], expected["velocity_after"]):
                     self.assertLessEqual(abs(value - correct), 10.0**-digits * 3 * speed)
 
     def test_command_of_the_plan_can_be_typed_whatever_the_file_is_called(self):
-        with tempfile.TemporaryDirectory() as folder:
-            path = os.path.join(folder, "the user's scene;1.toml")
-            shutil.copy(case("rod-45"), path)
-            command = shlex.split(parsed("plan", path, "--digits", "4")["choice"]["command"])
-            self.assertEqual(command[2], path)
-            self.assertEqual(run(*command[1:]).returncode, 0)
+        path = shutil.copy(case("rod-45"), self.path("the user's scene;1.toml"))
+        command = shlex.split(json_of("plan", path, "--digits", "4")["choice"]["command"])
+        self.assertEqual(command[2], path)
+        self.assertEqual(run(*command[1:]).returncode, 0)
 
     def test_simulate_reports_achieved_against_asked(self):
         for digits in ("3", "6", "9"):
-            result = parsed("simulate", case("rod-10"), "--digits", digits)
+            result = json_of("simulate", case("rod-10"), "--digits", digits)
             self.assertTrue(result["accuracy"]["planned"])
             self.assertEqual(result["accuracy"]["asked"], float("1e-" + digits))
             self.assertLessEqual(result["accuracy"]["achieved"], result["accuracy"]["asked"])
         self.assertRegex(run("simulate", case("rod-10")).stdout, r"asked 6 digits, achieved \d+\.\d")
         self.assertRegex(run("sequence", "--angle", "10").stdout, r"asked 6 digits, achieved 1\d\.\d")
-
-    def test_simulate_with_a_method_does_as_told(self):
-        result = parsed("simulate", case("rod-10"), "--method", "rkf45", "--tolerance", "1e-7")
-        self.assertEqual((result["method"], result["tolerance"], result["accuracy"]["planned"]), ("rkf45", 1e-7, False))
 
     def test_digits_out_of_reach_are_said_to_be(self):
         done = run("plan", case("phone-elastic"), "--digits", "12")
@@ -76,26 +78,131 @@ class Plan(unittest.TestCase):
         self.assertIn("Not as asked", done.stdout)
 
     def test_within_a_time(self):
-        plan = parsed("plan", case("phone-damped"), "--within", "1000")
+        plan = json_of("plan", case("phone-damped"), "--within", "1000")
         self.assertLessEqual(plan["choice"]["seconds"], 1)
         self.assertLess(plan["choice"]["error"], 1e-6)
         done = run("plan", case("phone-damped"), "--within", "0.02", "--digits", "9")
         self.assertEqual(done.returncode, 3, done.stdout)
 
-    def test_csv_has_a_row_for_every_rung(self):
-        lines = [line for line in run("plan", case("rod-45"), "--format", "csv").stdout.splitlines() if line[0] != "#"]
-        self.assertEqual([line.split(",")[0] for line in lines], ["model", "closed form", "discrete", "discrete 3D", "planar", "spatial"])
-
     def test_bad_input_is_one_line(self):
-        for arguments in (["--digits", "1"], ["--within", "0"], ["--within", "nan"], ["--method", "rk4"], ["--step", "1e-6"],
-                          ["--tolerance", "1e-6"], ["--history", "x.csv"]):
-            done = run("plan", case("rod-45"), *arguments)
-            self.assertEqual((done.returncode, done.stdout), (2, ""), arguments)
-            self.assertRegex(done.stderr, r"\Aclatter: [^\n]+\n\Z")
-        for arguments in (["plan", case("rod-sweep")], ["sequence", "--angle", "10", "--method", "closed"],
-                          ["sequence", "--angle", "10", "--method", "closed-form"],
-                          ["simulate", case("rod-45"), "--tolerance", "1"],
-                          ["simulate", case("rod-45"), "--tolerance", "1e-6", "--step", "1e-6"]):
-            done = run(*arguments)
-            self.assertEqual((done.returncode, done.stdout), (2, ""), arguments)
-            self.assertTrue(re.fullmatch(r"clatter: [^\n]+\n", done.stderr), done.stderr)
+        self.each_refused({f"plan rod-45 {option}": option.split()[0] for option in (
+            "--digits 1", "--within 0", "--within nan", "--method rk4", "--step 1e-6", "--tolerance 1e-6", "--history x.csv")} | {
+            "plan rod-sweep": "sweep", "sequence --angle 10 --method closed": "--method", "sequence --angle 10 --method closed-form": "closed-form",
+            "simulate rod-45 --tolerance 1": "--tolerance", "simulate rod-45 --tolerance 1e-6 --step 1e-6": "--step", "tradeoff rod-sweep": "sweep",
+            "tradeoff rod-45 --plot /no/such/folder/x.svg": "--plot", "tradeoff rod-45 --digits x": "--digits"})
+
+
+class InSpace(SpaceFolder):
+    def setUp(self):
+        super().setUp()
+        self.write(CORNER, TEXT)
+
+    def rungs(self, *arguments):
+        plan = self.json_of("plan", *arguments, status=(0,))
+        self.assertEqual([rung["model"] for rung in plan["rungs"]], RUNGS)
+        return plan, {rung["model"]: rung for rung in plan["rungs"]}
+
+    def test_the_discrete_model_in_space_comes_nearer_to_the_contacts_the_stiffer_the_ground_and_is_chosen_at_last(self):
+        errors, chosen = [], []
+        for stiffness in ("1e11", "1e15", "1e19"):
+            plan, rungs = self.rungs(CORNER, "--stiffness", stiffness, "--static-friction", "0.3", "--sliding-friction", "0.3", "--digits", "2")
+            errors.append(rungs["discrete 3D"]["error"])
+            chosen.append(plan["choice"]["model"])
+        # Contacts of a corner last 1/10 as long at 10⁴ times the stiffness, and so do the effects of their time.
+        for stiff, stiffer in zip(errors, errors[1:]):
+            self.assertAlmostEqual(stiff / stiffer, 10, delta=3)
+        self.assertEqual((chosen[0], chosen[-1]), ("spatial", "discrete 3D"))
+
+    def test_the_error_of_the_discrete_rung_in_space_is_how_far_its_sequence_is_from_the_contacts(self):
+        ground = [CORNER, "--stiffness", "1e13"]
+        _, rungs = self.rungs(*ground)
+        simulated = self.json_of("simulate", *ground, "--digits", "8")["impacts"]
+        discrete = self.json_of("sequence", CORNER)["impacts"]
+        speed = max(max(abs(v) for v in row["velocity_after"]) for row in simulated)
+        apart = max(abs(a - b) for row, other in zip(simulated, discrete) for a, b in zip(row["velocity_after"], other["velocity_after"]))
+        self.assertLessEqual(apart / (4 * speed), rungs["discrete 3D"]["error"])
+        self.assertGreater(rungs["discrete 3D"]["error"], 0)
+
+    def test_a_drop_that_stays_in_its_plane_needs_no_discrete_model_in_space_and_one_that_leaves_it_none_in_the_plane(self):
+        _, rungs = self.rungs("phone-damped", "--impacts", "1", "--digits", "3")
+        self.assertIsNone(rungs["discrete"]["reason"])
+        self.assertIn("stays in its plane", rungs["discrete 3D"]["reason"])
+        _, rungs = self.rungs(CORNER)
+        self.assertIn("drop.tilt_deg turns it out of its plane", rungs["discrete"]["reason"])
+        self.assertIsNone(rungs["discrete 3D"]["reason"])
+
+    def test_a_friction_law_that_the_discrete_model_does_not_have_is_the_reason_against_it(self):
+        self.write("creeps.toml", '[drop]\nangle_deg = 20\ntilt_deg = 30\n[body]\nshape = "box"\nsize = [0.1, 0.05, 0.02]\n[ground]\n'
+                   'stiffness = 1e9\nsliding_friction = 0.2\nfriction_law = "regularised"\n[run]\nimpacts = 1\n')
+        _, rungs = self.rungs("creeps.toml", "--digits", "3")
+        self.assertIn("regularised friction creeps", rungs["discrete 3D"]["reason"])
+
+    def test_what_contacts_take_is_accounted_for_before_they_are_simulated(self):
+        plan, rungs = self.rungs(CORNER, "--stiffness", "1e15")
+        rung = rungs["discrete 3D"]
+        self.assertEqual(rung["assumption"], "contacts take no time and no depth")
+        self.assertLess(rung["error"], 30 * rung["assumption_error"])
+        self.assertGreater(rung["error"], rung["assumption_error"] / 30)
+        self.assertEqual(plan["impacts"], 2)
+
+    def test_the_plan_s_command_runs_the_model_that_is_chosen(self):
+        self.write(CORNER, TEXT.replace("1e9", "1e19").replace("impacts = 2", "impacts = 1"))
+        plan, _ = self.rungs(CORNER, "--digits", "2")
+        self.assertEqual(plan["choice"]["model"], "discrete 3D")
+        done = self.run_program(*plan["choice"]["command"].split()[1:])
+        self.assertEqual(done.returncode, 0, done.stderr)
+
+    def test_a_tradeoff_has_a_point_of_the_discrete_model_in_space_with_its_cost_and_error(self):
+        all_points = self.json_of("tradeoff", CORNER, "--stiffness", "1e15", "--impacts", "1")["points"]
+        points = [p for p in all_points if p["model"] == "discrete 3D"]
+        self.assertEqual(len(points), 1)
+        self.assertIsNone(points[0]["failure"])
+        _, rungs = self.rungs(CORNER, "--stiffness", "1e15", "--impacts", "1")
+        self.assertAlmostEqual(points[0]["error"], rungs["discrete 3D"]["error"], delta=1e-2 * points[0]["error"])
+        self.assertGreater(points[0]["seconds"], 0)
+        spatial = [p for p in all_points if p["model"] == "spatial" and not p["failure"]]
+        self.assertLess(min(p["error"] for p in spatial), points[0]["error"])
+
+
+class Tradeoff(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.result = json_of("tradeoff", "rod-45")
+
+    def points(self, model, method=None):
+        return [p for p in self.result["points"] if (p["model"], p["method"]) == (model, method) and not p["mesh"]]
+
+    def test_every_model_and_five_methods_over_their_settings_are_there(self):
+        self.assertEqual(len(self.points("closed form")), 1)
+        self.assertEqual(len(self.points("discrete")), 1)
+        for model in ("planar", "spatial"):
+            for method in ("rk4", "rkf45", "rkck", "rk8pd"):
+                self.assertEqual(len(self.points(model, method)), 13, (model, method))
+            self.assertEqual(len(self.points(model, "tvd-rk3")), 11, model)
+        self.assertEqual(sum(1 for p in self.result["points"] if p["mesh"]), 4)
+
+    def test_errors_fall_with_the_tolerance(self):
+        # One contact of some tens of steps: the error stays below ten times the local error, and rounding.
+        for method in ("rk4", "rkf45", "rkck", "rk8pd"):
+            for point in self.points("planar", method):
+                self.assertLess(point["error"], 10 * point["tolerance"] + 1e-12, point)
+
+    def test_the_papers_method_converges_with_order_three(self):
+        errors = [p["error"] for p in self.points("planar", "tvd-rk3")]
+        ratio = errors[3] / errors[5]
+        self.assertGreater(ratio, 8 ** 2 / 2)  # two halvings
+        self.assertLess(ratio, 8 ** 2 * 2)
+
+    def test_nothing_beats_a_point_of_the_front(self):
+        points = [p for p in self.result["points"] if p["failure"] is None]
+        front = [p for p in points if p["front"]]
+        self.assertGreater(len(front), 3)
+        for point in front:
+            self.assertFalse(any(p["seconds"] < point["seconds"] and p["error"] < point["error"] for p in points))
+
+    def test_a_model_that_does_not_apply_is_listed_with_its_reason(self):
+        points = json_of("tradeoff", "phone-elastic", "--impacts", "1")["points"]
+        for model, reason in (("closed form", "rod"), ("discrete 3D", "stays in its plane")):
+            [point] = [p for p in points if p["model"] == model]
+            self.assertIn(reason, point["failure"])
+            self.assertIsNone(point["error"])
