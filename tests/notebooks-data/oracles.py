@@ -1,14 +1,19 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Answers of the notebooks' exercises by other means than clatter's: closed forms, own root-finders, own integrations.
+"""Answers of the notebooks' exercises by other means than clatter's: closed forms, own root-finders, own integrations, and
+the arithmetic of 50 digits that makes the truth of the benchmark.
 
 ORACLES: exercise to (function that gives the expected numbers, relative tolerance).
 """
 
 import math
-from decimal import Decimal, getcontext
+import sys
 from math import cos, degrees, pi, radians, sin, sqrt
 
-getcontext().prec = 60
+from mpmath import mp, mpf
+from run_folder import ROOT
+
+sys.path.insert(0, f"{ROOT}/validation/benchmark")
+import truth  # noqa: E402: it is in the folder just named
 
 
 def root(function, low, high, steps=200):
@@ -44,48 +49,30 @@ def rod_blow(c, e=1):
     return impulse - 1, 6 * c * impulse
 
 
-# ---------------------------------------------------------------- 1 and 2: the rod, small angles in 60 digits
-
-def sin_cos(x):
-    """Taylor series of sine and cosine of a small Decimal."""
-    sine, cosine, term = Decimal(0), Decimal(0), Decimal(1)
-    for n in range(80):
-        if n % 2:
-            sine += term * (-1) ** (n // 2)
-        else:
-            cosine += term * (-1) ** (n // 2)
-        term *= x / (n + 1)
-    return sine, cosine
+def planar(angle, e=1, speed=1, gravity=0, impacts=2, body=None):
+    """Time, normal impulse and clockwise spin after each impact of a planar drop, by Newton's law without friction."""
+    with mp.workdps(50):
+        scene = truth.Scene({"problem": {"id": ""}, "drop": {"angle_deg": angle, "speed": speed}, "world": {"gravity": gravity},
+                             "impact": {"restitution": e}, "run": {"impacts": impacts},
+                             "body": body or {"shape": "rod", "length": 1, "radius": 0, "mass": 1}})
+        return [(row[0], row[3], row[8]) for _, row in truth.planar_truth(scene, "newton routh")]
 
 
-def first_three(theta):
-    """Angles and impulses of the first three elastic blows; a flight leads to sin a + (2 v/spin)(a + b) = sin b, by Newton."""
-    angle, v, spin, angles, impulses = theta, Decimal(-1), Decimal(0), [], []
-    for n in range(3):
-        sine, cosine = sin_cos(angle)
-        d_t = cosine / 2 * (1 if n == 1 else -1)
-        impulse = -2 * (v - spin * d_t) / (1 + 12 * d_t * d_t)
-        v, spin = v + impulse, spin - 12 * d_t * impulse
-        angles.append(angle)
-        impulses.append(impulse)
-        slope, start = 2 * v / abs(spin), angle
-        for _ in range(12):
-            s, c = sin_cos(angle)
-            angle -= (sine + slope * (start + angle) - s) / (slope - c)
-    return angles, impulses
+# ---------------------------------------------------------------- 1 and 2: the rod
+
+def small(theta):
+    """2 - P1 - P2 - P3 and gamma of the elastic rod in 50 digits."""
+    with mp.workdps(50):
+        rows = planar(mpf(theta) * 180 / mp.pi, impacts=3)
+        gamma = mpf(theta) - sum(w * (later[0] - t) for (t, _, w), later in zip(rows, rows[1:]))
+        return 2 - sum(impulse for _, impulse, _ in rows), gamma
 
 
 def exponent_and_factor():
-    theta = Decimal("1e-6")
-    once, twice = (2 - sum(first_three(angle)[1]) for angle in (theta, 2 * theta))
-    factor = once / theta**4
-    assert abs(factor - Decimal(243) / 512) < Decimal("1e-9")
-    return [float((twice / once).ln() / Decimal(2).ln()), float(factor)]
-
-
-def gamma_factor():
-    theta = Decimal("1e-6")
-    return [float((first_three(theta)[0][2] - theta) / theta**3)]
+    once, twice = small("1e-6")[0], small("2e-6")[0]
+    factor = once / mpf("1e-24")
+    assert abs(factor - mpf(243) / 512) < 1e-9
+    return [float(mp.log(twice / once, 2)), float(factor)]
 
 
 def first_blow():
@@ -174,29 +161,12 @@ def most_loss():
     return [mu, 100 * 2 * mu * (B - C * mu) / (A - B * mu) ** 2 / 0.5]
 
 
-def march(slip, e, law, mu=0.5, theta=radians(45), step=2e-6):
-    """Impact in small steps of P_n, Coulomb's law at each step."""
-    d_t, d_n = -cos(theta) / 2, -sin(theta) / 2
-    P, u, work, rate, compression, taken = 0.0, -1.0, 0.0, 1.0, None, 0.0
-    while True:
-        if compression is None and u >= 0:
-            compression, taken = P - u / rate, -work
-        if compression is not None:
-            done = {"newton": u >= e, "poisson": P >= (1 + e) * compression, "stronge": work >= -(1 - e * e) * taken}
-            if done[law]:
-                return P
-        ratio = -mu if slip > 0 else mu
-        spin = 12 * (d_n * ratio - d_t)
-        rate = 1 - spin * d_t
-        slip += (ratio + spin * d_n) * step
-        work += (u + rate * step / 2) * step
-        u += rate * step
-        P += step
-
-
-def three_laws():
-    end = 1.5 / (1 + 3 / 2 + 3 / 2 * 0.5)  # P_n without a stop of the slip
-    return [end * (3 / 2 + (1 + 3 / 2) * 0.5), *(march(0.8, 0.5, law) for law in ("newton", "poisson", "stronge"))]
+def three_laws(e=0.5, mu=0.5, slip=0.8):
+    """The speed without a stop of the slip, and the impulse of each law at 45° with it."""
+    end = (1 + e) / (1 + 3 / 2 + 3 / 2 * mu)
+    inertia = (mpf(5) / 2, mpf(3) / 2, mpf(5) / 2)
+    return [end * (3 / 2 + (1 + 3 / 2) * mu), *(float(truth.planar_path(inertia, 1, mu, e, law, -1, slip)[0])
+                                                for law in ("newton", "poisson", "stronge"))]
 
 
 # ---------------------------------------------------------------- 5: the ground
@@ -276,23 +246,8 @@ SPEED = sqrt(2 * GRAVITY * (1 + min(z for _, z in corners(radians(10)))))
 
 
 def discrete():
-    """Impulses at corners, flights scanned in small steps for the first corner to come down; d(phi)/dt = -spin."""
-    phi, v, spin, impulses = radians(10), -SPEED, 0.0, []
-    for _ in range(2):
-        at = min(corners(phi), key=lambda corner: corner[1])
-        z = -at[1]
-        P = -2 * (v - spin * at[0]) / (1 / MASS + at[0] ** 2 / INERTIA)
-        impulses.append(P)
-        v, spin = v + P / MASS, spin - at[0] * P / INERTIA
-
-        def lowest(t):
-            return z + v * t - GRAVITY * t * t / 2 + min(height for _, height in corners(phi - spin * t))
-        t = 1e-7
-        while lowest(t) > 0 and t < 0.01:
-            t += 1e-7
-        t = root(lowest, t - 1e-7, t, 60)
-        phi, v = phi - spin * t, v - GRAVITY * t
-    return impulses[1] / impulses[0]
+    first, second = planar(10, speed=SPEED, gravity=GRAVITY, body={"shape": "box", "size": [L, W, T], "mass": MASS})
+    return second[1] / first[1]
 
 
 def load(z, phi, k):
@@ -352,15 +307,6 @@ def stiffness_for_four_digits():
     return [omega**2 * mass / face / 1e9]
 
 
-def second_impulse(angle, e):
-    """Thin rod, m = L = v = 1: Eq. 8, free flight to the earliest contact of the other end, Eq. 8."""
-    theta = radians(angle)
-    rise, spin = rod_blow(cos(theta), e)
-    turned = root(lambda turned: sin(theta) / 2 + rise * turned / spin - sin(turned - theta) / 2, 0.0, theta + math.acos(2 * rise / spin), 100)
-    cosine = cos(turned - theta)
-    return (1 + e) * (spin / 2 * cosine - rise) / (1 + 3 * cosine**2)
-
-
 def flat_peak(s):
     """Largest (1 + s w) x of x'' = -(1 + s x') x, w = x'; first integral x^2/2 = (1 - w)/s - ln((1 + s)/(1 + s w))/s^2."""
     def force(w):
@@ -405,7 +351,7 @@ def edges_together(degrees, stiffness=1e10, speed=4.4294, step=2e-8):
             return second <= 0
 
 
-# ---------------------------------------------------------------- 9 and 10: in space, and what others compute
+# ---------------------------------------------------------------- 9: in space
 
 def felt_mass():
     """The cube of side 1 and mass 1 as a contact matrix: W = 1 − [r]× I⁻¹ [r]×, its vertical part, r found by turning the body."""
@@ -426,20 +372,6 @@ def caught(frames=100_000):
     """Contacts that begin at evenly spread phases of the frame's interval."""
     share = 1.8e-3 / 4e-3
     return [100 * sum((i + 0.5) / frames + share > 1 for i in range(frames)) / frames]
-
-
-def interval():
-    """The rod of 1 m and 1 kg at 1.5 m/s: end a is struck at 10°, and end b found on the ground."""
-    theta = radians(10)
-    rise, turning = (1.5 * part for part in rod_blow(cos(theta)))
-
-    def height(time):
-        return sin(theta) / 2 + rise * time + sin(theta - turning * time) / 2
-
-    high = 0.1
-    while height(high) > 0:
-        high += 0.001
-    return root(height, 1e-6, high, 60)
 
 
 # ---------------------------------------------------------------- 11 and 12: close to flat
@@ -530,33 +462,33 @@ ORACLES = {
     "1.3": (exponent_and_factor, 2e-4),  # the limit theta -> 0; at 0.1 deg the next term is some theta^2 = 3e-6
     "2.1": (forty_five, 5e-6),
     "2.2": (lambda: grazing(0.5), 5e-6),
-    "2.3": (gamma_factor, 5e-4),  # 1.688 stands for 1.6875
+    "2.3": (lambda: [float((small("1e-6")[1] - mpf("1e-6")) / mpf("1e-18"))], 5e-4),  # 1.688 stands for 1.6875
     "3.1": (lambda: bouncing(0.7, 1.0, 9.81), 5e-6),
     "3.2": (lambda: one_per_cent(radians(20)), 5e-5),
     "3.3": (lambda: both_ends(9.81), 5e-5),
     "4.1": (sticking_and_jamming, 1e-5),
     "4.2": (most_loss, 1e-5),  # the search finds mu to 1e-7 (flat maximum)
-    "4.3": (three_laws, 2e-5),  # the march ends within a step, 2e-6 of 0.5 N s, and reverses within one
+    "4.3": (three_laws, 1e-5),
     "5.1": (phone, 1e-5),  # 700 steps: the peak is met within (pi/1400)^2/2 = 3e-6 in force, 5e-6 in k
     "5.2": (damped, 1e-5),  # 1600 steps and linear interpolation at the end
     "5.3": (edge, 1e-3),  # the limit of a rigid body that does not turn; the gap shrinks like the contact time, k^(-1/3)
     "6.1": (rate, 1e-5),  # steps of 0.2 ms
     "6.2": (lambda: [1e3 * root(lambda thick: grown(thick, 53.5, 0.4456) - math.log(1000), 0.030, 0.0435, 25)], 1e-5),
-    # Discrete: scan in steps of 0.1 µs.  Continuous: steps of 1 µs and 0.1 µs.
+    # Continuous: steps of 1 µs and 0.1 µs.
     "6.3": (lambda: [discrete(), continuous(1e8, 1e-6), continuous(1e14, 1e-7)], 4e-4),
     "7.1": (lambda: [10 ** (3 / order) for order in (3, 2, 8)], 1e-5),
     # Simpson's rule over the kinks at touch-down and lift-off, half a step out of phase: E differs by -1/24 to 1/24, to
     # leading order in w h = 0.03; the next order is the same for each phase.
     "7.2": (lambda: [(pi / 100.5) ** 2 / 12 * 1e6], 5e-3),
     "7.3": (stiffness_for_four_digits, 2e-3),
-    "8.1": (lambda: list(largest(lambda angle: second_impulse(angle, 0.8), 40, 52)), 1e-4),  # a flat maximum gives its place to 1e-8
+    "8.1": (lambda: list(largest(lambda angle: planar(angle, 0.8)[1][1], 40, 52)), 1e-4),  # a flat maximum gives its place to 1e-8
     "8.2": (best_damping, 5e-3),
     "8.3": (lambda: [root(lambda angle: -1.0 if edges_together(angle) else 1.0, 0.3, 1.2, 12)], 2e-3),  # to 2e-4 degrees
     "9.1": (felt_mass, 1e-3),
     "9.2": (shell_over_solid, 5e-4),
     "9.3": (caught, 1e-3),
     "10.1": (lambda: [1 - (1 + 0.98) / (1 + 1.0)], 1e-9),  # impulses that reverse a point with e = 1 and with e = 0.98
-    "10.2": (lambda: [interval(), 10 * interval()], 5e-3),
+    "10.2": (lambda: [planar(10, speed=1.5)[1][0], 10 * planar(10, speed=1.5)[1][0]], 5e-3),
     "10.3": (lambda: [math.log(0.02 / 0.0013, 4)], 5e-3),  # the power of the step that leads from one error to the other
     "11.1": (lambda: [len(struck((50, 50), 1))], 0),
     # Between strikes that end and those that do not: the first restitution at which fewer than 300 are found.
