@@ -10,9 +10,12 @@ import tempfile
 import unittest
 from pathlib import Path
 
+from waiting import until
+
 PROGRAM = os.environ["CLATTER_PROGRAM"]
 ROOT = os.environ["CLATTER_ROOT"]
 CASES = os.path.join(ROOT, "validation", "cases")
+MPIRUN = [os.environ.get("CLATTER_MPIEXEC", ""), "--allow-run-as-root", "--oversubscribe", "-n"]
 TETRAHEDRON = """solid t
 facet normal 0 0 0 outer loop vertex 0 0 0 vertex 0 1 0 vertex 1 0 0 endloop endfacet
 facet normal 0 0 0 outer loop vertex 0 0 0 vertex 1 0 0 vertex 0 0 1 endloop endfacet
@@ -82,6 +85,21 @@ class EmptyFolder(unittest.TestCase):
         with open(self.path(name), encoding="utf-8") as file:
             return file.read()
 
+
+    def bytes(self, name):
+        return Path(self.path(name)).read_bytes()
+
+    def stopped(self, number, output, *command):
+        """Status and words of a run that a signal stops once the part of its output has more than a head, or a part left by
+        another has grown."""
+        part = self.path(output + ".part")
+        size = os.path.getsize(part) if os.path.exists(part) else 0
+        with subprocess.Popen([PROGRAM, *command, "--output", output], cwd=self.folder, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE,
+                              text=True) as process:
+            until(lambda: process.poll() is not None or os.path.exists(part) and os.path.getsize(part) > size + 20000)
+            process.send_signal(number)
+            words = process.communicate()[1]
+        return process.returncode, words
 
     def records(self, name):
         return records(self.read(name))

@@ -3,14 +3,13 @@
 
 import math
 
-from run_folder import Folder, stl
+from run_folder import Folder
 
 SIZE, MASS = (0.10566, 0.04394, 0.01905), 0.08814
 BOX = ["--body", "box", "--size", "x".join(map(str, SIZE)), "--mass", str(MASS), "--stiffness", "1e9", "--gravity", "9.81"]
 # Of a box with a battery at one end: what no symmetry helps.
 CENTRE = (0.009, -0.004, 0.002)
 INERTIA = (1.9e-5, 8.0e-5, 9.2e-5, 2e-6, -3e-6, 1e-6)
-VERTICES = [(0, 0, 0), (0.1, 0, 0), (0.1, 0.03, 0), (0.03, 0.03, 0), (0.03, 0.08, 0), (0, 0.08, 0)]  # of an L
 
 
 def words(numbers):
@@ -62,18 +61,6 @@ def times(inertia, w):
     """The tensor of six numbers by a vector, body axes."""
     xx, yy, zz, xy, xz, yz = inertia
     return (xx * w[0] + xy * w[1] + xz * w[2], xy * w[0] + yy * w[1] + yz * w[2], xz * w[0] + yz * w[1] + zz * w[2])
-
-
-def l_shape(height):
-    """An L of this height as the triangles of an STL file, outward."""
-    low, high = ([(x, y, z) for x, y, _ in VERTICES] for z in (0, height))
-    faces = []
-    for i, j, k in ((0, 1, 2), (0, 2, 3), (0, 3, 4), (0, 4, 5)):
-        faces += [(low[i], low[k], low[j]), (high[i], high[j], high[k])]
-    for i in range(6):
-        j = (i + 1) % 6
-        faces += [(low[i], low[j], high[j]), (low[i], high[j], high[i])]
-    return stl(faces)
 
 
 class SpaceFolder(Folder):
