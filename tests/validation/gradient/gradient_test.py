@@ -3,7 +3,6 @@
 
 import json
 import math
-import random
 import unittest
 
 from run_folder import run
@@ -50,19 +49,11 @@ class Slopes(unittest.TestCase):
 
 
 class Gradient(Slopes):
-    def test_derivatives_are_the_slopes_of_the_sequence(self):
-        rng = random.Random(3)
-        for _ in range(4):
-            flags = {"angle": rng.uniform(5, 50), "speed": rng.uniform(0.5, 2), "gravity": 9.81,
-                     "restitution": rng.uniform(0.3, 0.9), "friction": rng.uniform(0.1, 0.3), "impacts": 2}
-            self.check(flags, "angle", "angle", 180 / math.pi)
-            for name in ("speed", "restitution", "friction"):
-                self.check(flags, name, name)
-
     def test_of_a_drop_from_a_height_they_are_those_at_that_height(self):
         for flag in ("height", "clearance"):
-            flags = {"body": "box", "size": "0.3x0.1x0.1", "angle": 25.0, flag: 0.8, "restitution": 0.6, "impacts": 2}
-            self.check(flags, flag, flag)
+            flags = {"body": "box", "size": "0.3x0.1x0.1", "angle": 25.0, flag: 0.8, "restitution": 0.6, "friction": 0.2, "impacts": 2}
+            for name in (flag, "restitution", "friction"):
+                self.check(flags, name, name)
             self.check(flags, "angle", "angle", 180 / math.pi)
 
     def test_a_fold_has_none_and_the_exit_status_says_so(self):
@@ -78,33 +69,8 @@ class Gradient(Slopes):
         self.assertEqual({row["parameter"] for row in found["gradients"]}, {"speed", "restitution", "friction"})
         self.assertEqual([(one["parameter"], one["from_impact"]) for one in found["refused"]], [("angle", 1)])
 
-    def test_ground_that_gives_the_restitution_has_no_derivative_of_it(self):
-        done, found = told("gradient", {"angle": 20, "stiffness": "1e9", "damping": "1e7", "gravity": 9.81, "impacts": 2})
-        self.assertEqual(done.returncode, 0, done.stderr)
-        self.assertEqual({row["parameter"] for row in found["gradients"]}, {"angle", "speed", "friction"})
-
-    def test_errors_hold_the_derivative_of_another_precision(self):
-        """Of the first impact of the thin rod, by Eq. 9."""
-        _, found = told("gradient", {"angle": 30, "impacts": 1})
-        row = next(row for row in found["gradients"] if row["parameter"] == "angle")
-        c, s = math.cos(math.pi / 6), 0.5
-        wanted = 2 * 6 * c * s / (1 + 3 * c * c) ** 2
-        self.assertLessEqual(abs(row["impulse_normal"] - wanted), row["error_estimate"]["impulse_normal"] + 1e-16)
-
-
 class GradientInSpace(Slopes):
     numbers = NUMBERS_IN_SPACE
-
-    def test_derivatives_are_the_slopes_of_the_sequence(self):
-        rng = random.Random(7)
-        for law in ("newton", "poisson", "stronge"):
-            flags = {"body": "box", "size": "0.3x0.2x0.1", "angle": rng.uniform(20, 40), "tilt": rng.uniform(10, 30),
-                     "speed": rng.uniform(0.5, 2), "gravity": 9.81, "tangential-velocity": 0.3, "restitution": rng.uniform(0.3, 0.9),
-                     "restitution-law": law, "friction": rng.uniform(0.1, 0.3), "impacts": 2}
-            for name in ("angle", "tilt"):
-                self.check(flags, name, name, 180 / math.pi)
-            for name in ("speed", "restitution", "friction"):
-                self.check(flags, name, name)
 
     def test_of_a_drop_from_a_height_they_are_those_at_that_height(self):
         for flag in ("height", "clearance"):
@@ -112,9 +78,3 @@ class GradientInSpace(Slopes):
             self.check(flags, flag, flag)
             for name in ("angle", "tilt"):
                 self.check(flags, name, name, 180 / math.pi)
-
-    def test_a_flat_landing_has_none_by_a_turn(self):
-        done, found = told("gradient", {"body": "box", "size": "0.3x0.2x0.1", "orientation": 3, "speed": 1, "gravity": 9.81,
-                                        "restitution": 0.5, "angular-velocity": "0,0,1", "impacts": 1})
-        self.assertEqual(done.returncode, 3)
-        self.assertEqual([one["parameter"] for one in found["refused"] if one["from_impact"] == 1][:2], ["angle", "tilt"])

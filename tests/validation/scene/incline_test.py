@@ -1,11 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Sloping ground: what its key and flag mean, which commands take it, and what is refused."""
 
-import json
 import math
-import unittest
 
-from run_folder import Folder, records
+from run_folder import EmptyFolder, printed, rows_of
 
 BOX = ["--body", "box", "--size", "0.3x0.2x0.1", "--angle", "10", "--restitution", "0.6", "--friction", "0.3"]
 SCENE = """[drop]
@@ -21,15 +19,7 @@ friction = 0.3
 """
 
 
-class Incline(Folder):
-    def told(self, *arguments):
-        done = self.run_program(*arguments)
-        self.assertIn(done.returncode, (0, 3), done.stderr)
-        return done.stdout
-
-    def json_of(self, *arguments):
-        return json.loads(self.told(*arguments, "--format", "json"))
-
+class Incline(EmptyFolder):
     def test_gravity_is_turned_so_that_a_positive_slope_pulls_to_the_right(self):
         for degrees in (20, -20):
             told = self.json_of("sequence", *BOX, "--incline", str(degrees), "--impacts", "4")
@@ -47,7 +37,7 @@ class Incline(Folder):
         self.assertEqual(self.json_of("sequence", self.write("slope.toml", SCENE))["impacts"], by_flags["impacts"])
         self.assertNotIn("incline_deg", self.json_of("sequence", *BOX)["scene"]["world"])
         for degrees, side in ((20, "right"), (-20, "left")):
-            self.assertIn(f"slopes 20° down to the {side}", " ".join(self.told("sequence", *BOX, "--incline", str(degrees)).split()))
+            self.assertIn(f"slopes 20° down to the {side}", " ".join(printed("sequence", *BOX, "--incline", str(degrees), status=(0, 3)).split()))
 
     def test_the_simulator_tends_to_the_discrete_model_as_the_ground_gets_stiff(self):
         ground = ["--sliding-friction", "0.3", "--planar", "--impacts", "1"]
@@ -62,7 +52,7 @@ class Incline(Folder):
 
     def test_a_sweep_and_a_map_over_the_slope_run_the_model_of_each(self):
         scene = self.write("slope.toml", SCENE)
-        rows = records(self.told("sweep", scene, "--set", "world.incline_deg=-20:20:10", "--model", "discrete", "--format", "csv"))
+        rows = rows_of("sweep", scene, "--set", "world.incline_deg=-20:20:10", "--model", "discrete", status=(0, 3))
         self.assertEqual(len(rows), 5)
         for row in rows:
             degrees = row["world.incline_deg"]
@@ -71,10 +61,9 @@ class Incline(Folder):
             self.assertEqual(float(row["total_normal_impulse"]), alone["total_normal_impulse"])
 
     def test_what_a_slope_does_not_go_with_is_one_line(self):
-        for words, *command in (("from -89 to 89 degrees", "sequence", *BOX, "--incline", "95"),
-                                ("world.gravity is 0", "sequence", *BOX, "--incline", "20", "--gravity", "0"),
-                                ("0 or left out with drop.height", "sequence", *BOX, "--incline", "20", "--height", "1"),
-                                ("clatter explain, whose ground is level", "explain", "1", *BOX, "--incline", "20"),
-                                ("whose ground is level", "shock", *BOX, "--incline", "20", "--probe", "c:0,0,0"),
-                                ("clatter plan, whose ground is level", "plan", "--angle", "10", "--incline", "20", "--stiffness", "1e9")):
-            self.refused(words, *command)
+        box = " ".join(BOX)
+        self.each_refused({f"sequence {box} --incline 95": "from -89 to 89 degrees", f"sequence {box} --incline 20 --gravity 0": "world.gravity is 0",
+                           f"sequence {box} --incline 20 --height 1": "0 or left out with drop.height",
+                           f"explain 1 {box} --incline 20": "clatter explain, whose ground is level",
+                           f"shock {box} --incline 20 --probe c:0,0,0": "whose ground is level",
+                           "plan --angle 10 --incline 20 --stiffness 1e9": "clatter plan, whose ground is level"})

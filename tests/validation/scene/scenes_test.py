@@ -1,15 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """One language of scenes for every command: files, cases and flags alone; what clatter keys and clatter init say of it."""
 
-import json
-import os
 import re
-import unittest
+import shutil
 
-from run_folder import CASES, Folder
+from run_folder import Folder, case
 
 FORMS = {"sequence": [], "explain": ["2"], "simulate": [], "compare": [], "plan": ["--digits", "3"]}
-DISCRETE = ("sequence", "explain")
 
 
 def leaves(scene, prefix=""):
@@ -23,14 +20,12 @@ def leaves(scene, prefix=""):
 
 
 class Sources(Folder):
-    def json_of(self, command, *arguments):
-        done = self.run_program(command, *FORMS[command], *arguments, "--impacts", "2", "--format", "json")
-        self.assertIn(done.returncode, (0, 3), (command, arguments, done.stderr))
-        return json.loads(done.stdout)
+    def two_of(self, command, *arguments):
+        return self.json_of(command, *FORMS[command], *arguments, "--impacts", "2")
 
     def flags_of(self, scene):
         """The flags that say what the echo of a scene says."""
-        flags = {key["key"]: key["flag"] for key in json.loads(self.run_program("keys", "--format", "json").stdout)["keys"]}
+        flags = {key["key"]: key["flag"] for key in self.json_of("keys")["keys"]}
         words = []
         for key, value in leaves(scene):
             flag = flags.get(key)
@@ -45,28 +40,22 @@ class Sources(Folder):
         return words
 
     def test_every_command_takes_a_file_the_name_of_a_case_and_flags_alone(self):
-        with open(os.path.join(CASES, "phone-damped.toml"), encoding="utf-8") as file:
-            self.write("mine.toml", file.read())
+        shutil.copy(case("phone-damped"), self.path("mine.toml"))
         for command in FORMS:
             with self.subTest(command):
-                case = self.json_of(command, "phone-damped")
-                file = self.json_of(command, "mine.toml")
-                self.assertEqual(case["scene"].pop("file"), "validation/cases/phone-damped.toml")
+                named = self.two_of(command, "phone-damped")
+                file = self.two_of(command, "mine.toml")
+                self.assertEqual(named["scene"].pop("file"), "validation/cases/phone-damped.toml")
                 self.assertEqual(file["scene"].pop("file"), "mine.toml")
-                flags = self.json_of(command, *self.flags_of(case["scene"]))
+                flags = self.two_of(command, *self.flags_of(named["scene"]))
                 self.assertNotIn("file", flags["scene"])
-                for run in (case, file, flags):
+                for run in (named, file, flags):
                     run.pop("times", None)
                 if command == "plan":  # what a run takes is measured
-                    self.assertEqual(case["scene"], flags["scene"])
+                    self.assertEqual(named["scene"], flags["scene"])
                     continue
-                self.assertEqual(case, file)
-                self.assertEqual(case, flags)
-
-    def test_a_flag_takes_the_place_of_the_key_in_either_form(self):
-        for command in ("sequence", "simulate"):
-            scene = self.json_of(command, "phone-damped", "--angle", "33.5")["scene"]
-            self.assertEqual(scene["drop"]["angle_deg"], 33.5)
+                self.assertEqual(named, file)
+                self.assertEqual(named, flags)
 
     def test_a_name_that_is_neither_a_file_nor_a_case_gets_the_nearest_case(self):
         for command in FORMS:
@@ -77,31 +66,21 @@ class Sources(Folder):
         self.assertEqual(self.json_of("sequence", "phone-damped")["scene"]["drop"]["angle_deg"], 7)
 
     def test_what_flags_alone_lack_is_named_by_its_flag(self):
-        self.refused("--angle: required", "sequence")
-        self.refused("--angle: required", "simulate", "--stiffness", "1e9")
-        self.refused("--stiffness: required", "simulate", "--angle", "10")
-        self.refused("--size: required", "sequence", "--angle", "10", "--body", "box")
-
-    def test_flags_alone_have_no_gravity_and_a_thin_rod(self):
-        scene = self.json_of("sequence", "--angle", "10")["scene"]
-        self.assertEqual((scene["world"]["gravity"], scene["body"]["radius"]), (0, 0))
-        scene = self.json_of("simulate", "--angle", "10", "--stiffness", "1e9")["scene"]
-        self.assertEqual((scene["world"]["gravity"], scene["body"]["radius"]), (0, 0))
+        self.each_refused({"sequence": "--angle: required", "simulate --stiffness 1e9": "--angle: required",
+                           "simulate --angle 10": "--stiffness: required", "sequence --angle 10 --body box": "--size: required"})
 
     def test_the_discrete_model_refuses_a_file_that_sweeps_its_angle_unless_one_is_given(self):
         self.write("swept.toml", "[body]\nshape = 'box'\nsize = [1, 0.1, 0.1]\n[sweep]\nangle_deg = { from = 10, to = 20, step = 5 }\n")
         self.refused("give --angle", "sequence", "swept.toml")
         self.assertEqual(self.json_of("sequence", "swept.toml", "--angle", "12")["scene"]["drop"]["angle_deg"], 12)
 
-
-class Keys(Folder):
     def keys(self):
-        return json.loads(self.run_program("keys", "--format", "json").stdout)["keys"]
+        return self.json_of("keys")["keys"]
 
     def test_every_key_of_an_echo_is_a_row(self):
         names = {key["key"] for key in self.keys()}
         for case in ("phone-damped", "rod-10"):
-            scene = json.loads(self.run_program("simulate", case, "--impacts", "1", "--format", "json").stdout)["scene"]
+            scene = self.json_of("simulate", case, "--impacts", "1")["scene"]
             self.assertLessEqual({key for key, _ in leaves(scene)} - {"file"}, names)
 
     def test_every_flag_of_simulate_that_is_a_key_s_is_in_its_help(self):
@@ -113,26 +92,16 @@ class Keys(Folder):
                 elif key["flag"] and not (command == "sequence" and key["flag"] not in text):
                     self.assertIn(key["flag"] + " ", text + " ", command)
 
-    def test_the_text_fits_80_columns_and_has_a_default_or_says_required(self):
+    def test_the_text_has_a_default_or_says_required(self):
         text = self.run_program("keys").stdout
-        self.assertLessEqual(max(map(len, text.splitlines())), 80)
         self.assertIn("drop.angle_deg  --angle  (required)", text)
         self.assertIn("world.gravity  --gravity  (0)", text)
 
-    def test_every_format_has_every_key(self):
-        for form in ("csv", "markdown", "latex"):
-            text = self.run_program("keys", "--format", form).stdout.replace("\\_", "_")
-            for key in self.keys():
-                self.assertIn(key["key"], text, form)
-
-
-class Init(Folder):
     def test_the_file_runs_with_either_model(self):
         self.assertEqual(self.run_program("init", "--output", "new.toml").returncode, 0)
         for command in ("simulate", "sequence", "compare"):
-            done = self.run_program(command, "new.toml", "--impacts", "1", "--digits", "3", "--format", "json")
-            self.assertEqual(done.returncode, 0, done.stderr)
-            self.assertEqual(json.loads(done.stdout)["scene"]["drop"]["angle_deg"], 10)
+            found = self.json_of(command, "new.toml", "--impacts", "1", "--digits", "3", status=(0,))
+            self.assertEqual(found["scene"]["drop"]["angle_deg"], 10)
 
     def test_every_line_that_is_a_comment_is_a_setting_of_a_key_that_is_known(self):
         text = self.run_program("init").stdout
@@ -146,7 +115,7 @@ class Init(Folder):
 
     def test_each_key_has_its_line(self):
         text = self.run_program("init").stdout
-        keys = json.loads(self.run_program("keys", "--format", "json").stdout)["keys"]
+        keys = self.json_of("keys")["keys"]
         table = ""
         found = set()
         for line in text.splitlines():

@@ -3,9 +3,8 @@
 
 import math
 import re
-import unittest
 
-from run_folder import records
+from run_folder import rows_of
 from space_folder import SpaceFolder, turn, words
 
 BRICK = ["--body", "box", "--size", "0.2x0.1x0.06", "--mass", "2"]
@@ -42,20 +41,15 @@ class Toppling(SpaceFolder):
         self.assertEqual(toppled["scene"]["drop"]["speed"], None)
 
     def test_the_weights_work_about_the_edge_is_the_energy_at_the_touch(self):
-        square = (0.2**2 + 0.06**2) / 12
-        for height in (0.001, 0.05, 0.1):
-            self.check_against([*BRICK, "--angle", "0", "--topple", str(height)], *self.rate((0.2, 0.06), square, height))
-
-    def test_a_body_turned_about_the_vertical_topples_over_its_other_edge(self):
-        square = (0.1**2 + 0.06**2) / 12
-        self.check_against([*BRICK, "--attitude", words(turn(3, 90)), "--topple", "0.03"], *self.rate((0.1, 0.06), square, 0.03))
-
-    def test_a_body_that_stands_falls_with_the_centre_of_mass_where_it_is(self):
-        # Orientation 1: the face -x is down, and body z points to -x of the world; of 2 +x is down, and body z points to +x.
+        """Of the brick, turned about the vertical, and standing: of orientation 1 the face -x is down, and body z points to -x of
+        the world; of 2 +x is down, and body z points to +x."""
+        along, across = (0.2**2 + 0.06**2) / 12, (0.1**2 + 0.06**2) / 12
         inertia = ["--inertia", "0.004,0.009,0.008", "--centre", "0.02,0,0.01"]
-        for orientation, centre in (("1", (-0.01, 0.02)), ("2", (0.01, -0.02))):
-            self.check_against([*BRICK, *inertia, "--orientation", orientation, "--topple", "0.01"],
-                               *self.rate((0.06, 0.2), 0.009 / 2, 0.01, centre))
+        for pose, height, *body in (*((["--angle", "0"], height, (0.2, 0.06), along) for height in (0.001, 0.05, 0.1)),
+                                    (["--attitude", words(turn(3, 90))], 0.03, (0.1, 0.06), across),
+                                    ([*inertia, "--orientation", "1"], 0.01, (0.06, 0.2), 0.009 / 2, (-0.01, 0.02)),
+                                    ([*inertia, "--orientation", "2"], 0.01, (0.06, 0.2), 0.009 / 2, (0.01, -0.02))):
+            self.check_against([*BRICK, *pose, "--topple", str(height)], *self.rate(*body[:2], height, *body[2:]))
 
     def test_the_edge_that_a_slab_turned_about_stays_where_it_is_and_makes_no_hops(self):
         for slab in (["--size", "0.25x0.17x0.008"], ["--size", "0.25x0.17x0.008", "--centre", "0.006,0,0.0005"]):
@@ -73,11 +67,9 @@ class Toppling(SpaceFolder):
         self.assertTrue(self.json_of("sequence", *BRICK, "--orientation", "1", "--topple", most)["impacts"])
 
     def test_what_does_not_lie_or_is_thrown_is_refused(self):
-        for flags, why in ((["--angle", "10"], "does not arrive on a face"), (["--angle", "0", "--tilt", "5"], "on a face"),
-                           (["--orientation", "9"], "on a face"), (["--angle", "0", "--speed", "1"], "not both"),
-                           (["--angle", "0", "--gravity", "0"], "left out where world.gravity is 0"),
-                           (["--angle", "0", "--velocity", "0,0,-1"], "not both")):
-            self.refused(why, "sequence", *BRICK, *flags, "--topple", "0.01")
+        self.each_refused({"--angle 10": "does not arrive on a face", "--angle 0 --tilt 5": "on a face", "--orientation 9": "on a face",
+                           "--angle 0 --speed 1": "not both", "--angle 0 --gravity 0": "left out where world.gravity is 0",
+                           "--angle 0 --velocity 0,0,-1": "not both"}, "sequence", *BRICK, "--topple", "0.01")
         self.refused("neither rod nor box", "sequence", "--body", "sphere", "--radius", "0.1", "--topple", "0.01")
 
     def test_the_continuous_model_starts_with_the_same_energy_and_a_sweep_raises_higher(self):
@@ -86,9 +78,6 @@ class Toppling(SpaceFolder):
         energies = [self.json_of(command, *scene)["impacts"][0]["energy_before"] for command in ("sequence", "simulate")]
         self.assertAlmostEqual(*energies, delta=1e-12 * energies[0])
         scene = self.write("brick.toml", "drop = { angle_deg = 0 }\nbody = { shape = 'box', size = [0.2, 0.1, 0.06], mass = 2 }\n")
-        done = self.run_program("sweep", scene, "--set", "drop.topple=0.01:0.05:0.01", "--columns", "energy_before_1",
-                                "--format", "csv", "--bare")
-        self.assertEqual(done.returncode, 0, done.stderr)
-        rows = records(done.stdout)
+        rows = rows_of("sweep", scene, "--set", "drop.topple=0.01:0.05:0.01", "--columns", "energy_before_1")
         self.assertEqual(len(rows), 5)
         self.assertAlmostEqual(float(rows[4]["energy_before_1"]), energies[0], delta=1e-12 * energies[0])

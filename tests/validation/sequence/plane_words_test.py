@@ -1,14 +1,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What a first-time reader meets in the plane: names of angles, what a column counts, why models differ, how to go on."""
 
-import json
 import os
 import re
 import subprocess
 import sys
 import unittest
 
-from run_folder import PROGRAM, ROOT, EmptyFolder, run
+from run_folder import PROGRAM, ROOT, EmptyFolder, json_of, run
 
 
 def symbols(*arguments):
@@ -16,7 +15,7 @@ def symbols(*arguments):
     return set(re.findall(r"^ *(\S+) = ", run("explain", *arguments).stdout, re.MULTILINE))
 
 
-class Angles(unittest.TestCase):
+class Words(unittest.TestCase):
     def test_the_sum_of_impulses_is_held_against_2_only_where_all_speed_returns(self):
         self.assertIn("2 − ΣP", run("angles").stdout)
         self.assertNotIn("2 − ΣP", run("angles", "--restitution", "0.5").stdout)
@@ -24,12 +23,10 @@ class Angles(unittest.TestCase):
 
     def test_the_impacts_that_are_counted_are_the_first_three(self):
         self.assertIn("how many of these three", " ".join(run("angles").stdout.split()))
-        sequence = json.loads(run("sequence", "--angle", "30", "--restitution", "0.2", "--format", "json").stdout)
+        sequence = json_of("sequence", "--angle", "30", "--restitution", "0.2")
         self.assertGreater(len(sequence["impacts"]), 3)
         self.assertIn("Of the first three impacts", run("regimes", "--over", "restitution").stdout)
 
-
-class Explanations(unittest.TestCase):
     def test_contact_angles_have_the_names_of_the_paper_and_then_numbers(self):
         self.assertLessEqual({"θ", "β"}, symbols("2", "--angle", "10"))
         third = symbols("3", "--angle", "10")
@@ -43,12 +40,10 @@ class Explanations(unittest.TestCase):
             self.assertEqual("r₀ = |B|/C" in said, slips, said)
             self.assertIn("mode is " + ("slip" if slips else "stick"), said)
 
-
-class TheTwoModels(unittest.TestCase):
     def test_why_they_differ_is_said_and_how_long_the_contact_is(self):
         said = " ".join(run("compare", "phone-damped", "--impacts", "2").stdout.split())
-        contact = json.loads(run("simulate", "phone-damped", "--impacts", "1", "--format", "json").stdout)["impacts"][0]
-        flight = json.loads(run("sequence", "phone-damped", "--format", "json").stdout)["impacts"][1]["start"]
+        contact = json_of("simulate", "phone-damped", "--impacts", "1")["impacts"][0]
+        flight = json_of("sequence", "phone-damped")["impacts"][1]["start"]
         found = re.search(r"largest difference, \S+ of impact 2, comes most from [^;]+; contact 1 lasts (\S+) ms of the (\S+) ms", said)
         self.assertIsNotNone(found, said)
         self.assertAlmostEqual(float(found[1]), 1e3 * contact["duration"], delta=5e-3)
@@ -60,20 +55,6 @@ class TheTwoModels(unittest.TestCase):
 
 
 class HowToGoOn(EmptyFolder):
-    REFUSED = {
-        ("sweep", "--angle", "10"): "as in clatter sweep rod-10 --set drop.angle_deg=...",
-        ("map", "--speed", "2"): "as in clatter map rod-10 --set drop.speed=...",
-        ("sequence", "phone-elastic", "--planar"): "is the simulator's",
-        ("compare", "--angle", "10"): "such as 1e11",
-        ("angles", "--angle", "10"): "--from, --to and --step",
-    }
-
-    def test_what_is_refused_says_what_to_type(self):
-        for arguments, words in self.REFUSED.items():
-            done = run(*arguments)
-            self.assertEqual(done.returncode, 2, arguments)
-            self.assertIn(words, done.stderr)
-
     def test_figures_says_what_it_wrote_and_what_draws_it(self):
         done = run("figures", "--only", "7", "8", "--output", self.path("new"))
         self.assertEqual(done.stdout, f"2 files in {self.path('new')}; clatter verify --html FILE draws the figures\n")
@@ -83,7 +64,3 @@ class HowToGoOn(EmptyFolder):
         done = subprocess.run([sys.executable, os.path.join(ROOT, "tests", "install", "json_example.py")],
                               capture_output=True, text=True, env={**os.environ, "PATH": path})
         self.assertRegex(done.stdout.splitlines()[1], r"^0\.087082 s  1\.002842 ± \de-1\d N·s$")
-
-    def test_the_scene_to_begin_with_fits_a_terminal(self):
-        text = run("init").stdout
-        self.assertEqual([line for line in text.splitlines() if len(line) > 80], [])
