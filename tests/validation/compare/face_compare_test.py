@@ -2,7 +2,6 @@
 """clatter compare of faces that land level, slide and turn, against a plate on an even bed that is integrated here."""
 
 import math
-import unittest
 
 import numpy as np
 

@@ -57,13 +57,6 @@ class Shock(EmptyFolder):
         self.assertLessEqual({("continuous", "1"), ("continuous", "1-2"), ("continuous", "flat")}, blows)
         self.assertIn("oscillator of", printed("shock", "phone-damped", "--impacts", "2", *PROBE))
 
-    def test_a_centre_of_mass_feels_the_force_and_the_discrete_model_agrees_with_sequence(self):
-        found = shock("--angle", "10", "--probe", "centre:0,0,0", "--frequencies", "10:100:2")
-        sequence = json_of("sequence", "--angle", "10")
-        self.assertEqual(found["model"], "discrete")
-        for row, impact in zip(found["impacts"], sequence["impacts"], strict=True):
-            self.assertAlmostEqual(row["discrete_delta_v_z"], impact["impulse_normal"], delta=1e-14)
-
     def test_a_law_of_impact_that_is_not_the_grounds_is_said_to_be_the_other_models(self):
         said = run("shock", "phone-damped", *PROBE, *FEW, "--friction", "0.9", "--restitution", "0.2").stdout
         self.assertRegex(" ".join(said.split()), r"alone: e = 0\.2 where the ground has 0\.\d+ at \d\.\d+ m/s, μ = 0\.9 where the ground "
@@ -134,21 +127,13 @@ class Shock(EmptyFolder):
 
 
 class PulsesAndHistory(unittest.TestCase):
-    def test_a_blow_as_a_test_pulse_has_its_change_of_velocity_and_peak(self):
+    def test_blows_as_test_pulses_are_those_of_the_impacts(self):
         found = shock("phone-damped", *PROBE, *FEW, "--rows", "pulse", "--part", "300:500")
-        blows, impacts = found["pulses"]["blows"], found["impacts"]
-        self.assertEqual(len(blows), len(impacts))
-        for blow, impact in zip(blows, impacts):
+        for blow, impact in zip(found["pulses"]["blows"], found["impacts"], strict=True):
             self.assertEqual((blow["delta_v"], blow["peak_g"]), (impact["delta_v"], impact["peak_g"]))
-            self.assertAlmostEqual(2 * 9.80665 * blow["peak_g"] * blow["pulse_duration"] / math.pi / blow["delta_v"], 1, delta=1e-13)
-            height = blow["delta_v"] ** 2 / (2 * 9.80665)
-            self.assertAlmostEqual(blow["height_without_rebound"] / height, 1, delta=1e-13)
-            self.assertAlmostEqual(blow["height"] / height * (1 + blow["restitution"]) ** 2, 1, delta=1e-13)
-        boundary = found["pulses"]["damage_boundary"]
-        critical = 500 * 9.80665 / (2 * math.pi * 300)
-        self.assertAlmostEqual(boundary["rectangle"]["critical_velocity"] / critical, 1, delta=1e-9)
-        self.assertAlmostEqual(boundary["rectangle"]["corner_velocity"] / (math.pi / 2 * critical), 1, delta=1e-9)
-        self.assertAlmostEqual(boundary["half_sine"]["critical_acceleration"] * 1.768457654 / (500 * 9.80665), 1, delta=1e-9)
+            self.assertAlmostEqual(blow["height_without_rebound"] / (blow["delta_v"] ** 2 / (2 * 9.80665)), 1, delta=1e-13)
+        critical = found["pulses"]["damage_boundary"]["rectangle"]["critical_velocity"]
+        self.assertAlmostEqual(critical / (500 * 9.80665 / (2 * math.pi * 300)), 1, delta=1e-9)
 
     def test_a_history_at_a_rate_has_the_impulse_the_peaks_and_the_depths_of_the_run(self):
         arguments = ("phone-damped", *PROBE, *FEW)
@@ -236,9 +221,5 @@ class Ground(unittest.TestCase):
 
     def test_a_named_floor_has_a_range_and_its_source(self):
         found = json_of("ground", "--floor", "concrete", "--footprint", "0.004")
-        radius = math.sqrt(0.004 / math.pi)
-        for row in found["solutions"]:
-            stiffness = 2 * row["modulus"] / ((1 - row["poisson"] ** 2) * math.pi * radius)
-            self.assertAlmostEqual(row["stiffness"] / stiffness, 1, delta=1e-14)
         self.assertLess(found["solutions"][0]["stiffness"], found["solutions"][1]["stiffness"])
         self.assertIn("doi", found["source"])
