@@ -1,23 +1,19 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The pictures show the program's numbers, with names and units, and their files are the same every time."""
 
-import csv
 import math
-import os
 import re
 import shutil
 import subprocess
 import sys
-import tempfile
 import unittest
 from pathlib import Path
 
 import numpy as np
 from matplotlib.patches import Polygon
+from run_folder import PROGRAM, ROOT, EmptyFolder, records
 
-ROOT = Path(os.environ["CLATTER_ROOT"])
-PROGRAM = os.environ["CLATTER_PROGRAM"]
-DATA = ROOT / "notebooks-data"
+DATA = Path(ROOT, "notebooks-data")
 sys.path.insert(0, str(DATA))
 
 import figures  # noqa: E402: it is in the folder just named
@@ -27,9 +23,7 @@ MODELS = ("", "_continuous")
 GRAVITIES = ("", "_G0_1", "_G9_81")
 ENERGIES = ["E", "E_kinetic", "E_potential"]
 FRICTIONS = (0.1, 0.3, 0.5, 0.7)
-FOLD, FOLD_BETA = 58.488442288312, 86.701384197437  # erratum E5
-THIRD_FOLD = 27.577809606636  # erratum E6
-EQUAL = math.degrees(math.acos(1 / math.sqrt(3)))
+FOLD_BETA = 86.701384197437  # erratum E5
 
 
 def each(columns, suffixes):
@@ -66,9 +60,8 @@ COLUMNS = {
 
 
 def rows_of(number):
-    with open(DATA / "figures" / f"figure_{number:02}.csv", encoding="utf-8") as file:
-        return [{name: float(cell) if cell else math.nan for name, cell in row.items()}
-                for row in csv.DictReader(line for line in file if not line.startswith("#"))]
+    return [{name: float(cell) if cell else math.nan for name, cell in row.items()}
+            for row in records((DATA / "figures" / f"figure_{number:02}.csv").read_text(encoding="utf-8"))]
 
 
 def finite(values):
@@ -84,12 +77,6 @@ def drawn_values(axes):
 
 def line_named(axes, name):
     return next(line for line in axes.lines if line.get_label() == name)
-
-
-def crossing(x, difference):
-    """Where the difference of two curves changes its sign, between two of their points."""
-    i = next(i for i in range(len(x) - 1) if difference[i] * difference[i + 1] < 0)
-    return x[i] - difference[i] * (x[i + 1] - x[i]) / (difference[i + 1] - difference[i])
 
 
 class Drawn(unittest.TestCase):
@@ -164,32 +151,6 @@ class Drawn(unittest.TestCase):
             self.assertEqual(second, max(row["Fn"] for row in rows_of(number)))
 
 
-class SpotValues(unittest.TestCase):
-    def test_figure_7_ends_at_the_fold(self):
-        line = line_named(figures.draw(7).axes[0], "β, discrete model")
-        last = np.flatnonzero(np.isfinite(line.get_ydata()))[-1]
-        self.assertAlmostEqual(line.get_xdata()[last], FOLD, delta=2e-6)
-        self.assertAlmostEqual(line.get_ydata()[last], FOLD_BETA, delta=0.02)
-
-    def test_figure_9_crosses_at_equal_impulses(self):
-        axes = figures.draw(9).axes[0]
-        first, second = (line_named(axes, f"{sign}, discrete model") for sign in ("P₁", "P₂"))
-        at = crossing(first.get_xdata(), first.get_ydata() - second.get_ydata())
-        self.assertAlmostEqual(at, EQUAL, delta=2e-3)
-
-    def test_figure_10_ends_at_both_folds(self):
-        axes = figures.draw(10).axes[0]
-        for sign, end in (("β", FOLD), ("γ", THIRD_FOLD)):
-            line = line_named(axes, f"{sign}, discrete model")
-            self.assertAlmostEqual(line.get_xdata()[np.isfinite(line.get_ydata())].max(), end, delta=2e-6)
-
-    def test_figure_15_has_its_plateau_above_0_6(self):
-        axes = figures.draw(15).axes[0]
-        values = line_named(axes, "continuous").get_ydata()[line_named(axes, "continuous").get_xdata() > 0.62]
-        self.assertLess(np.ptp(values), 1e-6)
-        self.assertGreater(np.ptp(line_named(axes, "Eq. 9").get_ydata()[-4:]), 0.1)
-
-
 class Positions(unittest.TestCase):
     """Fig. 8."""
 
@@ -211,22 +172,6 @@ class Positions(unittest.TestCase):
             self.assertAlmostEqual(min(rods[0][1]), 0, delta=1e-15)
             self.assertAlmostEqual(min(rods[-1][1]), ends_at, delta=0.02 if ends_at else 1e-12)
 
-    def test_at_the_fold_end_b_touches_at_86_70_degrees_with_no_speed(self):
-        x, z = self.rods[2][-1]
-        self.assertAlmostEqual(math.degrees(math.atan2(z[0] - z[1], x[1] - x[0])), FOLD_BETA, delta=1e-4)
-        touching = [row for row in rows_of(8) if row["panel"] == 3 and abs(row["z_b"]) < 1e-12]
-        self.assertEqual([row["impacts"] for row in touching], [1, 2])
-        for row in touching:
-            self.assertAlmostEqual(row["V_b"], 0, delta=1e-6)
-
-    def test_the_centre_moves_down_below_54_74_degrees_only(self):
-        for rods, theta in zip(self.rods, (45, 56.5, FOLD, 65)):
-            (_, before), (_, after) = rods[0], rods[-1]
-            self.assertEqual(sum(after) > sum(before), theta > EQUAL)
-        c = math.cos(math.radians(56.5))
-        self.assertIn(f"V₁ = {(1 - 3 * c * c) / (1 + 3 * c * c):+.2f} |vₙ|", self.panels[1].get_title(loc="left"))
-
-
 class ExtraPictures(unittest.TestCase):
     def test_contact_angles_are_the_data(self):
         axes = figures.draw("contact_angles").axes[0]
@@ -234,13 +179,6 @@ class ExtraPictures(unittest.TestCase):
         for name, column in (("β, no gravity", "beta"), ("γ, G = 0.1", "gamma_G0_1")):
             self.assertEqual(finite(line_named(axes, name).get_ydata()), finite(row[column] for row in rows))
         self.assertEqual({text.get_text() for text in axes.texts}, {"58.49°", "27.58°", "β = θ = 54.74°"})
-
-    def test_regimes_start_and_end_at_the_folds_of_the_elastic_rod(self):
-        over_restitution, over_gravity = figures.draw("regimes").axes
-        for axes, at in ((over_restitution, -1), (over_gravity, 0)):
-            for name, fold in (("θ₂: end b grazes", FOLD), ("θ₃: no third impact above", THIRD_FOLD)):
-                delta = 1e-9 if at else 0.03  # the map over gravity begins at G = 0.001
-                self.assertAlmostEqual(line_named(axes, name).get_ydata()[at], fold, delta=delta)
 
     def test_the_phone_stands_on_the_corner_that_strikes(self):
         """No corner of the box as drawn lies below the ground, and the one that strikes lies on it."""
@@ -266,16 +204,14 @@ class ExtraPictures(unittest.TestCase):
 
     def test_costs_have_a_panel_for_each_scene_and_a_line_for_each_method(self):
         figure = figures.draw("error_against_cost")
-        with open(DATA / "tradeoff.csv", encoding="utf-8") as file:
-            rows = list(csv.DictReader(line for line in file if not line.startswith("#")))
+        rows = records((DATA / "tradeoff.csv").read_text(encoding="utf-8"))
         self.assertEqual([axes.get_title(loc="left") for axes in figure.axes], list(dict.fromkeys(row["scene"] for row in rows)))
         expected = [float(row["error"]) for row in rows if (row["scene"], row["model"], row["method"], row["mesh"]) ==
                     ("rod-45", "planar", "rkck", "") and row["error"]]
         self.assertEqual(list(line_named(figure.axes[1], "rkck").get_ydata()), expected)
 
     def test_the_map_of_extremes_hatches_what_has_no_number(self):
-        with open(DATA / "figures" / "extremes.csv", encoding="utf-8") as file:
-            rows = list(csv.DictReader(line for line in file if not line.startswith("#")))
+        rows = records((DATA / "figures" / "extremes.csv").read_text(encoding="utf-8"))
         self.assertEqual({row["verdict"] for row in rows} - {"number", "bad-input", "ended-early", "not-computed", "outside-model"},
                          set())
         for axes in figures.draw("extremes_map").axes:
@@ -291,14 +227,13 @@ class ExtraPictures(unittest.TestCase):
             self.assertAlmostEqual(widths[True] + widths[False], len(per_axis), delta=1e-9)
 
 
-class Files(unittest.TestCase):
+class Files(EmptyFolder):
     def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.data = Path(folder.name) / "notebooks-data"
+        super().setUp()
+        self.data = Path(self.path("notebooks-data"))
         shutil.copytree(DATA, self.data, ignore=shutil.ignore_patterns("__pycache__"))
 
-    def run_program(self, *arguments):
+    def figures(self, *arguments):
         return subprocess.run(["/usr/bin/python3", "-B", str(self.data / "figures.py"), *arguments], capture_output=True, text=True)
 
     def test_files_are_small_text_of_one_kind_without_a_date(self):
@@ -311,25 +246,25 @@ class Files(unittest.TestCase):
     def test_a_check_names_the_files_that_differ_and_a_run_mends_them(self):
         picture, data = self.data / "figures" / "figure_07.svg", self.data / "figures" / "regimes_restitution.csv"
         data.unlink()  # written anew, for its last digits are those of the machine that writes them
-        self.assertEqual(self.run_program(PROGRAM, "--only", "regimes").returncode, 0)
+        self.assertEqual(self.figures(PROGRAM, "--only", "regimes").returncode, 0)
         kept = picture.read_text(encoding="utf-8"), data.read_text(encoding="utf-8")
         picture.write_text(kept[0].replace("86", "87", 1), encoding="utf-8")
         data.write_text(kept[1].replace("58.488", "58.588"), encoding="utf-8")
-        run = self.run_program(PROGRAM, "--check", "--only", "7", "9", "regimes")
+        run = self.figures(PROGRAM, "--check", "--only", "7", "9", "regimes")
         self.assertEqual(run.returncode, 1)
         self.assertEqual([line.split()[0] for line in run.stdout.splitlines()],
                          [f"notebooks-data/figures/{name}" for name in ("figure_07.svg", "regimes_restitution.csv", "regimes.svg")])
-        self.assertEqual(self.run_program(PROGRAM, "--only", "7", "regimes").returncode, 0)
+        self.assertEqual(self.figures(PROGRAM, "--only", "7", "regimes").returncode, 0)
         self.assertEqual((picture.read_text(encoding="utf-8"), data.read_text(encoding="utf-8")), kept)
-        self.assertEqual(self.run_program(PROGRAM, "--check", "--only", "7", "regimes").stdout, "")
+        self.assertEqual(self.figures(PROGRAM, "--check", "--only", "7", "regimes").stdout, "")
 
     def test_bad_arguments_have_one_line_and_status_2(self):
         for arguments in ([], [PROGRAM, "--only", "13"], [PROGRAM, "--fast"], ["/no/such/program", "--only", "regimes"]):
-            run = self.run_program(*arguments)
+            run = self.figures(*arguments)
             self.assertEqual((run.returncode, run.stdout, len(run.stderr.splitlines())), (2, "", 1), run.stderr)
 
     def test_a_program_that_fails_is_named_with_status_3(self):
-        run = self.run_program("/bin/false", "--only", "regimes")
+        run = self.figures("/bin/false", "--only", "regimes")
         self.assertEqual((run.returncode, len(run.stderr.splitlines())), (3, 1))
 
     def test_an_unknown_picture_is_refused(self):

@@ -81,8 +81,6 @@ class Lectures(unittest.TestCase):
         for path in [*LECTURES, SOLUTIONS]:
             self.assertNotRegex(path.read_text(encoding="utf-8"), r"/(home|tmp|work|root)/", path.name)
 
-
-class Solutions(unittest.TestCase):
     def test_every_exercise_has_a_solution_and_an_oracle(self):
         exercises = {number for path in LECTURES for cell in cells(path, "markdown")
                      for number in re.findall(r"\*\*(\d+\.\d)\*\*", cell.source)}
