@@ -69,7 +69,7 @@ def circles(includes):
     return sorted(sorted(group) for group in groups)
 
 
-class Components(unittest.TestCase):
+class Tree(unittest.TestCase):
     maxDiff = None  # a failure names every circle
 
     def test_no_components_include_each_other_in_a_circle(self):
@@ -84,15 +84,11 @@ class Components(unittest.TestCase):
                 (Path(folder) / name).write_text(f'#include "{included}"\n' if included else "", encoding="utf-8")
             self.assertEqual(circles(component_includes(Path(folder), ["a"])), [["a/one", "a/three", "a/two"]])
 
-
-class Tests(unittest.TestCase):
     def test_every_test_of_validation_lies_in_the_folder_of_its_subject(self):
         tests = ROOT / "tests" / "validation"
         folders = {path.relative_to(tests).parent for path in tests.rglob("*") if path.is_file() and "__pycache__" not in path.parts}
         self.assertEqual([str(folder) for folder in folders if folder == Path(".") or not (ROOT / "validation" / folder).is_dir()], [])
 
-
-class Folders(unittest.TestCase):
     def test_no_folder_includes_from_a_folder_above_it(self):
         for room, order in ORDERS.items():
             with self.subTest(room=room):

@@ -31,8 +31,6 @@ class Format(unittest.TestCase):
                                 input="int sum = " + " + ".join(["1000"] * 20) + ";\n", capture_output=True, text=True)
         self.assertNotEqual(result.returncode, 0)
 
-
-class Words(unittest.TestCase):
     def test_no_comment_begins_without_its_subject_and_no_namespace_is_inline(self):
         odd = re.compile(r"\s*///?<? ?(Of|Likewise|That of|Those of|As [a-z_()]+'s)\b|namespace .*\binline\b")
         found = [f"{Path(path).relative_to(ROOT)}:{number}" for path in sources(ROOMS[:3])

@@ -4,6 +4,7 @@ can be done with their results."""
 
 import copy
 import inspect
+import itertools
 import pickle
 import re
 import signal
@@ -114,21 +115,19 @@ class Results(unittest.TestCase):
     def test_results_pickle_and_copy_and_are_equal_then(self):
         ways = {"pickle": lambda one: pickle.loads(pickle.dumps(one)), "copy": copy.copy, "deepcopy": copy.deepcopy,
                 "twice": lambda one: pickle.loads(pickle.dumps(pickle.loads(pickle.dumps(one))))}
-        for name, result in self.results.items():
-            for way, made in ways.items():
-                with self.subTest(result=name, way=way):
-                    again = made(result)
-                    self.assertIsNot(again, result)
-                    self.assertIs(type(again), type(result))
-                    self.assertEqual(again, result)
-                    self.assertEqual(again.to_dict(), result.to_dict())
-                    self.assertEqual(repr(again), repr(result))
-                    self.assertEqual(again._repr_html_(), result._repr_html_())
-                    for form in ("table", "csv", "json", "markdown", "latex"):
-                        for ascii in (False, True):
-                            self.assertEqual(again.to_text(form, ascii=ascii), result.to_text(form, ascii=ascii))
-                    with self.assertRaisesRegex(clatter.BadInput, "format 'xml': must be one of table"):
-                        again.to_text("xml")
+        for (name, result), (way, made) in itertools.product(self.results.items(), ways.items()):
+            with self.subTest(result=name, way=way):
+                again = made(result)
+                self.assertIsNot(again, result)
+                self.assertIs(type(again), type(result))
+                self.assertEqual(again, result)
+                self.assertEqual(again.to_dict(), result.to_dict())
+                self.assertEqual(repr(again), repr(result))
+                self.assertEqual(again._repr_html_(), result._repr_html_())
+                for form, ascii in itertools.product(("table", "csv", "json", "markdown", "latex"), (False, True)):
+                    self.assertEqual(again.to_text(form, ascii=ascii), result.to_text(form, ascii=ascii))
+                with self.assertRaisesRegex(clatter.BadInput, "format 'xml': must be one of table"):
+                    again.to_text("xml")
 
     def test_what_stands_beside_the_report_is_pickled_too(self):
         run = self.results["with a history"]

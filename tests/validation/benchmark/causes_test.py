@@ -1,24 +1,19 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Right codes of fixed steps and wrong scenes: what the judge says of each, and in which order."""
-import json
+import itertools
 import math
 import os
 import pathlib
-import tempfile
 import unittest
 
 import exact_motion
-from planar_code import Code
-from step_code import StepCode
+from exact_motion import Asked, Motion, printed, scored
+from planar_code import Code, StepCode
+from run_folder import EmptyFolder
 
 
 def judged(text):
-    with tempfile.TemporaryDirectory() as folder:
-        path = pathlib.Path(folder, "run.csv")
-        path.write_text(text)
-        done = exact_motion.run("benchmark", "score", str(path), "--format", "json")
-        assert done.returncode == 0, done.stderr
-        return json.loads(done.stdout)["files"][0]
+    return scored(text)[0]
 
 
 def told(text):
@@ -31,27 +26,20 @@ def with_gravity(code, gravity):
     return code
 
 
-class Gravity(unittest.TestCase):
+class Steps(unittest.TestCase):
     def test_gravity_is_named_where_none_is_asked_for(self):
-        for problem in ("rod-10", "rod-45", "thick-rod"):
-            for gravity in (9.81, 1.0, -9.81):
-                exact = with_gravity(Code(problem, 1), gravity)
-                for text in (with_gravity(StepCode(problem, 1), gravity).text(), exact.text(exact.rows(1 / 500))):
-                    with self.subTest(problem=problem, gravity=gravity):
-                        causes = judged(text)["causes"]
-                        self.assertEqual([cause["cause"] for cause in causes], ["gravity"])
-                        self.assertAlmostEqual(causes[0]["value"], gravity, delta=1e-9)
+        for problem, gravity in itertools.product(("rod-10", "rod-45", "thick-rod"), (9.81, 1.0, -9.81)):
+            exact = with_gravity(Code(problem, 1), gravity)
+            for text in (with_gravity(StepCode(problem, 1), gravity).text(), exact.text(exact.rows(1 / 500))):
+                with self.subTest(problem=problem, gravity=gravity):
+                    causes = judged(text)["causes"]
+                    self.assertEqual([cause["cause"] for cause in causes], ["gravity"])
+                    self.assertAlmostEqual(causes[0]["value"], gravity, delta=1e-9)
 
     def test_no_velocities_are_said_to_grow_where_gravity_is_left_out(self):
-        for problem in ("box", "clatter-05", "clatter-08"):
-            for gap in (0, 1):
-                for order in ("ksd", "kds", "kdks"):
-                    with self.subTest(problem=problem, gap=gap, order=order):
-                        self.assertEqual(told(with_gravity(StepCode(problem, gap, order=order), 0.0).text()), ["gravity"])
-
-
-class Steps(unittest.TestCase):
-    """Right codes, whose error is their step."""
+        for problem, gap, order in itertools.product(("box", "clatter-05", "clatter-08"), (0, 1), ("ksd", "kds", "kdks")):
+            with self.subTest(problem=problem, gap=gap, order=order):
+                self.assertEqual(told(with_gravity(StepCode(problem, gap, order=order), 0.0).text()), ["gravity"])
 
     def test_no_other_cause_is_told_where_the_step_makes_the_error(self):
         """The gravity of the first step looked like e = 0.701 for 0.7, since the body touches the ground in the first row."""
@@ -65,10 +53,9 @@ class Steps(unittest.TestCase):
                             self.assertLess(found["impact_scores"][0]["law_error"], 1e-12)
 
     def test_one_impact_in_the_first_row_proves_no_other_restitution(self):
-        for problem in ("friction-slip", "friction-stick", "friction-slip-stick"):
-            for step in (1 / 960, 1 / 3840):
-                with self.subTest(problem=problem, step=step):
-                    self.assertNotIn("restitution", told(StepCode(problem, 0, step).text(4)))
+        for problem, step in itertools.product(("friction-slip", "friction-stick", "friction-slip-stick"), (1 / 960, 1 / 3840)):
+            with self.subTest(problem=problem, step=step):
+                self.assertNotIn("restitution", told(StepCode(problem, 0, step).text(4)))
 
     def test_the_flights_of_a_step_of_first_order_are_named_with_what_the_step_leaves(self):
         for problem in ("box", "clatter-08"):
@@ -113,7 +100,7 @@ class SoftCode(Code):
         return rows
 
 
-class Contacts(unittest.TestCase):
+class Others(unittest.TestCase):
     def test_a_contact_that_takes_time_is_not_said_to_be_late(self):
         code = SoftCode("rod-10", 1)
         found = judged(code.text(code.rows(1e5)))
@@ -122,8 +109,6 @@ class Contacts(unittest.TestCase):
         self.assertAlmostEqual(found["causes"][0]["value"], math.pi * math.sqrt(effective / 1e5), delta=5e-5)
         self.assertIn("its contacts take 0.0050", found["causes"][0]["words"])
 
-
-class Restitution(unittest.TestCase):
     def test_little_restitution_is_named_by_the_impacts_before_they_come_too_fast_for_the_rows(self):
         for e in (0.05, 0.1):
             code = Code("rod-10", 1)
@@ -132,13 +117,11 @@ class Restitution(unittest.TestCase):
             self.assertEqual([cause["cause"] for cause in causes], ["restitution"])
             self.assertAlmostEqual(causes[0]["value"], e, delta=1e-9)
 
-
-class Lists(unittest.TestCase):
     def test_velocities_before_the_impacts_are_named(self):
         for problem in ("rod-10", "friction-slip"):
-            truth = exact_motion.Motion(problem)
+            truth = Motion(problem)
             lines = [f"# problem: {problem}", "# Omega: clockwise", "# ended: nothing approaches", "t,place,Pn,Pt,V,Omega"]
-            for row, piece in zip(truth.truth["impacts"], truth.pieces):
+            for row, piece in zip(truth.truth, truth.pieces):
                 before = piece.flown(truth.body, truth.gravity, truth.touch + row["t"])
                 lines.append(f"{row['t']!r},{row['place']},{row['Pn']!r},{row['Pt']!r},{before.velocity[2]!r},{before.omega[1]!r}")
             self.assertEqual(told("\n".join(lines) + "\n"), ["velocities-before"], problem)
@@ -171,21 +154,20 @@ class Starts(unittest.TestCase):
         self.assertIn("says: z is 0.136343 m, must be 0.0910272 m, error 0.", findings)
 
     def test_a_start_in_space_is_told_by_its_parts(self):
-        motion = exact_motion.Motion("corner", 1)
+        motion = Motion("corner", 1)
         motion.pieces[0].omega = (0.5, *motion.pieces[0].omega[1:])
         findings = " ".join(judged(motion.text(motion.rows(1 / 500)))["findings"])
         self.assertIn("does not start as the problem says: wx is 0.5 rad/s, must be", findings)
 
     def test_an_angle_in_degrees_at_the_start_alone_is_named(self):
-        for problem, degrees in (("box", 25), ("rod-10", 10), ("clatter-08", 10)):
-            for gap in (0, 1):
-                for code in (StepCode(problem, gap), Code(problem, gap)):
-                    code.state[3] = float(degrees)
-                    with self.subTest(problem=problem, gap=gap):
-                        text = code.text() if isinstance(code, StepCode) else code.text(code.rows(1 / 500))
-                        found = judged(text)
-                        self.assertEqual([cause["cause"] for cause in found["causes"]], ["start-degrees"])
-                        self.assertIn(f"phi is {degrees} rad, must be ", " ".join(found["findings"]))
+        for (problem, degrees), gap in itertools.product((("box", 25), ("rod-10", 10), ("clatter-08", 10)), (0, 1)):
+            for code in (StepCode(problem, gap), Code(problem, gap)):
+                code.state[3] = float(degrees)
+                with self.subTest(problem=problem, gap=gap):
+                    text = code.text() if isinstance(code, StepCode) else code.text(code.rows(1 / 500))
+                    found = judged(text)
+                    self.assertEqual([cause["cause"] for cause in found["causes"]], ["start-degrees"])
+                    self.assertIn(f"phi is {degrees} rad, must be ", " ".join(found["findings"]))
 
     def test_another_size_of_the_body_is_named(self):
         for problem, changes, size in (("rod-10", {"along": 0.9}, 0.9), ("rod-10", {"along": 0.9, "raised": False}, 0.9),
@@ -203,28 +185,27 @@ class Starts(unittest.TestCase):
     def test_a_body_that_starts_tilted_the_other_way_is_its_own_mirror_image(self):
         code = Code("box", 1)
         code.state[3] *= -1
-        text = code.text(code.rows(1 / 500))
-        self.assertEqual(told(text), ["phi-sign", "left-right", "start-angle"])
-        causes = [line for line in shown(text) if "likely cause" in line]
-        self.assertEqual(len(causes), 1, causes)
-        self.assertIn("likely cause: either phi and omega count the other turn", causes[0])
+        self.assertEqual(told(code.text(code.rows(1 / 500))), ["phi-sign", "left-right", "start-angle"])
 
 
-def shown(text):
-    """The lines of the report for people."""
-    with tempfile.TemporaryDirectory() as folder:
-        path = pathlib.Path(folder, "run.csv")
-        path.write_text(text)
-        return exact_motion.run("benchmark", "score", str(path)).stdout.splitlines()
+class Words(EmptyFolder):
+    def shown(self, text):
+        """The lines of the report for people."""
+        return printed("benchmark", "score", self.write("run.csv", text)).splitlines()
 
-
-class Words(unittest.TestCase):
     def test_each_column_has_its_meaning_below_the_table_in_eighty_columns(self):
-        lines = shown(StepCode("box", 1).text(step="1/960"))
+        lines = self.shown(StepCode("box", 1).text(step="1/960"))
         for word in ("found, of: ", "law: ", "V, Ω: ", "energy: "):
             self.assertEqual(sum(line.startswith(word) for line in lines), 1, (word, lines))
         self.assertIn("without units", " ".join(lines))
         self.assertLessEqual(max(map(len, lines)), 80)
+
+    def test_one_line_tells_causes_that_explain_the_same(self):
+        code = Code("box", 1)
+        code.state[3] *= -1
+        causes = [line for line in self.shown(code.text(code.rows(1 / 500))) if "likely cause" in line]
+        self.assertEqual(len(causes), 1, causes)
+        self.assertIn("likely cause: either phi and omega count the other turn", causes[0])
 
     def test_no_question_mark_stands_for_a_place(self):
         code = Code("rod-10", 1)
@@ -248,7 +229,7 @@ class Documents(unittest.TestCase):
     def test_each_statement_says_what_its_starts_are_for_and_until_when_a_motion_goes(self):
         for problem in exact_motion.told("benchmark", "list")["problems"]:
             with self.subTest(problem["id"]):
-                text = " ".join(exact_motion.run("benchmark", "show", problem["id"]).stdout.split())
-                several = len(exact_motion.told("benchmark", "show", problem["id"])["starts"]) > 1
+                text = " ".join(printed("benchmark", "show", problem["id"]).split())
+                several = len(Asked(problem["id"]).statement["starts"]) > 1
                 self.assertIn("starts: one of these, any will do" if several else "start: the only one", text)
                 self.assertRegex(text, "a motion must (last [0-9.e-]+ s from the first touch|go on beyond the (last impact, [0-9.e-]+ s|impact))")

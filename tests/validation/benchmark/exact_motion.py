@@ -1,36 +1,66 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Motions sampled from the truth of a benchmark's problem: parabola and free turning between the truth's impacts."""
+import functools
 import json
 import math
-import os
-import subprocess
+import pathlib
+import tempfile
 
-PROGRAM = os.environ["CLATTER_PROGRAM"]
-
-
-def run(*arguments):
-    return subprocess.run([PROGRAM, *arguments], capture_output=True, text=True, timeout=3600)
-
-
-def told(*arguments):
-    done = run(*arguments, "--format", "json")
-    assert done.returncode == 0, done.stderr
-    return json.loads(done.stdout)
-
-
-def product(p, q):
-    a, b, c, d = p
-    e, f, g, h = q
-    return (a * e - b * f - c * g - d * h, a * f + b * e + c * h - d * g,
-            a * g - b * h + c * e + d * f, a * h + b * g - c * f + d * e)
-
-
-def turned(q, v):
-    return product(product(q, (0.0, *v)), (q[0], -q[1], -q[2], -q[3]))[1:]
+from run_folder import json_of as told
+from run_folder import printed
+from space_folder import product, rotated
 
 
 def turned_back(q, v):
-    return turned((q[0], -q[1], -q[2], -q[3]), v)
+    return rotated((q[0], -q[1], -q[2], -q[3]), v)
+
+
+def scored(*texts, options=()):
+    """What is said of each text as a file of its own."""
+    with tempfile.TemporaryDirectory() as folder:
+        paths = [pathlib.Path(folder, f"{k}.csv") for k in range(len(texts))]
+        for path, text in zip(paths, texts):
+            path.write_text(text) if isinstance(text, str) else path.write_bytes(text)
+        return told("benchmark", "score", *paths, *options)["files"]
+
+
+@functools.lru_cache(maxsize=None)
+def answered(*arguments):
+    return printed("benchmark", *arguments, "--format", "json")
+
+
+class Asked:
+    """A problem with one of its starts; answers are written as rows of a file."""
+
+    def __init__(self, problem, gap_index=0, law=None):
+        self.problem, self.law = problem, law
+        self.statement = json.loads(answered("show", problem))
+        self.truth = json.loads(answered("truth", problem, *(["--law", law] if law else [])))["impacts"]
+        starts = self.statement["starts"]
+        self.start = starts[min(gap_index, len(starts) - 1)]
+        self.is_planar, self.touch = "phi" in self.start, self.start["first_touch"]
+
+    def end(self):
+        until = self.statement["until"]
+        return self.touch + (until if until else 1.02 * self.truth[-1]["t"] + 0.004)
+
+    def columns(self):
+        return ("t,x,z,phi,vx,vz,omega" if self.is_planar else "t,x,y,z,q0,q1,q2,q3,vx,vy,vz,wx,wy,wz").split(",")
+
+    def text(self, rows, **head):
+        lines = [f"# problem: {self.problem}"] + [f"# {key}: {value}" for key, value in head.items()]
+        lines += [f"# law: {self.law}"] if self.law else []
+        return "\n".join([*lines, ",".join(self.columns())] + [",".join(repr(float(x)) for x in row) for row in rows]) + "\n"
+
+    def row(self, state):
+        if not self.is_planar:
+            return [state.time, *state.position, *state.attitude, *state.velocity, *state.omega]
+        phi = 2 * math.atan2(-state.attitude[2], state.attitude[0])
+        return [state.time, state.position[0], state.position[2], phi, state.velocity[0], state.velocity[2], -state.omega[1]]
+
+    def state_at_start(self):
+        start = self.start
+        return State(0.0, start["position"], start["attitude"], start["velocity"], start["angular_velocity"])
 
 
 class Body:
@@ -107,7 +137,7 @@ class State:
         if lasts < dt:
             velocity[0] = 0.0
         attitude, rates = body.turn(self.attitude, turned_back(self.attitude, self.omega), dt)
-        state = State(time, position, attitude, velocity, turned(attitude, rates))
+        state = State(time, position, attitude, velocity, rotated(attitude, rates))
         if self.rests:
             state.rests = True
         if self.slides:
@@ -132,21 +162,15 @@ class State:
         self.slides = (gain, -slip / gain if slip * gain < 0 else math.inf)
 
 
-class Motion:
+class Motion(Asked):
     """Pieces of free flight, each from the state right after an impact."""
 
     def __init__(self, problem, gap_index=0, law=None):
-        self.statement = told("benchmark", "show", problem)
-        self.truth = told("benchmark", "truth", problem, *(["--law", law] if law else []))
-        self.problem, self.law = problem, law
+        super().__init__(problem, gap_index, law)
         scene = self.statement["scene"]
         self.body, (self.along, self.gravity) = Body(scene), pull_of(scene["world"])
-        start = self.statement["starts"][gap_index]
-        self.is_planar = "phi" in start
-        self.touch = start["first_touch"]
-        state = State(0.0, start["position"], start["attitude"], start["velocity"], start["angular_velocity"])
-        self.pieces = [state]
-        for row in self.truth["impacts"]:
+        self.pieces = [self.state_at_start()]
+        for row in self.truth:
             self.strike(self.touch + row["t"], *self.velocities(row))
         if self.statement["at_rest"]:
             self.settle(scene["impact"]["restitution"])
@@ -186,11 +210,6 @@ class Motion:
         before = self.pieces[-1].flown(self.body, self.gravity, time, self.along)
         self.pieces.append(State(time, before.position, before.attitude, velocity, omega))
 
-    def end(self):
-        until = self.statement["until"]
-        last = self.truth["impacts"][-1]["t"]
-        return self.touch + (until if until else 1.02 * last + 0.004)
-
     def rows(self, step, end=None):
         end = self.end() if end is None else end
         rows, piece = [], 0
@@ -200,21 +219,3 @@ class Motion:
                 piece += 1
             rows.append(self.row(self.pieces[piece].flown(self.body, self.gravity, time, self.along)))
         return rows
-
-    def row(self, state):
-        if not self.is_planar:
-            return [state.time, *state.position, *state.attitude, *state.velocity, *state.omega]
-        phi = 2 * math.atan2(-state.attitude[2], state.attitude[0])
-        return [state.time, state.position[0], state.position[2], phi, state.velocity[0], state.velocity[2],
-                -state.omega[1]]
-
-    def header(self):
-        return "t,x,z,phi,vx,vz,omega" if self.is_planar else "t,x,y,z,q0,q1,q2,q3,vx,vy,vz,wx,wy,wz"
-
-    def text(self, rows, **head):
-        lines = [f"# problem: {self.problem}"]
-        lines += [f"# {key}: {value}" for key, value in head.items()]
-        if self.law:
-            lines.append(f"# law: {self.law}")
-        lines.append(self.header())
-        return "\n".join(lines + [",".join(repr(float(x)) for x in row) for row in rows]) + "\n"

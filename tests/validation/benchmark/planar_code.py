@@ -1,27 +1,23 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A small event-driven code for planar rods and boxes, in which faults can be planted."""
+"""Small codes for planar rods and boxes: one that goes from event to event, in which faults can be planted, and one of steps."""
 import math
 
-import exact_motion
+from exact_motion import Asked, Body
 
 
-class Code:
+class Code(Asked):
     """Free flight to the earliest touch, then an impact; `strike` and `fly` can be replaced by faulty ones."""
 
     def __init__(self, problem, gap_index=0, law=None):
-        self.statement = exact_motion.told("benchmark", "show", problem)
-        self.problem, self.declared = problem, law
+        super().__init__(problem, gap_index, law)
         scene = self.statement["scene"]
-        body = exact_motion.Body(scene)
+        body = Body(scene)
         self.mass, self.moment = body.mass, body.moments[1]
         self.points = sorted({(x, z) for x, _, z in body.points})
         self.gravity = scene["world"]["gravity"]
         self.e = scene["impact"]["restitution"]
         self.friction = scene["impact"].get("friction") or 0.0
-        start = self.statement["starts"][gap_index]
-        self.touch = start["first_touch"]
-        self.state = [0.0, start["position"][0], start["position"][2], start["phi"], start["velocity"][0],
-                      start["velocity"][2], start["omega"]]
+        self.state = self.row(self.state_at_start())
         self.impacts = 0
 
     def height(self, state, point):
@@ -95,14 +91,40 @@ class Code:
             self.impacts += 1
             struck = points
 
-    def end(self):
-        until = self.statement["until"]
-        last = self.statement["truth"][-1]["t"]
-        return self.touch + (until if until else 1.02 * last + 0.004)
 
-    def text(self, rows, **head):
-        lines = [f"# problem: {self.problem}"] + [f"# {key}: {value}" for key, value in head.items()]
-        if self.declared:
-            lines.append(f"# law: {self.declared}")
-        lines.append("t,x,z,phi,vx,vz,omega")
-        return "\n".join(lines + [",".join(repr(float(x)) for x in row) for row in rows]) + "\n"
+class StepCode(Code):
+    """Euler's steps, with the exact impulse at points on or in the ground.  One row a step, or one in `every`; what is done in
+    a step, in its order: k gravity, s impacts, d places."""
+
+    def __init__(self, problem, gap_index=0, step=1 / 960, order="ksd"):
+        super().__init__(problem, gap_index)
+        self.step, self.order = step, order
+
+    def advance(self, state):
+        for part in self.order:
+            if part == "k":
+                state = state[:5] + [state[5] - self.gravity * self.step / self.order.count("k"), state[6]]
+            elif part == "d":
+                x, z, phi, vx, vz, omega = state[1:]
+                state = [state[0] + self.step, x + vx * self.step, z + vz * self.step, phi + omega * self.step, vx, vz, omega]
+            else:
+                state = self.struck(state)
+        return state
+
+    def struck(self, state):
+        """The lowest point that comes down first."""
+        for point in sorted(range(len(self.points)), key=lambda k: self.height(state, k)):
+            if self.height(state, point) <= 1e-9 and self.approach(state, point) < 0:
+                state = self.apply(state, point, *self.impulse(state, point, self.e, self.friction))
+        return state
+
+    def rows(self, every=1, end=None):
+        end, rows, state = self.end() if end is None else end, [], self.state
+        for k in range(math.ceil(end / self.step) + every + 1):
+            if k % every == 0:
+                rows.append([k * self.step, *state[1:]])
+            state = self.advance(state)
+        return rows
+
+    def text(self, every=1, **head):
+        return super().text(self.rows(every), **head)

@@ -1,48 +1,39 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """A small event-driven code for every rigid problem, in the plane and in space, in which faults can be planted."""
-import copy
-import functools
 import math
 
 import numpy as np
 
-import exact_motion
-from exact_motion import State, turned, turned_back
+from exact_motion import Asked, Body, State, pull_of, rotated, turned_back
 
 
-@functools.lru_cache(maxsize=None)
-def asked(problem):
-    """The statement, the law that the code follows, if it matters, and its truth."""
-    statement = exact_motion.told("benchmark", "show", problem)
-    law = "newton moreau" if "newton moreau" in statement["laws"] else None
-    return statement, law, exact_motion.told("benchmark", "truth", problem, *(["--law", law] if law else []))["impacts"]
+def law_of(problem):
+    """The law that the code follows, if it matters."""
+    return "newton moreau" if "newton moreau" in Asked(problem).statement["laws"] else None
 
 
-class RigidCode:
+class RigidCode(Asked):
     """Flights to the earliest touch, then Moreau's impact; numbers and methods can be replaced by faulty ones."""
 
     def __init__(self, problem, gap_index=0):
-        self.statement, self.law, self.truth = copy.deepcopy(asked(problem))
-        self.problem = problem
-        scene, starts = self.statement["scene"], self.statement["starts"]
-        self.body, (self.along, self.gravity) = exact_motion.Body(scene), exact_motion.pull_of(scene["world"])
+        super().__init__(problem, gap_index, law_of(problem))
+        scene = self.statement["scene"]
+        self.body, (self.along, self.gravity) = Body(scene), pull_of(scene["world"])
         self.mass, self.inertia = self.body.mass, np.diag(self.body.moments)
         self.size = scene["body"]["radius"] if not self.body.points else max(math.hypot(*p) for p in self.body.points)
         # One point for the ends of a planar body's edges, all along y.
         end = self.statement["ground_end"]  # strikes a level box in place of the corner over it
         flat = {(end if end is not None and x > 0 > z else x, 0.0, z) for x, _, z in self.body.points}
-        start = starts[min(gap_index, len(starts) - 1)]
-        self.is_planar, self.touch = "phi" in start, start["first_touch"]
         self.points = sorted(flat if self.is_planar else self.body.points)
         self.e, self.friction = scene["impact"]["restitution"], scene["impact"].get("friction") or 0.0
-        self.state = State(0.0, start["position"], start["attitude"], start["velocity"], start["angular_velocity"])
+        self.state = self.state_at_start()
         self.levers, self.count, self.gone = 1.0, 0, False
         self.speed = math.hypot(*self.state.velocity) + math.hypot(*self.state.omega) * self.size
 
     def arms(self, state):
         if not self.points:
             return [np.array([0.0, 0.0, -self.size])]
-        return [np.array(turned(state.attitude, p)) for p in self.points]
+        return [np.array(rotated(state.attitude, p)) for p in self.points]
 
     def fly(self, state, time):
         return state.flown(self.body, self.gravity, time, self.along)
@@ -73,7 +64,7 @@ class RigidCode:
 
     def impulse(self, state, arm):
         """Newton's e and Coulomb's cone for the velocity after the impact."""
-        turn = np.array([turned(state.attitude, axis) for axis in np.eye(3)]).T
+        turn = np.array([rotated(state.attitude, axis) for axis in np.eye(3)]).T
         inverse = turn @ np.linalg.inv(self.inertia) @ turn.T
         cross = np.array([[0, -arm[2], arm[1]], [arm[2], 0, -arm[0]], [-arm[1], arm[0], 0]])
         w = np.eye(3) / self.mass - cross @ inverse @ cross
@@ -115,10 +106,6 @@ class RigidCode:
         tilting = -self.e * np.array(state.omega)
         return struck(state, [*(left * slip[:2]), -self.e * state.velocity[2]], [*tilting[:2], left * state.omega[2]])
 
-    def end(self):
-        until, last = self.statement["until"], self.truth[-1]["t"]
-        return self.touch + (until if until else 1.02 * last + 0.004)
-
     def states(self, step):
         """At multiples of the step, until the end."""
         end, now, points, k = self.end(), self.state, [], 0
@@ -136,7 +123,7 @@ class RigidCode:
             self.count += 1
 
     def rows(self, step):
-        return [exact_motion.Motion.row(self, state) for state in self.states(step)]
+        return [self.row(state) for state in self.states(step)]
 
 
 def struck(state, velocity, omega):

@@ -1,29 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Every row of a motion counts, and the text and the picture say what the class is by."""
-import json
-import pathlib
-import tempfile
 import unittest
 
-from exact_motion import Motion, run
+from exact_motion import Motion, scored
+from run_folder import EmptyFolder
 
 POSES = {True: ["x", "z", "phi"], False: ["x", "y", "z", "q"]}  # of a body in the plane, in space
-
-
-class Folder(unittest.TestCase):
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = pathlib.Path(folder.name)
-
-    def score(self, *texts, options=()):
-        paths = []
-        for k, text in enumerate(texts):
-            paths.append(self.folder / f"{k}.csv")
-            paths[-1].write_text(text)
-        done = run("benchmark", "score", *map(str, paths), "--format", "json", *options)
-        self.assertEqual(done.returncode, 0, done.stderr)
-        return json.loads(done.stdout)["files"]
 
 
 def spoilt(motion, rows, first, last, name, change):
@@ -33,11 +15,11 @@ def spoilt(motion, rows, first, last, name, change):
         if name == "q":
             row[4:8] = [-row[5], row[4], row[7], -row[6]]
         else:
-            row[motion.header().split(",").index(name)] += change
+            row[motion.columns().index(name)] += change
     return out
 
 
-class Rows(Folder):
+class Rows(unittest.TestCase):
     def test_one_row_beside_its_flight_is_found_wherever_it_is(self):
         for problem in ("rod-10", "box", "corner"):
             motion = Motion(problem, 1)
@@ -50,7 +32,7 @@ class Rows(Folder):
                     small = [1e-4] if where != "last" else []  # behind what is asked for, where a speed may do that
                     for change in [*small, 5.0, 1e200, 1e308] if name in "xz" else [2.0]:
                         texts[where, name, change] = motion.text(spoilt(motion, rows, k, k, name, change))
-            for (where, name, change), found in zip(texts, self.score(*texts.values())):
+            for (where, name, change), found in zip(texts, scored(*texts.values())):
                 with self.subTest(problem=problem, where=where, name=name, change=change):
                     self.assertEqual(found["verdict"], "good" if change == 1e-4 and found["error"] < 1e-3 else
                                      "coarse" if change == 1e-4 else "fails")
@@ -65,7 +47,7 @@ class Rows(Folder):
             begin = sum(row[0] < motion.pieces[1].time for row in rows)
             last = sum(row[0] < motion.pieces[2].time for row in rows) - 3
             for name in ("x", "z"):
-                found, = self.score(motion.text(spoilt(motion, rows, begin + 2, last, name, 0.3)))
+                found, = scored(motion.text(spoilt(motion, rows, begin + 2, last, name, 0.3)))
                 with self.subTest(problem=problem, name=name):
                     self.assertEqual(found["verdict"], "fails")
                     self.assertEqual([cause["cause"] for cause in found["causes"]], ["stray-rows"])
@@ -76,11 +58,11 @@ class Rows(Folder):
             motion = Motion(problem, 1)
             rows = motion.rows(1e-2)
             k = sum(row[0] < motion.pieces[2].time for row in rows) - 2
-            at = motion.header().split(",").index(name)
+            at = motion.columns().index(name)
             for wrong in (-rows[k][at] + 3, 1e9, 1e308):
                 out = [list(row) for row in rows]
                 out[k][at] = wrong
-                found, = self.score(motion.text(out))
+                found, = scored(motion.text(out))
                 with self.subTest(problem=problem, name=name, wrong=wrong):
                     self.assertIn(found["verdict"], ("coarse", "fails"))
                     if not found["order_right"]:  # counted as an impact
@@ -92,7 +74,7 @@ class Rows(Folder):
             motion = Motion(problem, 1)
             rows = motion.rows(1e-3)
             begin = sum(row[0] < motion.pieces[1].time for row in rows)
-            found, = self.score(motion.text(spoilt(motion, rows, begin, len(rows), name, 0.3)))
+            found, = scored(motion.text(spoilt(motion, rows, begin, len(rows), name, 0.3)))
             self.assertEqual((found["verdict"], found["causes"]), ("fails", []))
             self.assertIn(f"no speed explains the way to line {begin + 3} after impact 1: {name} is 0.30 m",
                           " ".join(found["findings"]))
@@ -102,7 +84,7 @@ class Rows(Folder):
             motion = Motion(problem, 0)
             rows = motion.rows(2e-3, 1.2 * motion.end())
             k = len(rows) - 4
-            right, *wrong = self.score(motion.text(rows), *(motion.text(spoilt(motion, rows, k, k, name, 0.3))
+            right, *wrong = scored(motion.text(rows), *(motion.text(spoilt(motion, rows, k, k, name, 0.3))
                                                            for name in ("x", "z")))
             self.assertEqual(right["verdict"], "exact", problem)
             for found in wrong:
@@ -111,7 +93,7 @@ class Rows(Folder):
                     self.assertIn(f"line {k + 3}: ", found["causes"][0]["words"])
 
 
-class Reasons(Folder):
+class Reasons(EmptyFolder):
     def hot(self, factor=1.006):
         """After an impact straight down V is off by 0.006 and the energy by twice that, beyond what is coarse."""
         motion = Motion("flat", 1)
@@ -119,16 +101,17 @@ class Reasons(Folder):
         return motion.text(motion.rows(1e-3))
 
     def test_what_the_class_is_by_is_said_with_its_size(self):
-        found, = self.score(self.hot())
+        found, = scored(self.hot())
         self.assertEqual((found["verdict"], found["decided_by"]), ("fails", "energy"))
         self.assertIn("energy after impact 1 is off, error 0.012", found["findings"])
-        self.assertIn("0.csv: fails by energy, off by 0.012", run("benchmark", "score", str(self.folder / "0.csv")).stdout)
+        self.write("0.csv", self.hot())
+        self.assertIn("0.csv: fails by energy, off by 0.012", self.run_program("benchmark", "score", "0.csv").stdout)
 
     def test_the_picture_shows_the_error_that_the_class_is_by_and_names_all_problems(self):
         step = Motion("rod-10", 1)
         texts = self.hot(), step.text(spoilt(step, step.rows(1e-3), 50, 50, "z", 5.0))
-        files = self.score(*texts, options=("--plot", str(self.folder / "p.svg"), "--plot-script"))
-        script = (self.folder / "p.gnuplot").read_text()
+        files = scored(*texts, options=("--plot", self.path("p.svg"), "--plot-script"))
+        script = self.read("p.gnuplot")
         for words in ("fails by energy", "fails by flight", "problem flat", "problem rod-10"):
             self.assertIn(words, script)
         for found in files:

@@ -4,12 +4,11 @@
 Run as a program it makes the files anew.
 """
 import pathlib
-import json
 import math
 import unittest
 
-import exact_motion
 import planted_test
+from exact_motion import Asked, printed, product, scored
 from rigid_code import RigidCode
 
 FOLDER = pathlib.Path(__file__).resolve().parents[3] / "notebooks-data" / "threads"
@@ -57,14 +56,14 @@ def one_end_at_a_time():
 
 
 def second_end_rests():
-    truth = exact_motion.told("benchmark", "truth", "rod-45")["impacts"]
+    truth = Asked("rod-45").truth
     first, second = ([row[k] for k in ("t", "place", "Pn", "Pt", "V", "Omega")] for row in truth)
     second[2:] = second[2] / 2, 0.0, (first[4] + second[4]) / 2, (first[5] + second[5]) / 2
     return planar_list("rod-45", (first, second), "# ended: nothing approaches")
 
 
 def more_energy():
-    text = exact_motion.run("benchmark", "truth", "long", "--format", "csv").stdout
+    text = printed("benchmark", "truth", "long", "--format", "csv")
     energy = text.split("# energy: ")[1].split()[0]
     return text.replace(energy, repr(1.05 * float(energy)), 1)
 
@@ -81,17 +80,17 @@ def without_gyroscopic_term():
         out, speed = RigidCode.fly(code, state, time), math.hypot(*state.omega)
         half = speed * (time - state.time) / 2
         turn = (math.cos(half), *(math.sin(half) * w / speed for w in state.omega))
-        out.attitude, out.omega = exact_motion.product(turn, state.attitude), state.omega
+        out.attitude, out.omega = product(turn, state.attitude), state.omega
         return out
     code = RigidCode("tumble", 2)
     code.fly = fly.__get__(code)
-    return planted_test.written(code, code.rows(0.02))
+    return code.text(code.rows(0.02))
 
 
 def damped():
     code = RigidCode("rod-10", 1)
     planted_test.damped(0.1, 0.1)(code)
-    return planted_test.written(code, code.rows(0.005))
+    return code.text(code.rows(0.005))
 
 
 REST = "# energy: 0.9810000000000001"
@@ -125,7 +124,7 @@ class Threads(unittest.TestCase):
     def test_each_answer_gets_the_name_of_its_fault(self):
         for name, (_, cause, words) in THREADS.items():
             with self.subTest(name):
-                found = json.loads(exact_motion.run("benchmark", "score", str(FOLDER / f"{name}.csv"), "--format", "json").stdout)["files"][0]
+                found = scored((FOLDER / f"{name}.csv").read_text())[0]
                 self.assertEqual(found["verdict"], "fails")
                 self.assertEqual([one["cause"] for one in found["causes"]][:1], [cause] if cause else [])
                 self.assertIn(words, " ".join([one["words"] for one in found["causes"]] + found["findings"]))

@@ -1,36 +1,30 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""`clatter demo`: the page that it writes, the address that it prints, the browser that it opens.  CLATTER_PROGRAM is the program."""
+"""`clatter demo`: the page that it writes, the address that it prints, the browser that it opens."""
 
 import html
-import json
 import os
 import re
-import subprocess
 import tempfile
-import unittest
 import urllib.parse
 from pathlib import Path
 
-PROGRAM = os.environ["CLATTER_PROGRAM"]
+import run_folder
+from run_folder import EmptyFolder, json_of
+
 HINT = "clatter: no desktop here to open the page; --export FILE writes a copy to carry elsewhere\n"
 BOX = ["--body", "box", "--mass", "0.2", "--size", "0.15x0.07x0.01"]
 
 
 def run(*arguments, folder, **variables):
     environment = {name: value for name, value in os.environ.items() if name not in ("DISPLAY", "WAYLAND_DISPLAY", "XDG_CACHE_HOME")}
-    return subprocess.run([PROGRAM, "demo", *arguments], capture_output=True, text=True, cwd=folder, check=False,
-                          env={**environment, "HOME": folder, **variables})
-
-
-def printed(*arguments):
-    return json.loads(subprocess.run([PROGRAM, *arguments, "--format", "json"], capture_output=True, text=True, check=True).stdout)
+    return run_folder.run("demo", *arguments, cwd=folder, env={**environment, "HOME": folder, **variables})
 
 
 def scene_in(page):
     return html.unescape(re.search(r'name="clatter-scene" content="([^"]*)"', page.read_text(encoding="utf-8"))[1])
 
 
-class Demo(unittest.TestCase):
+class Demo(EmptyFolder):
     def test_the_address_is_of_a_page_that_has_the_scene_given(self):
         """Its fragment holds the arguments that give the scene again."""
         for arguments in (["--angle", "20", "--height", "1", "--gravity", "9.81"], ["phone-damped", "--angle", "25"], ["phone-corner"],
@@ -46,7 +40,7 @@ class Demo(unittest.TestCase):
                 self.assertEqual(query.pop("given"), "1")
                 flags = [part for name, value in query.items() for part in ("--" + name.replace("_", "-"), value)]
                 model = "simulate" if "stiffness" in query else "sequence"
-                self.assertEqual(printed(model, *flags)["impacts"], printed(model, *arguments)["impacts"])
+                self.assertEqual(json_of(model, *flags)["impacts"], json_of(model, *arguments)["impacts"])
 
     def test_a_file_without_a_ground_is_the_drop_of_the_same_flags(self):
         flags = ["--angle", "10", "--gravity", "9.81", "--friction", "0.3", "--restitution", "0.8"]
@@ -84,16 +78,8 @@ class Demo(unittest.TestCase):
             self.assertLess(page.stat().st_size, 2_500_000)
 
     def test_bad_arguments_are_one_line(self):
-        for arguments, words in ((["--export", "/no/such/folder/x.html"], "--export"), (["phone-sweep"], "sweep"), (["--port", "8000"], "--port"),
-                                 (["--body", "mesh", "--angle", "10"], "mesh"), (["--angle", "95"], "--angle"), (["no-such-case"], "no-such-case")):
-            with self.subTest(arguments=arguments), tempfile.TemporaryDirectory() as folder:
-                done = run(*arguments, folder=folder)
-                self.assertEqual((done.returncode, done.stdout, done.stderr.count("\n")), (2, "", 1), done.stderr)
-                self.assertIn(words, done.stderr)
-                self.assertEqual(os.listdir(folder), [])
+        self.each_refused({"--export /no/such/folder/x.html": "--export", "phone-sweep": "sweep", "--port 8000": "--port", "--angle 95": "--angle",
+                           "--body mesh --angle 10": "mesh", "no-such-case": "no-such-case"}, "demo", env={**os.environ, "HOME": self.folder})
 
     def test_without_a_folder_of_its_own_it_says_so(self):
-        with tempfile.TemporaryDirectory() as folder:
-            done = run(folder=folder, HOME="")
-            self.assertEqual((done.returncode, done.stdout, done.stderr.count("\n")), (2, "", 1))
-            self.assertIn("--export", done.stderr)
+        self.refused("--export", "demo", env={name: value for name, value in os.environ.items() if name not in ("HOME", "XDG_CACHE_HOME")} | {"HOME": ""})

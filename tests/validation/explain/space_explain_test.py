@@ -3,6 +3,7 @@
 
 import math
 
+import mpmath
 from space_folder import CENTRE, INERTIA, MASS, SIZE, SpaceFolder, box_moments, rotated, times, words
 
 PHONE = ["--body", "box", "--size", "x".join(map(str, SIZE)), "--mass", str(MASS)]
@@ -15,12 +16,6 @@ def dot(a, b):
 
 def inverse(q):
     return (q[0], -q[1], -q[2], -q[3])
-
-
-def arithmetic_geometric_mean(a, b):
-    while abs(a - b) > 1e-15 * a:
-        a, b = (a + b) / 2, math.sqrt(a * b)
-    return a
 
 
 class Explained(SpaceFolder):
@@ -50,7 +45,7 @@ class Explained(SpaceFolder):
                 a, c = c, a
             k2 = (b - a) * (energy * c - square) / ((c - b) * (square - energy * a))
             rate = math.sqrt((c - b) * (square - energy * a) / (a * b * c))
-            period = 4 * math.pi / (2 * arithmetic_geometric_mean(1, math.sqrt(1 - k2))) / rate
+            period = 4 * math.pi / (2 * float(mpmath.agm(1, math.sqrt(1 - k2)))) / rate
             self.assertAlmostEqual(shown["k²"], k2, delta=1e-11)
             self.assertAlmostEqual(shown["T_p"], period, delta=1e-10 * period)
             flown = self.values(self.steps_of(2, *CORNER, *given)["The earliest corner"])["N"]

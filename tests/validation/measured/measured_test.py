@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """`clatter measured`: tracked drops from a file to a table, a picture, or one line that says what is wrong."""
 
-import json
 import os
 import shutil
 import unittest
@@ -15,9 +14,7 @@ CUBES = os.path.join(HERE, "cube-tosses.csv")
 
 class Measured(Folder):
     def result(self, *arguments):
-        done = self.run_program("measured", *arguments, "--format", "json")
-        self.assertEqual(done.returncode, 0, done.stderr)
-        return json.loads(done.stdout)
+        return self.json_of("measured", *arguments, status=(0,))
 
     def lines(self, name):
         with open(name, encoding="utf-8") as file:
@@ -56,7 +53,6 @@ class Measured(Folder):
         self.assertNotIn("1", scored)
         self.assertNotIn("111", scored)
         self.assertIn("251", scored)
-        self.refused("--fit-from", "measured", "score", SQUARES, "--fit-from", SQUARES)
 
     def test_a_file_never_seen_goes_through_the_same_command(self):
         rows = self.lines(SQUARES)
@@ -83,32 +79,17 @@ class Measured(Folder):
             self.assertAlmostEqual(a["restitution"], b["restitution"], delta=1e-4)
             self.assertAlmostEqual(a["friction"], b["friction"], delta=1e-4)
 
-    def test_frames_that_are_lost_or_torn_are_reported(self):
-        rows = self.lines(SQUARES)
-        whole = self.result("fit", SQUARES)["data"]
-        less = [row for row in rows if not row.startswith("1,5,")]
-        place = next(i for i, row in enumerate(less) if row.startswith("11,5,"))
-        parts = less[place].split(",")
-        less[place] = ",".join(parts[:2] + [str(float(parts[2]) + 0.02)] + parts[3:])
-        self.write("less.csv", "".join(less))
-        data = self.result("fit", self.path("less.csv"), "--body", "square-drops")["data"]
-        self.assertEqual(data["missing"], whole["missing"] + 1)
-        self.assertEqual(data["torn"], whole["torn"] + 1)
-
     def test_what_is_wrong_is_said_in_one_line(self):
-        self.refused("ACTION", "measured", "guess", SQUARES)
-        self.refused("--body takes a file or one of", "measured", "fit", self.path("body.stl"))
         shutil.copy(SQUARES, self.path("a.csv"))
-        self.refused("--body round: neither", "measured", "fit", self.path("a.csv"), "--body", "round")
-        self.refused("no column toss; there are drop sample x_m z_m angle_rad (track.drop, track.x and so on in "
-                     "validation/measured/cube-tosses.toml name them)", "measured", "fit", self.path("a.csv"), "--body", "cube-tosses")
-        self.refused("no drop is called 2", "measured", "fit", SQUARES, "--fit-on", "1,2")
+        self.each_refused({
+            "guess square-drops": "ACTION", "fit body.stl": "--body takes a file or one of", "fit a.csv --body round": "--body round: neither",
+            "fit a.csv --body cube-tosses": "no column toss; there are drop sample x_m z_m angle_rad (track.drop, track.x and so on in "
+                                            "validation/measured/cube-tosses.toml name them)",
+            "fit square-drops --fit-on 1,2": "no drop is called 2", "fit square-drops --fit-on 1,11,21 --seed 3": "excludes",
+            "fit square-drops --share 1.5": "--share", "score square-drops --drop x --plot p.svg": "--drop x",
+            "score square-drops --drop 999": "--drop 999: needs --plot", "fit square-drops --plot p.svg": "--plot",
+            f"score {SQUARES} --fit-from {SQUARES}": "--fit-from"}, "measured")
         self.refused("point impacts among the drops to fit on", "measured", "fit", SQUARES, "--fit-on", "1,31,81", status=3)
-        self.refused("excludes", "measured", "fit", SQUARES, "--fit-on", "1,11,21", "--seed", "3")
-        self.refused("--share", "measured", "fit", SQUARES, "--share", "1.5")
-        self.refused("--drop x", "measured", "score", SQUARES, "--drop", "x", "--plot", self.path("p.svg"))
-        self.refused("--drop 999: needs --plot", "measured", "score", SQUARES, "--drop", "999")
-        self.refused("--plot", "measured", "fit", SQUARES, "--plot", self.path("p.svg"))
         self.write("b.csv", "drop,sample,x_m,z_m,angle_rad\n1,0,0,1,0\n1,0,0,1,0\n")
         self.refused("b.csv:3:", "measured", "fit", self.path("b.csv"), "--body", "square-drops")
         self.write("b.toml", "[body]\nsize = [1, 1, 1]\n[track]\nmotion = 'plane'\nrate = 0\n")

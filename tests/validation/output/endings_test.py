@@ -6,7 +6,6 @@ import resource
 import signal
 import subprocess
 import threading
-import unittest
 
 from run_folder import PROGRAM, Folder
 from waiting import computing_seconds, sizes, until
@@ -60,10 +59,6 @@ class Devices(Folder):
             self.assertEqual((done.returncode, done.stderr),
                              (3, "clatter: standard output: cannot be written (No space left on device)\n"))
         self.refused("--history /dev/full", "simulate", "scene.toml", "--history", "/dev/full")
-
-
-class FullDisk(Folder):
-    """A file that may not grow beyond a size stands for a disk that is full."""
 
     def test_it_is_one_line_and_leaves_nothing(self):
         for size in (0, 1, 100):

@@ -4,7 +4,6 @@
 import os
 import shutil
 import subprocess
-import unittest
 
 from run_folder import PROGRAM, ROOT, Folder, case
 
@@ -96,8 +95,6 @@ class Overwriting(Folder):
         self.refused("--output scene.toml/out", "simulate", "scene.toml", "--history", "h.csv", "--output", "scene.toml/out")
         self.refused("--output .", "simulate", "scene.toml", "--history", "h.csv", "--output", ".")
 
-
-class Links(Folder):
     def test_a_symbolic_link_is_written_through(self):
         """Its target is replaced whole, with the permissions that it had; the link stays one."""
         os.mkdir(self.path("away"))
@@ -131,8 +128,6 @@ class Links(Folder):
         self.assertEqual(self.run_program("sequence", "--angle", "10", "--output", "out").returncode, 0)
         self.assertEqual(self.read("kept"), "old")
 
-
-class Names(Folder):
     def test_a_name_as_long_as_names_can_be_is_written(self):
         name = "x" * os.pathconf(self.folder, "PC_NAME_MAX")
         self.assertEqual(self.run_program("sequence", "--angle", "10", "--output", name).returncode, 0)

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """--plot and --plot-script: the pictures, the scripts that draw them, and what is refused."""
 
+import itertools
 import json
 import math
 import os
@@ -9,7 +10,6 @@ import shutil
 import signal
 import struct
 import subprocess
-import unittest
 import xml.etree.ElementTree as ElementTree
 
 from run_folder import PROGRAM, EmptyFolder, case, records, run
@@ -75,7 +75,7 @@ class InFolder(EmptyFolder):
 
 
 class Pictures(InFolder):
-    def test_svg_has_axes_units_and_legends_and_its_script_draws_it_again(self):
+    def test_svg_has_axes_units_and_legends_its_script_draws_it_again_and_png_is_of_a_sensible_size(self):
         for name, (arguments, axes, legends) in COMMANDS.items():
             with self.subTest(name):
                 self.plotted(*arguments)
@@ -94,21 +94,12 @@ class Pictures(InFolder):
                 drawn = subprocess.run(["gnuplot", "p.gnuplot"], cwd=again, capture_output=True, text=True)
                 self.assertEqual((drawn.returncode, drawn.stdout, drawn.stderr), (0, "", ""))
                 self.assertEqual(self.read("again/p.svg"), self.read("p.svg"))
-
-    def test_png_is_one_of_a_sensible_size(self):
-        for name in QUICK:
-            with self.subTest(name):
-                done = run(*COMMANDS[name][0], "--plot", self.path("p.png"))
-                self.assertEqual(done.returncode, 0, done.stderr)
-                with open(self.path("p.png"), "rb") as file:
-                    picture = file.read()
-                self.assertEqual(picture[:8], b"\x89PNG\r\n\x1a\n")
-                self.assertEqual(picture[-8:-4], b"IEND")
-                width, height = struct.unpack(">II", picture[16:24])
-                self.assertEqual(width, 1120)
-                self.assertTrue(500 < height < 1600, height)
-                self.assertGreater(len(picture), 20000)
-                self.assertEqual(os.listdir(self.folder), ["p.png"])
+                if name in QUICK:
+                    self.assertEqual(run(*arguments, "--plot", self.path("p.png")).returncode, 0)
+                    picture = self.bytes("p.png")
+                    width, height = struct.unpack(">II", picture[16:24])
+                    self.assertEqual((picture[:8], picture[-8:-4], width), (b"\x89PNG\r\n\x1a\n", b"IEND", 1120))
+                    self.assertTrue(500 < height < 1600 and len(picture) > 20000, height)
 
     def test_the_ring_of_tilts_gives_each_outcome_its_share_of_the_circle(self):
         text, data = self.plotted("sequence", *FACE, "--format", "json")
@@ -126,11 +117,10 @@ class Pictures(InFolder):
         self.assertEqual(len(data["panel3_4"]), 4)
 
     def test_standard_output_is_the_same_with_and_without(self):
-        for name in QUICK:
-            for form in ("table", "csv", "json"):
-                arguments = [*COMMANDS[name][0], "--format", form]
-                plain = run(*arguments)
-                self.assertEqual(run(*arguments, "--plot", self.path("p.svg")).stdout, plain.stdout, (name, form))
+        for name, form in itertools.product(QUICK, ("table", "csv", "json")):
+            arguments = [*COMMANDS[name][0], "--format", form]
+            plain = run(*arguments)
+            self.assertEqual(run(*arguments, "--plot", self.path("p.svg")).stdout, plain.stdout, (name, form))
 
     def test_names_are_quoted(self):
         name = "it's `touch x` $HOME"
@@ -384,8 +374,6 @@ class Data(InFolder):
         self.assertEqual([drawn[f"panel1_{k}"][0][1] for k in range(1, 5)], [1e-9, 1e-6, 1e-3, 1e-2])
         self.assertIn(">of_a_code.csv: ", self.read("p.svg"))  # no letter of it is a subscript
 
-
-class Refused(InFolder):
     def test_what_is_wrong_is_one_line_and_nothing_is_written(self):
         for arguments, _, _ in COMMANDS.values():
             self.each_refused({**{f"--plot {wrong}": "must end in .svg or .png" for wrong in ("p.pdf", "p", "p.svg.gz", ".svg")},
@@ -396,12 +384,9 @@ class Refused(InFolder):
 
     def test_without_gnuplot_the_package_is_named(self):
         os.mkdir(self.path("empty"))
-        for arguments, _, _ in COMMANDS.values():
-            for picture in ("p.svg", "p.png"):
-                self.refused("install the package gnuplot-nox", *arguments, "--plot", picture, env={**os.environ, "PATH": self.path("empty")})
+        for (arguments, _, _), picture in itertools.product(COMMANDS.values(), ("p.svg", "p.png")):
+            self.refused("install the package gnuplot-nox", *arguments, "--plot", picture, env={**os.environ, "PATH": self.path("empty")})
 
-
-class InSpace(InFolder):
     def test_a_sequence_in_space_draws_its_impulses_corner_by_corner_above_nothing_below_the_floor(self):
         out, drawn = self.plotted("sequence", "phone-corner", "--impacts", "6", "--format", "json")
         impacts = json.loads(out)["impacts"]
@@ -413,8 +398,6 @@ class InSpace(InFolder):
             self.assertLess(min(height for t, height in lowest if t == time), 1e-9 * size)
         self.assertTrue(all(0 <= low <= high for (_, low), (_, high) in zip(lowest, centre)))
 
-
-class WithoutPicture(InFolder):
     def limited(self, name, evaluations):
         with open(case(name), encoding="utf-8") as file:
             return self.write("scene.toml", file.read().replace("[run]", f"[run]\nevaluation_limit = {evaluations}"))

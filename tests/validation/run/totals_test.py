@@ -123,12 +123,6 @@ class Shortfalls(Base):
         self.assertEqual(len(rows), len(data["impacts"]))
         self.assertEqual({None} & {value for row in rows for value in row.values()}, set())
 
-    def test_compare_plan_and_tradeoff_end_with_status_3_where_a_run_was_cut_short(self):
-        for command in ("compare", "plan", "tradeoff"):
-            with self.subTest(command):
-                result = self.short(command, self.overdamped)
-                self.assertRegex(result.stderr, "force evaluations|steps too small|double precision|within the work")
-
     def test_a_sweep_says_in_which_rows_and_why_it_falls_short_and_ends_with_status_3(self):
         sweep = ["sweep", PHONE, "--set", "run.evaluation_limit=20:200020:200000", *QUICK]
         result = self.short(*sweep)

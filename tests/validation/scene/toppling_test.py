@@ -11,20 +11,12 @@ BRICK = ["--body", "box", "--size", "0.2x0.1x0.06", "--mass", "2"]
 GRAVITY = 9.81
 
 
-def work_of_weight(side, up, angle, steps=200):
-    """Per mass, of a centre of mass that lies `side` and `up` from the edge when level, raised by `angle`: Gauss-Legendre
-    sums of the weight's lever over the turn."""
-    nodes = ((0.0, 8 / 9), (math.sqrt(0.6), 5 / 9), (-math.sqrt(0.6), 5 / 9))
-    width = angle / steps
-    return sum(GRAVITY * (side * math.cos(phi) - up * math.sin(phi)) * weight * width / 2
-               for k in range(steps) for node, weight in nodes for phi in [width * (k + (1 + node) / 2)])
-
-
 class Toppling(SpaceFolder):
     def rate(self, extents, gyration_square, height, centre=(0, 0)):
         """Angular speed at the touch of a box with these extents along x and z, its centre of mass off the middle."""
         side, up = extents[0] / 2 - centre[0], extents[1] / 2 + centre[1]
-        work = work_of_weight(side, up, math.asin(height / extents[0]))
+        angle = math.asin(height / extents[0])
+        work = GRAVITY * (side * math.sin(angle) - up * (1 - math.cos(angle)))  # of the weight over the turn
         return math.sqrt(2 * work / (gyration_square + side**2 + up**2)), side, up
 
     def check_against(self, flags, rate, side, up):

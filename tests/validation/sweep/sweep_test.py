@@ -2,6 +2,7 @@
 """`clatter sweep` as its users meet it: the same file however it came about, rows as the other commands have them."""
 
 import importlib.util
+import itertools
 import json
 import math
 import os
@@ -12,13 +13,11 @@ import signal
 import struct
 import subprocess
 import unittest
-from pathlib import Path
 
-from run_folder import PROGRAM, EmptyFolder, case, records, rows_of, run, stl
+from run_folder import MPIRUN, PROGRAM, EmptyFolder, case, records, rows_of, run, stl
 from space_folder import box_faces
 from waiting import until
 
-MPIEXEC = os.environ.get("CLATTER_MPIEXEC", "")
 HDF5 = os.path.exists(os.path.join(os.path.dirname(PROGRAM), "clatter-hdf5.so")) and importlib.util.find_spec("h5py")
 
 THIN_ROD = "[drop]\nangle_deg = 10\n[world]\ngravity = 9.81\n[body]\nradius = 0\n[run]\nimpacts = 4\n"
@@ -131,23 +130,22 @@ class SameAsTheOtherCommands(Folder):
             for total, part in (("total_normal_impulse", "impulse_normal"), ("energy_loss", "energy_loss")):
                 self.assertAlmostEqual(float(row[total]), sum(float(impact[part]) for impact in own), delta=1e-15)
 
-    def test_the_shock_of_a_point_is_that_of_shock_in_the_plane_and_in_space(self):
-        probes = {"camera": "0.048,0.016,0.0095", "back.left-1": "-0.05,0.02,0"}
-        flags = [word for name, place in probes.items() for word in ("--probe", f"{name}:{place}")]
+    def test_what_a_point_goes_through_is_that_of_shock_in_the_plane_in_space_and_on_a_ground(self):
+        flags = ["--probe", "camera:0.048,0.016,0.0095", "--probe", "back.left-1:-0.05,0.02,0"]
         with open(case(PHONE), encoding="utf-8") as file:
             off_centre = self.write("off.toml", file.read().replace("[body]\n", "[body]\ncentre = [0.004, 0.001, 0.002]\n"))
-        for scene, tilt in ((PHONE, "0"), (off_centre, "20")):
-            fixed, turn = ["--set", f"drop.tilt_deg={tilt}"], ["--tilt", tilt]
-            swept = records(self.sweep(scene, "--model", "discrete", "--set", "drop.angle_deg=10:60:25", *fixed, *flags))
-            for row in swept:
-                shocks = rows_of("shock", scene, "--model", "discrete", "--angle", row["drop.angle_deg"], *turn, *flags)
-                for name in probes:
-                    own = [shock for shock in shocks if shock["probe"] == name]
-                    hardest = max(own, key=lambda shock: float(shock["discrete_delta_v"]))
-                    self.assertEqual(row[f"delta_v_{name}"], hardest["discrete_delta_v"])
-                    self.assertEqual(row[f"delta_v_{name}_impact"], hardest["n"])
-                    self.assertGreaterEqual(float(row[f"delta_v_{name}_error"]), float(hardest["discrete_delta_v_error"]))
-                    self.assertLess(float(row[f"delta_v_{name}_error"]), 1e-4)
+        discrete, ground = ["--model", "discrete"], ["--impacts", "2", "--digits", "4", "--no-sensitivity", "--frequencies", "100:200:2"]
+        for scene, tilt, given, sets, columns in (
+                (PHONE, "0", discrete, discrete, {"delta_v": "discrete_delta_v"}), (off_centre, "20", discrete, discrete, {"delta_v": "discrete_delta_v"}),
+                (PHONE, "0", ground, ["--set", "run.impacts=2", "--set", "run.digits=4"], {"peak_g": "peak_g", "delta_v": "delta_v"})):
+            for row in records(self.sweep(scene, "--set", "drop.angle_deg=10:40:30", "--set", f"drop.tilt_deg={tilt}", *sets, *flags)):
+                shocks = rows_of("shock", scene, "--angle", row["drop.angle_deg"], "--tilt", tilt, *given, *flags)
+                for name, (column, of_shock) in itertools.product(("camera", "back.left-1"), columns.items()):
+                    hardest = max((shock for shock in shocks if shock["probe"] == name), key=lambda shock: float(shock[of_shock]))
+                    self.assertEqual((row[f"{column}_{name}"], row[f"{column}_{name}_impact"]), (hardest[of_shock], hardest["n"]))
+                    self.assertGreaterEqual(float(row[f"{column}_{name}_error"]), float(hardest[of_shock + "_error"]))
+                    if column == "peak_g":
+                        self.assertEqual(row[f"width_{name}"], hardest["width"])
 
     def test_points_of_the_scene_file_have_columns_too_where_rows_can_have_them(self):
         scene = self.write("probed.toml", THIN_ROD + '[[probe]]\nname = "tip"\nplace = [0.5, 0, 0]\n')
@@ -159,33 +157,6 @@ class SameAsTheOtherCommands(Folder):
         self.assertIn("delta_v_tip", summary)
         bare = records(self.sweep(scene, "--set", "drop.speed=1:2:1", "--no-errors"))
         self.assertEqual((bare[0]["delta_v_tip"], bare[0]["delta_v_tip_error"]), (rows[0]["delta_v_tip"], ""))
-
-    def test_what_a_point_goes_through_on_a_ground_is_that_of_shock(self):
-        scene = self.probed_phone()
-        flags = ["--set", "run.impacts=2", "--set", "run.digits=4"]
-        for row in records(self.sweep(scene, "--set", "drop.angle_deg=10:40:30", *flags)):
-            shocks = rows_of("shock", scene, "--angle", row["drop.angle_deg"], "--impacts", "2", "--digits", "4", "--no-sensitivity",
-                             "--frequencies", "100:200:2")
-            for name in ("camera", "edge"):
-                own = [shock for shock in shocks if shock["probe"] == name]
-                sharpest = max(own, key=lambda shock: float(shock["peak_g"]))
-                fastest = max(own, key=lambda shock: float(shock["delta_v"]))
-                for column, shock in (("peak_g", sharpest), ("width", sharpest), ("delta_v", fastest)):
-                    self.assertEqual(row[f"{column}_{name}"], shock[column])
-                    self.assertGreaterEqual(float(row[f"{column}_{name}_error"]), float(shock[f"{column}_error"]))
-                self.assertEqual((row[f"peak_g_{name}_impact"], row[f"delta_v_{name}_impact"]), (sharpest["n"], fastest["n"]))
-
-    def test_a_flat_elastic_landing_gives_a_point_the_peak_and_width_of_a_half_sine(self):
-        scene = self.write("flat.toml", "[drop]\nangle_deg = 0\nspeed = 2\n[body]\nshape = 'box'\n"
-                           "mass = 0.2\nsize = [0.1, 0.06, 0.02]\n[ground]\nstiffness = 1e9\narea = 'projected'\n[run]\nimpacts = 1\n"
-                           "[[probe]]\nname = 'tip'\nplace = [0.05, 0, 0]\n")
-        for row in records(self.sweep(scene, "--set", "ground.stiffness=1e8,1e9")):
-            omega = math.sqrt(float(row["ground.stiffness"]) * 0.1 * 0.06 / 0.2)
-            width = math.pi / omega * (1 - 2 * math.asin(0.1) / math.pi)
-            self.assertAlmostEqual(float(row["peak_g_tip"]) * 9.80665 / (2 * omega), 1, delta=1e-7)
-            self.assertAlmostEqual(float(row["width_tip"]) / width, 1, delta=1e-6)
-            self.assertLessEqual(abs(float(row["delta_v_tip"]) - 4), float(row["delta_v_tip_error"]))
-            self.assertLess(float(row["delta_v_tip_error"]), 1e-5)
 
     def test_attitudes_on_a_ground_are_ranked_by_what_the_first_point_goes_through(self):
         scene = self.probed_phone()
@@ -264,7 +235,6 @@ class Scenes(Folder):
         one = rows_of("simulate", PHONE, "--static-friction", "0.4", "--sliding-friction", "0.4", *QUICK_FLAGS)
         self.assertEqual([row["impulse_tangential"] for row in swept[2:]], [row["impulse_tangential"] for row in one])
 
-class BadInput(Folder):
     def test_what_settings_and_options_cannot_be_is_one_line(self):
         self.each_refused(REFUSED, "sweep", "rod.toml")
 
@@ -294,35 +264,21 @@ class SameBytes(Folder):
             self.assertEqual({self.read("out.csv")}, texts)
             self.assertEqual(sorted(os.listdir(self.folder)), ["out.csv", "rod.toml"])
 
-    def interrupt(self, number, arguments):
-        """Starts the sweep, stops it when its part has rows and returns whether it was stopped before its end."""
-        process = subprocess.Popen([PROGRAM, "sweep", *arguments], stdout=subprocess.PIPE, stderr=subprocess.PIPE,
-                                   text=True)
-        part = self.path("out.csv.part")
-        size = os.path.getsize(part) if os.path.exists(part) else 0
-        until(lambda: process.poll() is not None or os.path.exists(part) and os.path.getsize(part) > size + 20000)  # more than the head
-        process.send_signal(number)
-        message = process.communicate(timeout=3000)[1]
-        if process.returncode == 0 or os.path.exists(self.path("out.csv")):  # all was done when the signal came
-            return False
-        if number == signal.SIGKILL:
-            self.assertEqual(process.returncode, -signal.SIGKILL)
-        else:
-            self.assertEqual(process.returncode, 130)
-            self.assertRegex(message, r"^clatter: interrupted after \d+ of \d+ scenes; the same command goes on\n$")
-        self.assertTrue(os.path.exists(part))
-        return True
-
     def test_an_interrupted_sweep_goes_on_to_the_same_bytes(self):
         for arguments in ([self.scene, "--set", "drop.angle_deg=0.0004:60:0.0004"],
                           [PHONE, "--set", "drop.angle_deg=3:89:0.05", "--rows", "impact", *QUICK]):
-            self.sweep(*arguments, "--output", self.path("whole.csv"))
-            arguments = [*arguments, "--output", self.path("out.csv")]
-            stopped = [self.interrupt(number, arguments) for number in (signal.SIGINT, signal.SIGKILL, signal.SIGTERM)]
-            self.assertTrue(stopped[0], "too short a sweep to interrupt")
+            for number in (signal.SIGINT, signal.SIGKILL, signal.SIGTERM):
+                status, words = self.stopped(number, "out.csv", "sweep", *arguments)
+                if os.path.exists(self.path("out.csv")):  # all was done when the signal came
+                    self.assertNotEqual(number, signal.SIGINT, "too short a sweep to interrupt")
+                    break
+                self.assertEqual(status, -number if number == signal.SIGKILL else 130)
+                if status == 130:
+                    self.assertRegex(words, r"^clatter: interrupted after \d+ of \d+ scenes; the same command goes on\n$")
+                self.assertTrue(os.path.exists(self.path("out.csv.part")))
             if not os.path.exists(self.path("out.csv")):
-                self.sweep(*arguments)
-            self.assertEqual(self.read("out.csv"), self.read("whole.csv"))
+                self.sweep(*arguments, "--output", self.path("out.csv"))
+            self.assertEqual(self.read("out.csv"), self.sweep(*arguments))
             self.assertFalse(os.path.exists(self.path("out.csv.part")))
             os.remove(self.path("out.csv"))
 
@@ -344,52 +300,42 @@ class SameBytes(Folder):
         self.sweep(*arguments, "--output", self.path("out.csv"), "--restart")
         self.assertEqual(self.read("out.csv"), whole)
 
-    @unittest.skipUnless(MPIEXEC, "a build without MPI")
+    @unittest.skipUnless(MPIRUN[0], "a build without MPI")
     def test_several_processes_write_the_same_bytes(self):
-        command = [MPIEXEC, "--allow-run-as-root", "--oversubscribe", "-n"]
         for arguments in ([self.scene, "--set", "drop.angle_deg=0.01:60:0.01"],
                           [PHONE, "--set", "drop.angle_deg=3:89:2", "--rows", "impact", *QUICK]):
             for count in ("2", "3"):
-                sweep = [PROGRAM, "sweep", *arguments, "--output", self.path("out.csv")]
-                result = subprocess.run([*command, count, *sweep], capture_output=True, text=True, timeout=3000,
-                                        check=False)
-                self.assertEqual((result.returncode, result.stdout), (0, ""), result.stderr)
+                done = self.mpirun(count, PROGRAM, "sweep", *arguments, "--output", self.path("out.csv"))
+                self.assertEqual((done.returncode, done.stdout), (0, ""), done.stderr)
                 self.assertEqual(self.read("out.csv"), self.sweep(*arguments), count)
-        bad = subprocess.run([*command, "3", PROGRAM, "sweep", self.scene, "--set", "drop.angle=1:2:1"],
-                             capture_output=True, text=True, timeout=3000, check=False)
+        bad = self.mpirun("3", PROGRAM, "sweep", self.scene, "--set", "drop.angle=1:2:1")
         self.assertNotEqual(bad.returncode, 0)
         self.assertEqual(bad.stderr.count("did you mean"), 1)
+        # A program without MPI does not compute all scenes in each process.
+        alone = self.mpirun("2", shutil.copy(PROGRAM, self.path("clatter")), "sweep", self.scene, "--set", "drop.angle_deg=1:2:1")
+        self.assertNotEqual(alone.returncode, 0)
+        self.assertEqual(alone.stdout, "")
+        self.assertIn("install clatter-mpi", alone.stderr)
 
-    @unittest.skipUnless(MPIEXEC, "a build without MPI")
+    def mpirun(self, *command):
+        return subprocess.run([*MPIRUN, *command], capture_output=True, text=True, timeout=3000, check=False)
+
+    @unittest.skipUnless(MPIRUN[0], "a build without MPI")
     def test_a_killed_process_costs_its_scenes_only(self):
         arguments = [PHONE, "--set", "drop.angle_deg=3:89:0.05", *QUICK]
-        whole = self.sweep(*arguments)
-        command = [PROGRAM, "sweep", *arguments, "--output", self.path("out.csv")]
-        part = self.path("out.csv.part")
+        command, part, out = [PROGRAM, "sweep", *arguments, "--output", self.path("out.csv")], self.path("out.csv.part"), self.path("out.csv")
         for count in ("2", "3", "2"):
             size = os.path.getsize(part) if os.path.exists(part) else 0
-            mpirun = subprocess.Popen([MPIEXEC, "--allow-run-as-root", "--oversubscribe", "-n", count, *command],
-                                      stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-            until(lambda: mpirun.poll() is not None or os.path.exists(part) and os.path.getsize(part) > size + 20000)
-            children = subprocess.run(["pgrep", "--parent", str(mpirun.pid)], capture_output=True, text=True, check=False)
-            for child in children.stdout.split()[-1:]:
-                os.kill(int(child), signal.SIGKILL)
-            mpirun.wait(timeout=3000)
-            if os.path.exists(self.path("out.csv")):  # all was written when the process was killed
+            with subprocess.Popen([*MPIRUN, count, *command], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL) as mpirun:
+                until(lambda: mpirun.poll() is not None or os.path.exists(part) and os.path.getsize(part) > size + 20000)
+                children = subprocess.run(["pgrep", "--parent", str(mpirun.pid)], capture_output=True, text=True, check=False)
+                for child in children.stdout.split()[-1:]:
+                    os.kill(int(child), signal.SIGKILL)
+            if os.path.exists(out):  # all was written when the process was killed
                 break
-        if not os.path.exists(self.path("out.csv")):
+        if not os.path.exists(out):
             run(*command[1:])
-        self.assertEqual(self.read("out.csv"), whole)
-
-    @unittest.skipUnless(MPIEXEC, "a build without MPI")
-    def test_a_program_without_mpi_does_not_compute_all_scenes_in_each_process(self):
-        alone = os.path.join(self.folder, "clatter")
-        shutil.copy(PROGRAM, alone)
-        result = subprocess.run([MPIEXEC, "--allow-run-as-root", "--oversubscribe", "-n", "2", alone, "sweep", self.scene, "--set",
-                                 "drop.angle_deg=1:2:1"], capture_output=True, text=True, timeout=3000, check=False)
-        self.assertNotEqual(result.returncode, 0)
-        self.assertEqual(result.stdout, "")
-        self.assertIn("install clatter-mpi", result.stderr)
+        self.assertEqual(self.read("out.csv"), self.sweep(*arguments))
 
 
 class RowsTogether(Folder):
@@ -418,17 +364,6 @@ class RowsTogether(Folder):
         for row in records(rows):
             outcomes[row["outcome"]] = outcomes.get(row["outcome"], 0) + 1
         self.assertEqual(summary["texts"]["outcome"], outcomes)
-
-    def test_the_command_of_an_extreme_shows_it(self):
-        for arguments in ([self.scene, "--set", "drop.angle_deg=5:80:5"],
-                          ["phone-corner", "--model", "discrete", "--set", "drop.attitude=uniform",
-                           "--random", "20"]):
-            summary = self.summary(*arguments)
-            row = [row for row in summary["rows"] if row["quantity"] == "total_normal_impulse"][0]
-            words = shlex.split(row["largest_command"])
-            self.assertEqual(words[:2], ["clatter", "sweep"])
-            impacts = self.numbers(self.sweep(*words[2:]), "impulse_normal")
-            self.assertAlmostEqual(sum(impacts), row["largest"], delta=1e-12 * row["largest"])
 
     def test_a_summary_of_attitudes_names_the_worst_of_them_and_its_blow(self):
         arguments = ["phone-corner", "--model", "discrete", "--set", "drop.attitude=26", "--random", "104",
@@ -492,19 +427,13 @@ class RowsTogether(Folder):
 
     @unittest.skipUnless(HDF5, "a build without HDF5")
     def test_an_interrupted_sweep_to_hdf5_goes_on(self):
-        arguments = [self.scene, "--set", "drop.angle_deg=0.0004:60:0.0004", "--output", self.path("rows.h5")]
-        process = subprocess.Popen([PROGRAM, "sweep", *arguments], stderr=subprocess.DEVNULL)
-        part = self.path("rows.h5.part")
-        until(lambda: process.poll() is not None or os.path.exists(part) and os.path.getsize(part) > 20000)
-        process.kill()
-        self.assertEqual(process.wait(timeout=3000), -signal.SIGKILL, "too short a sweep to interrupt")
+        arguments = [self.scene, "--set", "drop.angle_deg=0.0004:60:0.0004"]
+        self.assertEqual(self.stopped(signal.SIGKILL, "rows.h5", "sweep", *arguments)[0], -signal.SIGKILL, "too short a sweep to interrupt")
         self.assertFalse(os.path.exists(self.path("rows.h5")))
-        self.sweep(*arguments)
-        stopped = Path(self.path("rows.h5")).read_bytes()
-        self.sweep(*arguments)
-        self.assertEqual(stopped, Path(self.path("rows.h5")).read_bytes())
+        for name in ("rows.h5", "whole.h5"):
+            self.sweep(*arguments, "--output", self.path(name))
+        self.assertEqual(self.bytes("rows.h5"), self.bytes("whole.h5"))
 
-class Scatter(Folder):
     def test_without_attitudes_it_is_about_the_scenes_own(self):
         rows = records(self.sweep(self.scene, "--set", "drop.angle_deg=12", "--random", "400", "--scatter", "3"))
         own = [math.cos(math.radians(6)), 0, -math.sin(math.radians(6)), 0]
