@@ -85,7 +85,6 @@ class EmptyFolder(unittest.TestCase):
         with open(self.path(name), encoding="utf-8") as file:
             return file.read()
 
-
     def bytes(self, name):
         return Path(self.path(name)).read_bytes()
 

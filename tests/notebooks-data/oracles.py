@@ -58,8 +58,6 @@ def planar(angle, e=1, speed=1, gravity=0, impacts=2, body=None):
         return [(row[0], row[3], row[8], end) for end, row in truth.planar_truth(scene, "newton routh")]
 
 
-# ---------------------------------------------------------------- 1 and 2: the rod
-
 def small(theta):
     """2 - P1 - P2 - P3 and gamma of the elastic rod in 50 digits."""
     with mp.workdps(50):
@@ -95,8 +93,6 @@ def grazing(e):
     return [fold, degrees(math.acos(2 * v / spin))]
 
 
-# ---------------------------------------------------------------- 3: gravity
-
 def bouncing(e, v, g):
     """Time and impulse per mass of infinitely many bounces."""
     return [2 * e * v / (g * (1 - e)), (1 + e) * v / (1 - e)]
@@ -116,8 +112,6 @@ def both_ends():
     angle = root(lambda angle: 1 if planar(angle, gravity=9.81)[1][3] == "b" else -1, 50, 70, 40)
     return [angle, float(planar(angle, gravity=9.81)[1][0])]
 
-
-# ---------------------------------------------------------------- 4: friction
 
 def sticking_and_jamming():
     """The ratio that leaves no slip at 30°, and that at which u stops rising at 60°, of d_t and d_n of the end."""
@@ -140,8 +134,6 @@ def three_laws(e=0.5, mu=0.5, slip=0.8):
     return [end * (3 / 2 + (1 + 3 / 2) * mu), *(float(truth.planar_path(inertia, 1, mu, e, law, -1, slip)[0])
                                                 for law in ("newton", "poisson", "stronge"))]
 
-
-# ---------------------------------------------------------------- 5: the ground
 
 def phone():
     """The stiffness at which half a sine of k A peaks at 1000 g, and its duration."""
@@ -167,8 +159,6 @@ def edge():
     depth = (1.5 * effective * speed**2 / K) ** (1 / 3)
     return [K * depth**2, 2e6 * depth / speed * sqrt(pi) * math.gamma(4 / 3) / math.gamma(5 / 6)]
 
-
-# ---------------------------------------------------------------- 6: the phone
 
 L, W, T, MASS, GRAVITY = 0.10566, 0.04394, 0.01905, 0.08814, 9.81
 INERTIA = MASS * (L * L + T * T) / 12
@@ -265,8 +255,6 @@ def edges_together(angle):
     return next(right <= 0 for _, (left, right, *_) in phone_falls(angle, 4.4294, 0.0, 1e10, 1e-7) if right <= 0 or left > 0)
 
 
-# ---------------------------------------------------------------- 7 and 8: accuracy, and what is largest
-
 def stiffness_for_four_digits():
     """d'' = g - w^2 d from d = 0, d' = v: w t = pi + 2 atan(g / (w v)); and g t / (2 v) = 1e-4."""
     gravity, speed, mass, face = 9.81, 1.0, 0.1, 0.1 * 0.05
@@ -287,8 +275,6 @@ def best_damping():
     s, negative = largest(lambda s: -flat_peak(s), 0.05, 1.5)
     return [s * stiffness / speed / 1e7, -negative * speed * sqrt(stiffness * face * MASS), 100 * (1 + negative)]
 
-
-# ---------------------------------------------------------------- 11 and 12: close to flat
 
 def struck(arms, gyration_square, restitution=1.0, most=10_000):
     """Approach speeds of a rod that falls flat with |v| = 1, contacts at -arms[0] (first) and arms[1], one after the other."""
@@ -320,8 +306,6 @@ def lower_end(hits, count, z=1.96):
     found = hits / count
     return [100 * root(lambda p: found - p - z * sqrt(p * (1 - p) / count), 0.0, found, 60)]
 
-
-# ---------------------------------------------------------------- 14: a part inside
 
 STANDARD = 9.80665
 

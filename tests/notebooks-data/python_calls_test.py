@@ -261,8 +261,6 @@ class SweepsAsTheProgram(unittest.TestCase):
                 with self.subTest(line=line, jedi=use_jedi), provisionalcompleter():
                     self.assertLessEqual(expected, {found.text for found in shell.Completer.completions(line, len(line))})
 
-
-class WrongArguments(unittest.TestCase):
     def refused(self, words, function, *arguments, **named):
         with self.assertRaises(TypeError) as caught:
             function(*arguments, **named)

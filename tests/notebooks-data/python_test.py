@@ -10,10 +10,10 @@ import shutil
 import subprocess
 import sys
 import tempfile
-import threading
 import tomllib
 import unittest
 import warnings
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import clatter
@@ -186,6 +186,7 @@ class TheSameBits(unittest.TestCase):
                     expected = np.array([np.nan if row[name] is None else row[name] for row in rows])
                     np.testing.assert_array_equal(result[name], expected)
 
+
 BATCHED = ("beta_deg", "gamma_deg", "P1", "P2", "P3", "T1", "T2", "impacts")
 
 
@@ -276,8 +277,6 @@ class ArraysOfAngles(unittest.TestCase):
         np.testing.assert_array_equal(sweep.column("velocity_after")[:, 2], [float(row["velocity_after_z"]) for row in rows])
         self.assertTrue(np.isnan(sweep.column("impulse_normal", impact=2)).all())
 
-
-class Forms(unittest.TestCase):
     def test_a_scene_may_be_a_file_a_case_or_a_dict(self):
         path = Path(run_folder.case("rod-45"))
         one, two, three = (clatter.simulate(scene, impacts=1).to_dict()
@@ -307,6 +306,7 @@ class Forms(unittest.TestCase):
         self.assertIn("Impact 2: end b", repr(run[1]))
         self.assertEqual(run.to_text(ascii=True).encode("ascii").decode(), run.to_text(ascii=True))
         self.assertIn("1000 values", repr(clatter.angles(count=1000)))
+
 
 class Calls(unittest.TestCase):
     def refused(self, words, function, *arguments, **named):
@@ -373,17 +373,9 @@ class Calls(unittest.TestCase):
             child.kill()
 
     def test_calls_from_several_threads_agree(self):
-        expected = clatter.simulate("phone-damped", impacts=2).to_dict()
-        results = [None] * 4
-
-        def run(index):
-            results[index] = clatter.simulate("phone-damped", impacts=2).to_dict()
-        threads = [threading.Thread(target=run, args=(index,)) for index in range(len(results))]
-        for thread in threads:
-            thread.start()
-        for thread in threads:
-            thread.join()
-        self.assertEqual(results, [expected] * len(results))
+        with ThreadPoolExecutor(4) as several:
+            results = [one.to_dict() for one in several.map(lambda _: clatter.simulate("phone-damped", impacts=2), range(4))]
+        self.assertEqual(results, [clatter.simulate("phone-damped", impacts=2).to_dict()] * 4)
 
     def test_everything_public_is_documented(self):
         for name in clatter.__all__:

@@ -27,6 +27,7 @@ class Plane(unittest.TestCase):
         self.assertAlmostEqual(sum(row["impulse"] for row in found["rows"]), 1, delta=1e-12)
         self.assertGreater(atlas("rod", "--restitution", "0.08")["impacts"], 3)  # above 7 - 4 sqrt(3)
 
+
 class Space(EmptyFolder):
     def test_the_hardest_blows_are_the_known_fractions(self):
         for body, words in (("rectangle", ("17/7", "121/49", "4 to 6")), ("square", ("17/7", "121/49", "4 to 6")),

@@ -63,6 +63,16 @@ class Asked:
         return State(0.0, start["position"], start["attitude"], start["velocity"], start["angular_velocity"])
 
 
+def steps_down(heights, bound, skipped=()):
+    """Times after which each point can touch at the earliest, from its height, its velocity and a bound on its acceleration;
+    a point that has just been struck goes up first."""
+    steps = []
+    for k, (h, v) in enumerate(heights):
+        root = math.sqrt(v * v + 2 * bound * max(h, 0))
+        steps.append(max(v, 1e-9) / bound if k in skipped else 2 * max(h, 0) / (root - v) if v < 0 else (v + root) / bound)
+    return steps
+
+
 class Body:
     """Principal moments about body axes; a planar body turns about y alone, whatever they are."""
 

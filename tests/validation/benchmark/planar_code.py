@@ -2,7 +2,7 @@
 """Small codes for planar rods and boxes: one that goes from event to event, in which faults can be planted, and one of steps."""
 import math
 
-from exact_motion import Asked, Body
+from exact_motion import Asked, Body, steps_down
 
 
 class Code(Asked):
@@ -43,14 +43,8 @@ class Code(Asked):
         bound = abs(self.gravity) + reach * state[6] ** 2 + 1e-12
         t = 0.0
         while t < latest:
-            now, steps = Code.fly(self, state, t), []
-            for k in range(len(self.points)):
-                h, v = self.height(now, k), self.approach(now, k)
-                if t == 0 and k in struck:
-                    steps.append(max(v, 1e-9) / bound)
-                    continue
-                root = math.sqrt(v * v + 2 * bound * max(h, 0))
-                steps.append(2 * max(h, 0) / (root - v) if v < 0 else (v + root) / bound)
+            now = Code.fly(self, state, t)
+            steps = steps_down([(self.height(now, k), self.approach(now, k)) for k in range(len(self.points))], bound, struck if t == 0 else ())
             step = min(steps)
             if step < 1e-14:
                 return t, [k for k, s in enumerate(steps) if s < 1e-9]

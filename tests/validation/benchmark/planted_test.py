@@ -17,8 +17,6 @@ RADIAN = math.pi / 180
 ALL = os.environ.get("CLATTER_PLANTED") == "all"  # every fault in every problem; otherwise every fourth pair
 
 
-# ---------------------------------------------------------------- codes that err: each takes a code and changes it
-
 def numbers(**factors):
     def plant(code):
         for name, factor in factors.items():
@@ -134,8 +132,6 @@ def missing(code):
     if len(code.truth) > 1:
         code.strike = strike.__get__(code)
 
-
-# ---------------------------------------------------------------- rows that are written wrongly: a code and its rows
 
 def times(names, factor):
     return lambda code, rows: [[v * (factor if name in names.split() else 1) for name, v in zip(code.columns(), row)]

@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 
-from exact_motion import Asked, Body, State, pull_of, rotated, turned_back
+from exact_motion import Asked, Body, State, pull_of, rotated, steps_down, turned_back
 
 
 def law_of(problem):
@@ -48,14 +48,8 @@ class RigidCode(Asked):
         bound = abs(self.gravity) + 2 * self.size * fastest ** 2 + 1e-12
         now = state
         while now.time < latest and not self.gone:
-            steps = []
-            for k, arm in enumerate(self.arms(now)):
-                h, v = now.position[2] + arm[2], self.approach(now, arm)
-                if now is state and k in struck:
-                    steps.append(max(v, 1e-9) / bound)
-                    continue
-                root = math.sqrt(v * v + 2 * bound * max(h, 0))
-                steps.append(2 * max(h, 0) / (root - v) if v < 0 else (v + root) / bound)
+            steps = steps_down([(now.position[2] + arm[2], self.approach(now, arm)) for arm in self.arms(now)], bound,
+                               struck if now is state else ())
             step = min(steps)
             if step < 1e-14:
                 return now, [k for k, s in enumerate(steps) if s < 1e-9]

@@ -24,13 +24,6 @@ class Extremes(EmptyFolder):
             self.assertEqual(cell["error"] is None, cell["verdict"] != "number", cell)
             self.assertEqual(cell["reason"] is None, cell["verdict"] == "number", cell)
 
-    def test_regions_name_both_ends(self):
-        result = json_of("extremes", "--only", "restitution", *PATIENCE)
-        self.assertEqual(result["failures"], [])
-        first = [region for region in result["regions"] if region["model"] == "closed form"]
-        self.assertEqual(first[0]["from"], 0)
-        self.assertGreater(first[-1]["to"], 1)
-
     def test_the_picture_is_well_formed_svg_with_a_cell_for_each(self):
         cells = json_of("extremes", "--only", "ratio", "--plot", self.path("map.svg"), *PATIENCE)["cells"]
         titles = xml.etree.ElementTree.parse(self.path("map.svg")).getroot().findall(".//{http://www.w3.org/2000/svg}title")

@@ -65,6 +65,7 @@ class Verify(EmptyFolder):
                            "figures --output . --only 13": "--only", "figures --output . --only x": "--only"})
         self.refused("gnuplot-nox", "verify", "--only", "C1", "--html", "page.html", env={**os.environ, "PATH": "/nonexistent"})
 
+
 class Faults(unittest.TestCase):
     def test_each_check_has_a_seeded_fault_that_turns_it_red(self):
         def tables(*path):
@@ -93,11 +94,9 @@ class Figures(unittest.TestCase):
     def path(self, number):
         return os.path.join(self.folder.name, "new", "folder", f"figure_{number:02}.csv")
 
-    def test_there_is_one_file_for_each_figure(self):
+    def test_the_head_of_each_figures_file_says_quantity_unit_scene_command_and_version(self):
         self.assertEqual(self.run_result.returncode, 0, self.run_result.stderr)
         self.assertEqual(sorted(os.listdir(os.path.dirname(self.path(7)))), [f"figure_{n:02}.csv" for n in NUMBERS])
-
-    def test_the_head_says_quantity_unit_scene_command_and_version(self):
         for number in NUMBERS:
             head, names, _ = read_figure(self.path(number))
             self.assertTrue(head[0].startswith(f"# Figure {number}: "))

@@ -69,6 +69,7 @@ class Gradient(Slopes):
         self.assertEqual({row["parameter"] for row in found["gradients"]}, {"speed", "restitution", "friction"})
         self.assertEqual([(one["parameter"], one["from_impact"]) for one in found["refused"]], [("angle", 1)])
 
+
 class GradientInSpace(Slopes):
     numbers = NUMBERS_IN_SPACE
 

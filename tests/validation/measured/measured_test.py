@@ -29,24 +29,6 @@ class Measured(Folder):
             self.assertIn(name, shown)
             self.assertIn("BSD-3-Clause", shown)
 
-    def test_a_fit_gives_each_law_with_its_intervals(self):
-        fits = {fit["model"]: fit for fit in self.result("fit", CUBES)["fits"]}
-        for law in ("newton", "poisson", "stronge"):
-            self.assertGreater(fits[law]["restitution"], 0.1)
-            self.assertLess(fits[law]["restitution"], 0.6)
-            self.assertGreater(fits[law]["friction"], 0.05)
-            self.assertGreater(fits[law]["restitution_half_width"], 0)
-            self.assertGreaterEqual(fits[law]["loss_above"], 0)
-
-    def test_a_score_holds_the_law_against_its_baselines_and_the_floor(self):
-        for file in (SQUARES, CUBES):
-            rows = {row["quantity"]: row for row in self.result("score", file)["scores"]}
-            order = ["floor: any impulse there", "as fitted", "flat rebound", "no change"]
-            middles = [rows[name]["value"] for name in order]
-            self.assertEqual(middles, sorted(middles))
-            # Impacts on several corners are what a sequence is for.
-            self.assertLess(rows["no point impact: the sequence"]["value"], 0.5 * rows["no point impact: one impact"]["value"])
-
     def test_no_drop_is_fitted_to_and_scored(self):
         listed = "1,11,21,31,41,51,61,71,81,91,101-250"
         scored = [row["drop"] for row in self.result("predict", SQUARES, "--fit-on", listed)["drops"]]

@@ -84,8 +84,6 @@ class Devices(Folder):
         self.assertEqual(self.read("out"), whole)
         self.assertEqual(sorted(os.listdir(self.folder)), ["body.stl", "out", "scene.toml"])
 
-
-class Streams(Folder):
     def closed(self, redirection, *arguments):
         return subprocess.run(["/bin/bash", "-c", 'exec "$0" "$@" ' + redirection, PROGRAM, *arguments], cwd=self.folder, text=True,
                               capture_output=True, timeout=3000, check=False)
@@ -128,8 +126,6 @@ class Streams(Folder):
         self.assertEqual(process.returncode, 0)
         self.assertEqual(sorted(os.listdir(self.folder)), ["body.stl", "scene.toml"])
 
-
-class Signals(Folder):
     def growing(self):
         """Size of the largest file that has no name yet."""
         return max((size for name, size in sizes(self.folder).items() if name.startswith(".clatter-")), default=0)

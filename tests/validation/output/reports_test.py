@@ -190,11 +190,6 @@ class Forms(EmptyFolder):
             shown = next(line for line in lines[head + 3:] if line.split()[0] == "1").split()[-1]
             self.assertAlmostEqual(float(shown), loss, delta=2e-3 * loss)
 
-    def test_a_sweep_has_the_same_rows_in_every_form(self):
-        for row, fields in zip(rows_of(SWEEP), data_of(SWEEP)["rows"], strict=True):
-            self.assertEqual(float(row["total_normal_impulse"]), fields["total_normal_impulse"])
-            self.assertEqual(fields["predictable"], row["predictable"] == "true")
-
     def test_figures_are_written_in_the_form_that_is_asked_for(self):
         for form, extension in (("csv", "csv"), ("json", "json"), ("markdown", "md"), ("latex", "tex"), ("table", "txt")):
             printed("figures", "--only", "7", "--output", self.folder, "--format", form)
@@ -273,20 +268,17 @@ def memory(*arguments):
 class Help(EmptyFolder):
     """Who installed the program has no source tree."""
 
-    def test_help_fits_a_terminal(self):
+    def test_help_fits_a_terminal_and_names_no_path_of_the_source(self):
         self.assertGreater(len(commands()), 15)
-        for arguments in ([], ["--help"], *([name, "--help"] for name in commands())):
-            with self.subTest(arguments):
-                self.assertEqual(too_long(printed(*arguments)), [])
+        texts = {name: printed(*words) for name, words in {"": [], "--help": ["--help"], **{name: [name, "--help"] for name in commands()}}.items()}
+        for name, text in texts.items():
+            self.assertEqual(too_long(text), [], name)
+        for name, text in {**texts, "man": printed("man")}.items():
+            self.assertNotRegex(text, r"\b(validation|notebooks-data|tests|analytic|numeric)/", name)
 
     def test_the_bare_program_says_what_to_begin_with(self):
         self.assertIn("clatter sequence --angle 10", printed())
         self.assertLess(len(printed().splitlines()), 20)
-
-    def test_no_help_text_names_a_path_of_the_source(self):
-        for name in (*commands(), "man"):
-            text = printed(name) if name == "man" else printed(name, "--help")
-            self.assertNotRegex(text, r"\b(validation|notebooks-data|tests|analytic|numeric)/", name)
 
     def test_a_plan_and_the_verification_name_commands_that_run_in_any_folder(self):
         line = re.search(r"Run it: clatter (.*)", re.sub(r"\n +", " ", printed("plan", "phone-damped", "--impacts", "1"))).group(1)

@@ -91,12 +91,6 @@ class InSpace(SpaceFolder):
         self.assertIn("drop.tilt_deg turns it out of its plane", rungs["discrete"]["reason"])
         self.assertIsNone(rungs["discrete 3D"]["reason"])
 
-    def test_a_friction_law_that_the_discrete_model_does_not_have_is_the_reason_against_it(self):
-        self.write("creeps.toml", '[drop]\nangle_deg = 20\ntilt_deg = 30\n[body]\nshape = "box"\nsize = [0.1, 0.05, 0.02]\n[ground]\n'
-                   'stiffness = 1e9\nsliding_friction = 0.2\nfriction_law = "regularised"\n[run]\nimpacts = 1\n')
-        _, rungs = self.rungs("creeps.toml", "--digits", "3")
-        self.assertIn("regularised friction creeps", rungs["discrete 3D"]["reason"])
-
     def test_the_plan_s_command_runs_the_model_that_is_chosen(self):
         self.write(CORNER, TEXT.replace("1e9", "1e19").replace("impacts = 2", "impacts = 1"))
         plan, _ = self.rungs(CORNER, "--digits", "2")

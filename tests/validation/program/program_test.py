@@ -141,12 +141,6 @@ class Output(unittest.TestCase):
         for left in (math.sin(theta) + shown["K"] * phi - shown["Γ"] * phi * phi - math.sin(phi - theta), shown["f"]):
             self.assertAlmostEqual(left, 0, delta=1e-14)
 
-    def test_latex_has_the_laws(self):
-        explained = run("explain", "2", "--angle", "10", "--format", "latex").stdout
-        for law in ("V_n - \\Omega d_t &= -e (v_n - \\omega d_t)", "m (V_n - v_n) &= P_n",  # of Eq. 8
-                    "\\sin \\theta + K \\varphi - \\sin(\\varphi - \\theta) &= 0"):     # Eq. 12
-            self.assertIn(law, explained)
-
     def test_the_errors_of_angles_cover_those_against_30_digit_references_and_are_small(self):
         compared = 0
         for name in ("rod_sequence_no_gravity.csv", "rod_sequence_gravity.csv"):

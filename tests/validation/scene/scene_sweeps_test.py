@@ -95,8 +95,6 @@ class Sweeps(WithScenes):
                 self.assertGreater(one, 0)
                 self.assertAlmostEqual(one / exact, 1, delta=0.01)
 
-
-class Windows(WithScenes):
     def test_the_picture_of_a_sweep_has_a_curve_for_each_impact(self):
         printed("simulate", self.scene("angle_deg = [5, 10, 15]"), "--plot", self.path("sweep.svg"), "--plot-script")
         script = self.read("sweep.gnuplot")

@@ -57,11 +57,6 @@ class Shock(EmptyFolder):
         self.assertLessEqual({("continuous", "1"), ("continuous", "1-2"), ("continuous", "flat")}, blows)
         self.assertIn("oscillator of", printed("shock", "phone-damped", "--impacts", "2", *PROBE))
 
-    def test_a_law_of_impact_that_is_not_the_grounds_is_said_to_be_the_other_models(self):
-        said = run("shock", "phone-damped", *PROBE, *FEW, "--friction", "0.9", "--restitution", "0.2").stdout
-        self.assertRegex(" ".join(said.split()), r"alone: e = 0\.2 where the ground has 0\.\d+ at \d\.\d+ m/s, μ = 0\.9 where the ground "
-                                                 r"has μ = 0\.075")
-
     def test_probes_of_a_file_are_those_of_flags(self):
         scene = "[drop]\nangle_deg = 10\n[[probe]]\nname = 'tip'\nplace = [-0.5, 0, 0]\n"
         path = self.write("scene.toml", scene)
@@ -161,6 +156,7 @@ class PulsesAndHistory(unittest.TestCase):
             if float(row["indentation"]) < 0:
                 self.assertEqual((float(row["pressure"]), float(row["force_z"])), (0, 0), row)
 
+
 class Handout(EmptyFolder):
     def test_the_page_has_every_part_in_itself_and_asks_for_nothing(self):
         path = self.path("phone.html")
@@ -191,6 +187,7 @@ class Handout(EmptyFolder):
         known = [impact["predictable"] for impact in sequence["impacts"]].index(False)
         self.assertEqual(run("report", *ROCKING, "--model", "discrete", "--output", self.path("rod.html")).returncode, 0)
         self.assertIn(f"impacts 1 to {known} can be predicted; later ones", self.read("rod.html"))
+
 
 class Ground(unittest.TestCase):
     def test_a_material_and_e_give_a_ground_that_gives_e_back(self):

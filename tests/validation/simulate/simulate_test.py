@@ -86,17 +86,6 @@ class Input(Folder):
             ground = self.json(self.scene(), flag, "0.3", "--impacts", "1")["scene"]["ground"]
             self.assertEqual((ground["static_friction"], ground["sliding_friction"]), (0.3, 0.3), flag)
 
-    def test_a_sweep_has_both_its_ends(self):
-        path = self.scene("[drop]\nangle_deg = 45\n[ground]\nstiffness = 1e8\n[run]\nimpacts = 1\n"
-                          "[sweep]\nsliding_friction = { from = 0, to = 0.3, step = 0.1 }\n")
-        self.assertEqual([swept["sliding_friction"] for swept in self.json(path)["runs"]], [0, 0.1, 0.2, 0.3])
-
-    def test_an_angle_ends_the_sweep_of_the_file(self):
-        result = self.json("rod-sweep", "--angle", "30")
-        self.assertEqual(len(result["impacts"]), 1)
-
-
-class Output(Folder):
     def test_a_box_that_lies_askew_in_its_file_falls_like_the_box_that_it_is(self):
         # Turned in the file by what the drop's angle and tilt then take back, in mm.
         askew, centre = product(turn(1, -25), turn(2, 15)), (30.0, -20.0, 10.0)
@@ -159,6 +148,7 @@ class Output(Folder):
         for momentum in momenta:
             # Without friction none of it is vertical; to the integrator's six digits.
             self.assertLessEqual(abs(momentum[2]), 1e-6 * largest)
+
 
 class Claims(Folder):
     """The paper's phone and rod (physics: claims C11, C15, C16, C19)."""
@@ -247,10 +237,6 @@ class Claims(Folder):
                 self.assertEqual((said["peak_force"], said["error_estimate"]), (meshed["peak_force"], meshed["error_estimate"]))
                 given = self.of(angle, body, "sectors = 60, rings = 4, layers = 30", ground)["impacts"][0]
                 self.assertLess(given["error_estimate"]["peak_force"], 1e-6 * given["peak_force"])
-
-
-class Friction(Folder):
-    """What friction, a plane and a deep ground do to a run, and what is said of it."""
 
     def test_landings_flat_and_upright_with_friction_bounce_plainly(self):
         friction = ("--static-friction", "0.5", "--sliding-friction", "0.5", "--impacts", "1", "--gravity", "0")

@@ -84,6 +84,7 @@ class Folder(EmptyFolder):
     def summary(self, *arguments):
         return json.loads(self.sweep(*arguments, "--summary", "--format", "json"))
 
+
 class SameAsTheOtherCommands(Folder):
     def check(self, swept, single, swept_key, value):
         rows = [row for row in swept if float(row[swept_key]) == value]
@@ -230,11 +231,6 @@ class Scenes(Folder):
         self.assertEqual([(row["impacts"], row["outcome"]) for row in ended],
                          [("0", "evaluation-limit"), ("2", "impact-limit")])
 
-    def test_sliding_friction_takes_the_static_one_along(self):
-        swept = records(self.sweep(PHONE, "--set", "ground.sliding_friction=0:0.4:0.4", "--rows", "impact", *QUICK))
-        one = rows_of("simulate", PHONE, "--static-friction", "0.4", "--sliding-friction", "0.4", *QUICK_FLAGS)
-        self.assertEqual([row["impulse_tangential"] for row in swept[2:]], [row["impulse_tangential"] for row in one])
-
     def test_what_settings_and_options_cannot_be_is_one_line(self):
         self.each_refused(REFUSED, "sweep", "rod.toml")
 
@@ -252,8 +248,6 @@ class Scenes(Folder):
                                   "--set", "run.digits=3"))
         self.assertEqual(len(rows), 2)
 
-
-class SameBytes(Folder):
     def test_the_file_does_not_depend_on_the_number_of_threads(self):
         for arguments in ([self.scene, "--set", "drop.angle_deg=0.1:60:0.1", "--rows", "impact"],
                           [self.scene, "--set", "drop.angle_deg=1:60", "--set", "body.length=0.1:3:log", "--random", "3000"],
@@ -433,14 +427,3 @@ class RowsTogether(Folder):
         for name in ("rows.h5", "whole.h5"):
             self.sweep(*arguments, "--output", self.path(name))
         self.assertEqual(self.bytes("rows.h5"), self.bytes("whole.h5"))
-
-    def test_without_attitudes_it_is_about_the_scenes_own(self):
-        rows = records(self.sweep(self.scene, "--set", "drop.angle_deg=12", "--random", "400", "--scatter", "3"))
-        own = [math.cos(math.radians(6)), 0, -math.sin(math.radians(6)), 0]
-        squares = []
-        for row in rows:
-            q = [float(row[f"drop.attitude_q{i}"]) for i in range(4)]
-            cosine = abs(sum(a * b for a, b in zip(own, q)))
-            squares.append((2 * math.degrees(math.acos(min(1, cosine)))) ** 2)
-        # Three turns of variance 9: the mean square is 27, known to sqrt(2/3/400) = 4 per cent.
-        self.assertAlmostEqual(sum(squares) / len(squares), 27, delta=27 * 0.2)
