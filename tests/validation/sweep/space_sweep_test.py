@@ -94,6 +94,7 @@ class Sweep(SpaceFolder):
         self.assertEqual(len(texts), 1)
         many = self.swept(*arguments, "--random", "300")
         self.assertEqual(self.swept(*arguments, "--random", "7"), many[:7])
+        self.assertNotEqual(self.swept(*arguments[:4], "--seed", "4", *arguments[6:], "--random", "7"), many[:7])
         for row in many:
             q = [float(row[f"drop.attitude_q{i}"]) for i in range(4)]
             self.assertAlmostEqual(math.hypot(*q), 1, delta=1e-15)
