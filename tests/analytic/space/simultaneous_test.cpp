@@ -318,6 +318,42 @@ BOOST_AUTO_TEST_CASE(edges_of_a_face_that_strike_in_turn_go_on_as_edges_until_ro
   BOOST_TEST(in_turn > 5);
 }
 
+BOOST_AUTO_TEST_CASE(a_face_that_lands_gains_no_energy_but_by_newtons_law_and_is_newtons_where_that_gains_none) {
+  constexpr double tolerance = 1e-11;
+  Random random(9);
+  int limited = 0, whole = 0;
+  for (int i = 0; i < 200; ++i) {
+    const FlatBox box(random.uniform(0.3, 1), random.uniform(0.3, 1), random.uniform(0.3, 1), 1);
+    State before;
+    before.velocity = random.vector(0.5);
+    before.velocity.z() = -1;
+    before.angular_velocity =
+        Vector3(random.uniform(-1, 1) / box.width, random.uniform(-1, 1) / box.length, random.uniform(-3, 3));
+    const double e = random.uniform(0.97, 1), friction = random.uniform(0.5, 2);
+    const auto landed = [&](RestitutionLaw by) {
+      return rebound_as_a_whole(box.body, before, box.bottom, coulomb(e, friction, by));
+    };
+    const auto energy = [&](const Vector3& v, const Vector3& w) {
+      return kinetic_energy(box.body, Matrix3::Identity(), v, w);
+    };
+    const auto newton = landed(RestitutionLaw::newton), stronge = landed(RestitutionLaw::stronge);
+    if (!newton || !stronge) continue;
+    const double at_first = energy(before.velocity, before.angular_velocity);
+    const double gain = energy(stronge->velocity_after, stronge->angular_velocity_after) - at_first;
+    const double newtons = energy(newton->velocity_after, newton->angular_velocity_after) - at_first;
+    BOOST_CHECK_LE(gain, tolerance * at_first);
+    if (newtons > tolerance * at_first) {
+      BOOST_CHECK_GE(gain, -std::fmax(tolerance, stronge->path_error) * at_first);
+      ++limited;
+    } else {
+      BOOST_CHECK_LE((stronge->velocity_after - newton->velocity_after).norm(), tolerance);
+      ++whole;
+    }
+  }
+  BOOST_TEST(limited > 5);
+  BOOST_TEST(whole > 50);
+}
+
 }  // namespace
 
 BOOST_AUTO_TEST_CASE(a_face_that_slips_to_its_stop_against_much_friction_rebounds_as_a_whole) {
