@@ -25,6 +25,10 @@ PlanarBody turned_by_a_quarter(PlanarBody body) {
 /// turned about.
 constexpr double pivot_part = 1e-11;
 
+/// A face that is given with no more tilt lands level [rad]: rounding of an attitude in space could make as much.  The
+/// heights of a thin rod's ends are exact products.
+constexpr double level_tilt = 8 * std::numeric_limits<double>::epsilon();
+
 VertexSet only(int vertex) { return static_cast<VertexSet>(1u << vertex); }
 
 /// The two vertices of a set that are farthest apart along the ground.
@@ -49,6 +53,7 @@ BodyMotion::BodyMotion(const PlanarBody& body, const Angle& inclination, const P
     : body_(body), turned_(body), gravity_(gravity), gravity_along_(gravity_along), inclination_(inclination.radians),
       sine_(inclination.sine), cosine_(inclination.cosine), initial_(inclination), remainder_(velocity) {
   turn_to_face_below();
+  if (!body.uniform_thin_rod && std::fabs(sine_) <= level_tilt) inclination_ = sine_ = 0, cosine_ = 1;
   if (body.uniform_thin_rod && velocity.normal < 0 && inclination.cosine >= 0) {
     frame_ = {.speed = -velocity.normal, .sextant = 3};
     remainder_.normal = 0;
@@ -137,7 +142,8 @@ BodyMotion::Strike BodyMotion::strike(VertexSet vertices, const ImpactLaw& law) 
       scale_ = {.normal = std::fabs(before.normal),
                 .tangential = std::fabs(before.tangential) + std::fabs(impact->slip_after)};
       slip_ = impact->slip_after;
-      const double e = law.law == RestitutionLaw::viscoelastic ? impact->restitution() : law.restitution;
+      const bool is_given = law.law != RestitutionLaw::viscoelastic && !impact->is_limited;
+      const double e = is_given ? law.restitution : impact->restitution();
       const double of_first = -normal_velocity(before, contact_point(first)),
                    of_second = -normal_velocity(before, contact_point(second));
       const bool pivots = gravity_ > 0 && std::fmin(of_first, of_second) <= pivot_part * std::fmax(of_first, of_second);

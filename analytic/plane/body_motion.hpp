@@ -23,7 +23,8 @@ namespace clatter::analytic {
 /// of the face that is now below, which is small where that face comes to rest.
 class BodyMotion {
  public:
-  /// The body with the given inclination, touching the ground with its lowest vertices.
+  /// The body with the given inclination, touching the ground with its lowest vertices; a face within 8ε of level is
+  /// level, but for a thin rod.
   /// @param gravity, gravity_along  as Drop's [m/s²]
   BodyMotion(const PlanarBody& body, const Angle& inclination, const PlanarVelocity& velocity, double gravity,
              double gravity_along = 0);

@@ -7,6 +7,7 @@
 
 #include "analytic/base/errors.hpp"
 #include "analytic/law/coulomb_path.hpp"
+#include "analytic/law/restitution_without_gain.hpp"
 
 namespace clatter::analytic {
 
@@ -163,14 +164,14 @@ Impact tilted_impact(const PlanarBody& body, const PlanarVelocity& before, const
   return impact;
 }
 
-}  // namespace
+double energy_of_motion(const PlanarBody& body, const PlanarVelocity& v) {
+  return body.mass *
+         (v.normal * v.normal + v.tangential * v.tangential + body.gyration_square * (v.angular * v.angular)) / 2;
+}
 
-std::optional<Impact> strike_flat(const PlanarBody& body, const PlanarVelocity& before, const ContactPoint& first,
-                                  const ContactPoint& second, const ImpactLaw& law) {
-  law.validate();
-  if (!(normal_velocity(before, first) < 0 && normal_velocity(before, second) < 0)) return {};
-  if (!(-before.normal > 0)) return {};
-  const double e = restitution_at(law, pressure_centre_speed(-before.normal, before.angular, body.gyration_square));
+/// strike_flat() with a given restitution.
+std::optional<Impact> landed_flat(const PlanarBody& body, const PlanarVelocity& before, const ContactPoint& first,
+                                  const ContactPoint& second, const ImpactLaw& law, double e) {
   const double depth = first.normal;
   const PathStart<> start{.approach_speed = -before.normal, .slip = slip_velocity(before, first), .restitution = e};
   const PathEnd<> path = flat_impulse(start, before.angular * depth, law);
@@ -204,6 +205,26 @@ std::optional<Impact> strike_flat(const PlanarBody& body, const PlanarVelocity& 
   impact.energy_loss = (body.mass * (1 - e) * (1 + e) * normal_energy -
                         impact.tangential_impulse * (before.tangential + impact.after.tangential)) /
                        2;
+  return impact;
+}
+
+}  // namespace
+
+std::optional<Impact> strike_flat(const PlanarBody& body, const PlanarVelocity& before, const ContactPoint& first,
+                                  const ContactPoint& second, const ImpactLaw& law) {
+  law.validate();
+  if (!(normal_velocity(before, first) < 0 && normal_velocity(before, second) < 0)) return {};
+  if (!(-before.normal > 0)) return {};
+  const double e = restitution_at(law, pressure_centre_speed(-before.normal, before.angular, body.gyration_square));
+  auto impact = landed_flat(body, before, first, second, law, e);
+  if (!impact || !law.rubs() || law.law == RestitutionLaw::newton) return impact;
+  const double least = restitution_without_gain(e, energy_of_motion(body, before), [&](double some) {
+    const auto landed = landed_flat(body, before, first, second, law, some);
+    return landed ? landed->energy_loss : energy_of_motion(body, before);
+  });
+  if (!(least < e)) return impact;
+  impact = landed_flat(body, before, first, second, law, least);
+  if (impact) impact->is_limited = true;
   return impact;
 }
 

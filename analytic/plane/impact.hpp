@@ -34,9 +34,10 @@ struct Impact {
   double slip_before = 0;         ///< s before [m/s]
   double slip_after = 0;          ///< s after [m/s]
   ImpactMode mode = ImpactMode::frictionless;
-  PlanarVelocity after;    ///< of the centre of mass
-  double energy_loss = 0;  ///< [J]; negative: the impulse ratio as given creates energy
-  bool tilts = false;      ///< a flat landing that friction tilts: not all of it rebounds as a whole
+  PlanarVelocity after;     ///< of the centre of mass
+  double energy_loss = 0;   ///< [J]; negative: the impulse ratio as given creates energy
+  bool tilts = false;       ///< a flat landing that friction tilts: not all of it rebounds as a whole
+  bool is_limited = false;  ///< a flat landing whose e is less than the law's, lest it gain energy
 
   /// P_t/P_n, 0 without an impulse.
   [[nodiscard]] double impulse_ratio() const;
@@ -82,6 +83,9 @@ struct ContactVelocity {
 /// vertices they act at that vertex, and Ω changes by what they and friction make of it. Returns nothing if R₀, or d_t
 /// without friction or with an impulse ratio, is not between the vertices and pushes would have to pull: then the
 /// vertices strike one after the other, the faster approach first.
+/// Where friction has stopped slip, the rebound that (2) prescribes can do work on the body, by pushes beside R₀. Under
+/// every law but Newton's the landing then rebounds by the largest e without a gain of energy
+/// (restitution_without_gain.hpp), as Impact::is_limited says.
 [[nodiscard]] std::optional<Impact> strike_flat(const PlanarBody& body, const PlanarVelocity& before,
                                                 const ContactPoint& first, const ContactPoint& second,
                                                 const ImpactLaw& law);

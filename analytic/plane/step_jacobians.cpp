@@ -89,15 +89,17 @@ struct LandedFlat {
   }
 };
 
-bool tilts(const StruckState& struck) {
-  return struck.flat && struck.law.rubs() &&
-         LandedFlat(struck, struck.contact, struck.before.angular, struck.law).impact.tilts;
+/// Whether friction tilts the landing, or limits its rebound.
+bool has_no_closed_form(const StruckState& struck) {
+  if (!struck.flat || !struck.law.rubs()) return false;
+  const Impact impact = LandedFlat(struck, struck.contact, struck.before.angular, struck.law).impact;
+  return impact.tilts || impact.is_limited;
 }
 
 constexpr double difference_step = 1e-6;
 
-/// The derivatives of a landing that friction tilts, by differences; it keeps its inclination.
-ImpactDerivatives tilting_derivatives(const StruckState& struck) {
+/// The derivatives of a flat landing by differences; it keeps its inclination.
+ImpactDerivatives derivatives_by_differences(const StruckState& struck) {
   ImpactDerivatives d;
   for (const std::size_t i : {at_time, at_angle, at_sum}) d.state[i][i] = 1;
   const double speed = std::hypot(struck.contact.normal, struck.contact.slip);
@@ -125,7 +127,7 @@ bool sticks(ImpactMode mode) { return mode == ImpactMode::stick || mode == Impac
 }  // namespace
 
 ImpactDerivatives impact_derivatives(const StruckState& struck, ImpactMode mode) {
-  if (tilts(struck)) return tilting_derivatives(struck);
+  if (has_no_closed_form(struck)) return derivatives_by_differences(struck);
   const ImpactResponse response = struck.flat ? flat_response(struck) : point_response(struck);
   ImpactDerivatives d;
   for (std::size_t i = 0; i < state_size; ++i) d.state[i][i] = 1;
@@ -156,7 +158,7 @@ void set_parts(const StruckState& struck, double push_of_friction, LawColumn& co
   column.parts[at_sum] = column.part;
 }
 
-LawDerivatives tilting_law_derivatives(const StruckState& struck) {
+LawDerivatives law_derivatives_by_differences(const StruckState& struck) {
   const auto column = [&](double ImpactLaw::*number, double highest) {
     const double low = std::fmax(struck.law.*number - difference_step, 0),
                  high = std::fmin(struck.law.*number + difference_step, highest);
@@ -183,7 +185,7 @@ LawDerivatives tilting_law_derivatives(const StruckState& struck) {
 }  // namespace
 
 LawDerivatives law_derivatives(const StruckState& struck, ImpactMode mode) {
-  if (tilts(struck)) return tilting_law_derivatives(struck);
+  if (has_no_closed_form(struck)) return law_derivatives_by_differences(struck);
   using Number = detail::Dual<2>;          // of e and of the friction
   constexpr double from_above = 0x1p-400;  // friction without which impulses and velocities are the same
   ImpactLaw law = struck.law;

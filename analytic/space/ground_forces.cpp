@@ -69,6 +69,15 @@ SmallVector solved(const GroundUnknowns& u, const Small& effect, const SmallVect
   return some * equations.partialPivLu().solve(-which * free);
 }
 
+/// ω̇ of a body that turns about an edge, by its weight: from the forces it would err by their rounding over the least
+/// moment of inertia, however little that has to do with the turn.
+/// @param arm  of a point of the edge, `edge` its unit direction
+Vector3 turning_about_edge(const Drop& drop, const Matrix3& inertia, const Vector3& arm, const Vector3& edge) {
+  const double away = arm.cross(edge).squaredNorm(), mass = drop.body.mass;
+  const double moment = mass * drop.gravity * arm.cross(Vector3::UnitZ()).dot(edge);
+  return moment / (edge.dot(inertia * edge) + mass * away) * edge;
+}
+
 }  // namespace
 
 Vector3 edge_of(const State& s, std::span<const GroundPoint> points) {
@@ -120,6 +129,8 @@ GroundForces GroundLaw::forces(const State& s, std::span<const GroundPoint> poin
     f.of_points.emplace_back(all.segment<3>(static_cast<Eigen::Index>(3 * i)));
     f.turning += inverse * arms[i].cross(f.of_points.back());
   }
+  if (points.size() == 2 && points[0].sticks && points[1].sticks)
+    f.turning = turning_about_edge(drop_, inertia, arms[0], edge);
   const SmallVector gained = free + effect * all;
   for (std::size_t i = 0; i < arms.size(); ++i) {
     f.accelerations.emplace_back(gained.segment<3>(static_cast<Eigen::Index>(3 * i)));

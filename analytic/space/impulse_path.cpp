@@ -77,7 +77,8 @@ class CoulombPath {
   [[nodiscard]] std::array<double, 5> initial_turn() const;
   [[nodiscard]] typename PathProgress<Number>::Line sticking() const;
   [[nodiscard]] double direction_tolerance(const Direction& invariant) const;
-  [[nodiscard]] bool is_invariant(double angle) const;
+  [[nodiscard]] double turning_tolerance(const Direction& invariant) const;
+  [[nodiscard]] std::optional<Direction> straight_direction(double angle) const;
   [[nodiscard]] bool is_ambiguous() const;
 
   const Contact& contact_;
@@ -153,18 +154,31 @@ void CoulombPath<Number>::forget_slopes() {
 template <class Number>
 double CoulombPath<Number>::direction_tolerance(const Direction& zero) const {
   const double of_velocity = 4 * contact_.velocity_scale / (speed_ * velocity_.norm());
-  return epsilon * (8 + of_velocity + 8 * field_.rounding_scale() / std::fabs(field_.turning_slope(zero)));
+  return epsilon * of_velocity + turning_tolerance(zero);
 }
 
+/// The part of that which g has, however slow slip is.
 template <class Number>
-bool CoulombPath<Number>::is_invariant(double angle) const {
+double CoulombPath<Number>::turning_tolerance(const Direction& zero) const {
+  return 8 * epsilon * (1 + field_.rounding_scale() / std::fabs(field_.turning_slope(zero)));
+}
+
+/// The direction that slip at this angle keeps, if it turns no more than rounding says: its own, or the invariant one
+/// where v, not g, leaves the two apart: slip of rounding's size can be far off it, and grows along it alone.
+template <class Number>
+std::optional<Direction> CoulombPath<Number>::straight_direction(double angle) const {
   constexpr double turn = 2 * std::numbers::pi;
-  if (field_.is_straight()) return true;
+  const double slip = velocity_.norm();
+  const Direction own{angle, velocity_.x() / slip, velocity_.y() / slip};
+  if (field_.is_straight()) return own;
+  std::optional<Direction> nearest;
+  double least = turn;
   for (int i = 0; i < field_.zero_count(); ++i) {
     const Direction& zero = field_.zero(i).at;
-    if (std::fabs(std::remainder(angle - zero.angle, turn)) <= direction_tolerance(zero)) return true;
+    const double apart = std::fabs(std::remainder(angle - zero.angle, turn));
+    if (apart < least && apart <= direction_tolerance(zero)) nearest = zero, least = apart;
   }
-  return false;
+  return nearest && least <= turning_tolerance(*nearest) ? own : nearest;
 }
 
 /// Slip along one line, to where it stops or the law ends.
@@ -249,9 +263,10 @@ void CoulombPath<Number>::slip_along_arc(double angle) {
 template <class Number>
 void CoulombPath<Number>::slip() {
   const double angle = std::atan2(velocity_.y(), velocity_.x());
-  if (!is_invariant(angle)) return slip_along_arc(angle);
+  const auto straight = straight_direction(angle);
+  if (!straight) return slip_along_arc(angle);
   const double slip = value_of(progress_.slip);
-  slip_straight(rates({angle, velocity_.x() / slip, velocity_.y() / slip}, Row::Zero()));
+  slip_straight(rates(*straight, Row::Zero()));
   if constexpr (follows_slopes) turn_straight_slip(slip);
 }
 

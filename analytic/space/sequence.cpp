@@ -94,7 +94,23 @@ class Run : public SequenceLoop<Sequence, ErrorGrowth> {
           "the first contact does not approach the ground: velocity and angular velocity must bring it down");
     }
     state_.position = Vector3(0, 0, -least);
+    first_is_open_ = !is_level(lowest);
     return lowest;
+  }
+
+  /// Whether these vertices are level as far as their numbers say: two of them rise by no more than 8ε of the way
+  /// between, beside the rounding of their places.
+  [[nodiscard]] bool is_level(const std::vector<int>& corners) const {
+    const Vector3 up = state_.attitude.toRotationMatrix().row(2);
+    const auto place = [&](int i) -> const Vector3& { return body_.vertices[static_cast<std::size_t>(i)]; };
+    const auto is_round = [&](int i) { return static_cast<std::size_t>(i) >= body_.vertices.size(); };
+    if (std::ranges::any_of(corners, is_round)) return true;
+    return std::ranges::all_of(corners, [&](int i) {
+      const Vector3 way = place(i) - place(corners.front());
+      double rounding = 8 * epsilon * way.norm();
+      for (int k = 0; k < 3; ++k) rounding += way[k] == 0 ? 0 : 2 * epsilon * std::fabs(up[k] * place(i)[k]);
+      return std::fabs(up.dot(way)) <= rounding;
+    });
   }
 
   enum class Next { impact, flight, end };
@@ -307,6 +323,7 @@ class Run : public SequenceLoop<Sequence, ErrorGrowth> {
     StrikeDerivatives derivatives;
     const bool follows = growth_ && growth_->predictable();
     strike_row(body_, drop_.law, row, follows ? &derivatives : nullptr);
+    if (row.group && std::exchange(first_is_open_, false)) row.group->is_open = true;
     state_.velocity = row.impact.velocity_after;
     state_.angular_velocity = row.impact.angular_velocity_after;
     row.energy_after = energy(state_);
@@ -534,8 +551,9 @@ class Run : public SequenceLoop<Sequence, ErrorGrowth> {
   SpaceAccumulation accumulation_;
   Rattling rattling_;
   std::optional<Known> known_;
-  std::optional<int> lifted_;  ///< the corner that a contact's end has left last
-  bool regained_ = false;      ///< errors were begun anew for the contact that follows
+  std::optional<int> lifted_;   ///< the corner that a contact's end has left last
+  bool first_is_open_ = false;  ///< heights that touch down together differ by more than the rounding of the attitude
+  bool regained_ = false;       ///< errors were begun anew for the contact that follows
 };
 
 }  // namespace

@@ -110,13 +110,15 @@ std::vector<int> indices_of(const StrikingGroup::Points& group) {
 }
 
 StrikingGroup::Points StrikingGroup::fastest() const {
-  double most = 0;
-  for (const Point& p : points_) most = std::fmax(most, approaches(p) ? -velocity(p).z() : 0);
-  Points some;
-  for (const Point& p : points_) {
-    if (approaches(p) && -velocity(p).z() >= most * (1 - 1e-12)) some.push_back(p);
+  const Points some = approaching();
+  const auto slower = [&](const Point& p, const Point& q) { return velocity(p).z() > velocity(q).z(); };
+  const auto fastest = std::ranges::max_element(some, slower);
+  Points equal;
+  for (const Point& p : some) {
+    const double behind = velocity(p).z() - velocity(*fastest).z();
+    if (behind <= struck_.rounding(p.arm) + struck_.rounding(fastest->arm)) equal.push_back(p);
   }
-  return some;
+  return equal;
 }
 
 bool StrikingGroup::strike(const Points& group) {

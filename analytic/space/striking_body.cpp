@@ -7,6 +7,7 @@
 #include "analytic/base/errors.hpp"
 #include "analytic/base/limits.hpp"
 #include "analytic/law/coulomb_path.hpp"
+#include "analytic/law/restitution_without_gain.hpp"
 #include "analytic/space/face_friction.hpp"
 #include "analytic/space/impulse_path.hpp"
 
@@ -48,14 +49,18 @@ void StrikingBody::strike_at(const Vector3& place, const std::vector<int>& point
   push(impact.impulse, arm(place).cross(impact.impulse), impact.path, points);
 }
 
-std::optional<FaceRebound> StrikingBody::face_rebound(double depth) const {
+/// e of the law at the approach speed of the pressure point that a face which comes down has without friction.
+double StrikingBody::face_restitution() const {
   const double speed = -state_.velocity.z();
-  if (!(speed > 0)) return {};
   const Matrix2 inertia = inverse_inertia_.topLeftCorner<2, 2>().inverse();  // that pushes upwards have to turn
   const Vector2 turning = state_.angular_velocity.head<2>();
-  const double at_pressure_centre = speed + turning.dot(inertia * turning) / (body_.mass * speed);
-  const double e = restitution_at(law_.law, at_pressure_centre);
-  const Vector2 turn = -(1 + e) * turning;
+  return restitution_at(law_.law, speed + turning.dot(inertia * turning) / (body_.mass * speed));
+}
+
+FaceRebound StrikingBody::face_rebound_by(double e, double depth) const {
+  const double speed = -state_.velocity.z();
+  const Matrix2 inertia = inverse_inertia_.topLeftCorner<2, 2>().inverse();
+  const Vector2 turn = -(1 + e) * state_.angular_velocity.head<2>();
   const Vector2 moment = inertia * turn;
   const double normal = (1 + e) * body_.mass * speed;
   const Vector3 below(0, 0, -depth);
@@ -69,16 +74,20 @@ std::optional<FaceRebound> StrikingBody::face_rebound(double depth) const {
                     .velocity_scale = state_.velocity.norm() + state_.angular_velocity.norm() * depth},
                    law_);
   const Vector3 of_all(moment.x(), moment.y(), 0);
-  return FaceRebound{.impulse = whole.impulse,
-                     .moment = of_all,
-                     .pressure_point = point_of_pushes(whole.impulse, of_all, below),
-                     .path = whole.path};
+  return {.impulse = whole.impulse,
+          .moment = of_all,
+          .pressure_point = point_of_pushes(whole.impulse, of_all, below),
+          .path = whole.path};
 }
 
-std::optional<FaceRebound> StrikingBody::face_rebound(double depth, const ContactArea& area) const {
-  auto rebound = face_rebound(depth);
+std::optional<FaceRebound> StrikingBody::face_rebound(double depth) const {
+  if (!(state_.velocity.z() < 0)) return {};
+  return face_rebound_by(face_restitution(), depth);
+}
+
+std::optional<FaceRebound> StrikingBody::face_rebound_by(double e, double depth, const ContactArea& area) const {
+  std::optional<FaceRebound> rebound = face_rebound_by(e, depth);
   const ImpactLaw& law = law_.law;
-  if (!rebound) return {};
   if (!law.rubs()) return area.contains(rebound->pressure_point) ? rebound : std::nullopt;
   const Vector2 turn = inverse_inertia_.topLeftCorner<2, 2>() * rebound->moment.head<2>();
   const Vector3 below(0, 0, -depth);
@@ -106,6 +115,26 @@ std::optional<FaceRebound> StrikingBody::face_rebound(double depth, const Contac
   rebound->pressure_point = point_of_pushes(rebound->impulse, rebound->moment, below);
   rebound->spin_after = friction.spin_after;
   return rebound;
+}
+
+double StrikingBody::energy_loss(const FaceRebound& face) const {
+  const Vector3 velocity = state_.velocity + face.impulse / (2 * body_.mass);
+  const Vector3 turning = state_.angular_velocity + inverse_inertia_ * face.moment / 2;
+  return -face.impulse.dot(velocity) - face.moment.dot(turning);
+}
+
+std::optional<FaceRebound> StrikingBody::face_rebound(double depth, const ContactArea& area) const {
+  if (!(state_.velocity.z() < 0)) return {};
+  const double e = face_restitution();
+  auto rebound = face_rebound_by(e, depth, area);
+  if (!rebound || !law_.law.rubs() || law_.law.law == RestitutionLaw::newton) return rebound;
+  const Vector3 own = axes_.transpose() * state_.angular_velocity;
+  const double energy = (body_.mass * state_.velocity.squaredNorm() + own.dot(body_.inertia * own)) / 2;
+  const double least = restitution_without_gain(e, energy, [&](double some) {
+    const auto face = some == e ? rebound : face_rebound_by(some, depth, area);
+    return face ? energy_loss(*face) : energy;
+  });
+  return least < e ? face_rebound_by(least, depth, area) : rebound;
 }
 
 EdgeContact StrikingBody::edge_contact(const Vector3& from, const Vector3& to) const {

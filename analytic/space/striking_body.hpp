@@ -82,7 +82,8 @@ class StrikingBody {
   /// @param depth  of the ground below the centre of mass [m]
   [[nodiscard]] std::optional<FaceRebound> face_rebound(double depth) const;
   /// The same with friction all over the area (face_friction.hpp), from below the centre of mass; nothing if the area
-  /// has no pressure for it.
+  /// has no pressure for it.  Under every law but Newton's e is the largest without a gain of energy
+  /// (restitution_without_gain.hpp).
   [[nodiscard]] std::optional<FaceRebound> face_rebound(double depth, const ContactArea& area) const;
   /// The edge between two places at one height, as (1) of edge_friction.hpp has it.
   [[nodiscard]] EdgeContact edge_contact(const Vector3& from, const Vector3& to) const;
@@ -104,6 +105,11 @@ class StrikingBody {
 
  private:
   void push(const Vector3& impulse, const Vector3& moment, PathKind path, const std::vector<int>& points);
+  [[nodiscard]] double face_restitution() const;
+  [[nodiscard]] FaceRebound face_rebound_by(double restitution, double depth) const;
+  [[nodiscard]] std::optional<FaceRebound> face_rebound_by(double restitution, double depth,
+                                                           const ContactArea& area) const;
+  [[nodiscard]] double energy_loss(const FaceRebound& face) const;
 
   const Body& body_;
   const Law& law_;

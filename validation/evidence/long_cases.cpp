@@ -157,7 +157,8 @@ void run_discrete(Draw draw, int index, Tally& tally) {
     const analytic::Drop drop = any_drop(draw);
     const analytic::Sequence sequence = impact_sequence(drop, {.impacts = 12, .digits = 6, .amplification = false});
     if (!is_finite(sequence)) tally.note(1, index, "a number that is none");
-    if (retrace(drop, sequence).residual <= laws_hold) tally.count("keep all laws of motion to 1e-9");
+    const bool hold = retrace(drop, sequence).residual <= laws_hold;
+    tally.count(hold ? "keep all laws of motion to 1e-9" : "miss one by more");
     tally.count(outcome_name(sequence.outcome));
   } catch (const analytic::OutsideModelError&) {
     tally.count("outside-model");

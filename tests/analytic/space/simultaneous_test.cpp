@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analytic/space/simultaneous.hpp"
 
+#include <algorithm>
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 
@@ -271,6 +272,86 @@ BOOST_AUTO_TEST_CASE(touching_corners_of_which_none_approaches_get_no_impulse) {
   BOOST_CHECK(impact.order.empty());
   BOOST_CHECK_EQUAL(impact.impulse.norm(), 0);
   BOOST_CHECK(impact.velocity_after == before.velocity);
+}
+
+/// A box with any centre of mass that turns about the lower edge at x > 0, which slides and spins on the ground, while
+/// the other lower edge comes down.
+struct BoxBesideEdge {
+  FlatBox box;
+  State before;
+
+  explicit BoxBesideEdge(Random& random)
+      : box(random.uniform(0.3, 1), random.uniform(0.3, 1), random.uniform(0.3, 1), random.uniform(0.3, 3)) {
+    const Vector3 centre = random.vector(0.08).cwiseProduct(Vector3(box.length, box.width, box.height));
+    for (Corner& corner : box.bottom) corner.place -= centre;
+    before.angular_velocity = {0, -random.uniform(0.5, 5), random.uniform(-5, 5)};
+    before.velocity = random.vector(2);
+    before.velocity.z() = 0;
+    before.velocity.z() = -normal_velocity(before.velocity, before.angular_velocity, box.bottom[1].place);
+  }
+};
+
+BOOST_AUTO_TEST_CASE(edges_of_a_face_that_strike_in_turn_go_on_as_edges_until_rounding_is_left_of_them) {
+  constexpr double kick = 1e-12, tolerance = 1e-9;
+  Random random(6);
+  int in_turn = 0;
+  for (int i = 0; i < 60; ++i) {
+    const BoxBesideEdge scene(random);
+    const Law law = coulomb(0, random.uniform(0.05, 1));
+    const auto landed = [&](const Vector3& kicked) {
+      State before = scene.before;
+      before.velocity += kicked;
+      return strike_together(scene.box.body, before, scene.box.bottom, law);
+    };
+    const GroupImpact impact = landed(Vector3::Zero());
+    in_turn += impact.order.size() > 4;
+    for (const Vector3& direction : {Vector3(1, 0, 0), Vector3(0, 1, 0), Vector3(-0.6, 0.8, 0)}) {
+      BOOST_TEST_CONTEXT("box " << i) {
+        BOOST_CHECK_LE((landed(kick * direction).impulse - impact.impulse).norm(), tolerance * impact.impulse.norm());
+      }
+    }
+    if (std::ranges::any_of(impact.order, [](const auto& strike) { return strike.size() != 2; })) continue;
+    for (const Corner& corner : scene.box.bottom) {
+      BOOST_CHECK_GE(normal_velocity(impact.velocity_after, impact.angular_velocity_after, corner.place), -1e-12);
+    }
+  }
+  BOOST_TEST(in_turn > 5);
+}
+
+BOOST_AUTO_TEST_CASE(a_face_that_lands_gains_no_energy_but_by_newtons_law_and_is_newtons_where_that_gains_none) {
+  constexpr double tolerance = 1e-11;
+  Random random(9);
+  int limited = 0, whole = 0;
+  for (int i = 0; i < 200; ++i) {
+    const FlatBox box(random.uniform(0.3, 1), random.uniform(0.3, 1), random.uniform(0.3, 1), 1);
+    State before;
+    before.velocity = random.vector(0.5);
+    before.velocity.z() = -1;
+    before.angular_velocity =
+        Vector3(random.uniform(-1, 1) / box.width, random.uniform(-1, 1) / box.length, random.uniform(-3, 3));
+    const double e = random.uniform(0.97, 1), friction = random.uniform(0.5, 2);
+    const auto landed = [&](RestitutionLaw by) {
+      return rebound_as_a_whole(box.body, before, box.bottom, coulomb(e, friction, by));
+    };
+    const auto energy = [&](const Vector3& v, const Vector3& w) {
+      return kinetic_energy(box.body, Matrix3::Identity(), v, w);
+    };
+    const auto newton = landed(RestitutionLaw::newton), stronge = landed(RestitutionLaw::stronge);
+    if (!newton || !stronge) continue;
+    const double at_first = energy(before.velocity, before.angular_velocity);
+    const double gain = energy(stronge->velocity_after, stronge->angular_velocity_after) - at_first;
+    const double newtons = energy(newton->velocity_after, newton->angular_velocity_after) - at_first;
+    BOOST_CHECK_LE(gain, tolerance * at_first);
+    if (newtons > tolerance * at_first) {
+      BOOST_CHECK_GE(gain, -std::fmax(tolerance, stronge->path_error) * at_first);
+      ++limited;
+    } else {
+      BOOST_CHECK_LE((stronge->velocity_after - newton->velocity_after).norm(), tolerance);
+      ++whole;
+    }
+  }
+  BOOST_TEST(limited > 5);
+  BOOST_TEST(whole > 50);
 }
 
 }  // namespace
