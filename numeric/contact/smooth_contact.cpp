@@ -305,8 +305,7 @@ void SmoothContact::add_piece(Piece& piece, Sums& sums) {
 
 namespace {
 
-constexpr double most_variation = 0.45;  ///< of the slip over a cell, from its middle, in parts of it
-constexpr int most_around = 48;          ///< beyond it, graded parts take fewer
+constexpr int most_around = 48;  ///< beyond it, graded parts take fewer
 
 /// Slip over a piece, in its coordinates, and what presses there.
 struct PieceSlip {
@@ -319,6 +318,8 @@ struct PieceSlip {
     return piece.depth.at(p) * pressure.at(p) * weight_at(piece, p, projected);
   }
   [[nodiscard]] SlipVector at(const Vector3& p) const { return {east.at(p), north.at(p)}; }
+  /// Its change along a vector.
+  [[nodiscard]] SlipVector rate(const Vector3& way) const { return {east.slope.dot(way), north.slope.dot(way)}; }
 };
 
 void add_at(const PieceSlip& slip, const Vector3& p, double area, DirectionSums& sums) {
@@ -396,26 +397,110 @@ int places_around(const PieceSlip& slip, const SphereArc& rim) {
   return wanted < most_around ? 8 + 2 * static_cast<int>(std::ceil(wanted / 2)) : most_around + 1;
 }
 
-/// Gauss's rule on a part of a curve, by how much the slip varies over it.
-struct PartRule {
-  bool is_smooth;  ///< enough for one rule
-  double digits, square, varies;
-
-  PartRule(const PieceSlip& slip, const SlipVector& middle, const SlipVector& from, const SlipVector& to)
-      : digits(slip.digits), square(middle.square() + slip.rounding * slip.rounding) {
-    const auto change = [&](const SlipVector& other) {
-      return SlipVector{other.east - middle.east, other.north - middle.north}.square();
-    };
-    varies = std::max(change(from), change(to));
-    is_smooth = varies <= most_variation * most_variation * square;
-  }
-  /// @param half  of the angle that the part spans [rad]
-  [[nodiscard]] int order(double half) const {
-    if (!is_smooth) return 2;
-    const double inverse = std::sqrt(square / std::max(varies, 1e-12 * square));
-    return std::max(gauss_order(inverse + std::sqrt(inverse * inverse - 1), digits), trigonometric_order(half) + 2);
-  }
+/// Slip along a circle, v(φ) = v(0) + v′(0) sin φ + (v(π) − v(0)) (1 − cos φ)/2.
+struct CircleSlip {
+  SlipVector at_zero, at_half_turn, rate;
 };
+
+/// Where the direction of slip along a circle is singular: at φ = centre ± i width; nearest to what is integrated over.
+struct Turn {
+  double centre, width;
+};
+
+/// Rule along a circle for what the direction of the slip is a factor of.  With u = tan φ/2 the slip, as a complex
+/// number, is zero where
+///     v(π) u² + 2 v′(0) u + v(0) = 0.
+/// About each of its two roots φ = centre + width × sinh s is smooth in s; Gauss's rule takes parts of s.
+class CircleRule {
+ public:
+  CircleRule(const CircleSlip& slip, double rounding, double digits);
+  /// Calls visit(φ, weight) between two angles.
+  template <class Visit>
+  void over(double from, double to, Visit&& visit) const;
+
+ private:
+  static constexpr double longest = std::numbers::pi;  ///< part of the circle that has the nearest roots alone
+  template <class Visit>
+  void over_turn(const Turn& turn, double other, double from, double to, double whole, Visit&& visit) const;
+  std::array<Turn, 2> turns_;
+  double digits_;
+};
+
+CircleRule::CircleRule(const CircleSlip& slip, double rounding, double digits) : digits_(digits) {
+  using Complex = std::complex<double>;
+  const auto complex = [](const SlipVector& v) { return Complex(v.east, v.north); };
+  const Complex c = complex(slip.at_zero), b = complex(slip.rate), a = complex(slip.at_half_turn);
+  const Complex root = std::sqrt(b * b - a * c);
+  const Complex q = std::norm(b + root) > std::norm(b - root) ? -b - root : root - b;
+  const std::array<Complex, 2> over{q, c}, under{a, q};
+  for (std::size_t i = 0; i < 2; ++i) {
+    // φ = 2 arctan(over/under) = −i log((under + i over)/(under − i over)).
+    const Complex turned(-over[i].imag(), over[i].real());
+    const double plus = std::norm(under[i] + turned), minus = std::norm(under[i] - turned);
+    const Complex ratio = (under[i] + turned) * std::conj(under[i] - turned);
+    double& width = turns_[i].width;
+    turns_[i].centre = std::arg(ratio);
+    width = plus > 0 && minus > 0 ? std::fabs(std::log(plus / minus)) / 2 : std::numeric_limits<double>::infinity();
+    if (rounding > 0 && std::isfinite(width)) {
+      const double cosine = std::cos(turns_[i].centre), sine = std::sin(turns_[i].centre);
+      const Complex change = (a - c) / 2.0, speed = b * cosine + change * sine, bend = change * cosine - b * sine;
+      const double fades = std::min(rounding / std::abs(speed), std::sqrt(2 * rounding / std::abs(bend)));
+      width = std::hypot(width, fades);
+    }
+  }
+  if (turns_[0].width > turns_[1].width) std::swap(turns_[0], turns_[1]);
+}
+
+template <class Visit>
+void CircleRule::over(double from, double to, Visit&& visit) const {
+  const int parts = std::max(1, static_cast<int>(std::ceil((to - from) / longest)));
+  for (int i = 0; i < parts; ++i) {
+    const double begin = from + (to - from) * i / parts, end = from + (to - from) * (i + 1) / parts;
+    std::array<double, 2> centres;
+    for (std::size_t j = 0; j < 2; ++j) {
+      const double middle = (begin + end) / 2;
+      centres[j] = middle + std::remainder(turns_[j].centre - middle, 2 * std::numbers::pi);
+    }
+    const double apart = centres[1] - centres[0], between = (centres[0] + centres[1]) / 2;
+    const Turn first{centres[0], turns_[0].width}, second{centres[1], turns_[1].width};
+    const bool is_alone = !(turns_[1].width < std::fabs(apart));
+    const double split = is_alone ? (apart > 0 ? end : begin) : std::clamp(between, begin, end);
+    const double far = is_alone ? std::numeric_limits<double>::infinity() : std::fabs(apart);
+    const auto part = [&](const Turn& turn, double low, double high) {
+      if (high > low) over_turn(turn, far, low, high, to - from, visit);
+    };
+    part(apart > 0 ? first : second, begin, split);
+    part(apart > 0 ? second : first, split, end);
+  }
+}
+
+/// @param other  distance of the other root
+/// @param whole  length of what the digits are of
+template <class Visit>
+void CircleRule::over_turn(const Turn& turn, double other, double from, double to, double whole, Visit&& visit) const {
+  constexpr double part_length = 4, least_digits = 3, widest = 1e3;
+  const double width = std::clamp(turn.width, std::pow(10, -digits_ - 1) * whole, widest * whole);
+  const double begin = std::asinh((from - turn.centre) / width), end = std::asinh((to - turn.centre) / width);
+  const double next = std::asinh(other / width);  // where the other root lies
+  const int parts = std::max(1, static_cast<int>(std::ceil((end - begin) / part_length)));
+  const double half = (end - begin) / (2 * parts);
+  double low = from;
+  for (int i = 0; i < parts; ++i) {
+    const double middle = begin + half * (2 * i + 1);
+    const double high = i + 1 == parts ? to : turn.centre + width * std::sinh(middle + half);
+    const double digits = std::max(digits_ + std::log10((high - low) / whole), least_digits);
+    const double strip = std::numbers::pi / 2 / half;
+    const double beside = std::max((next - std::fabs(middle)) / half, 1.1);
+    const double ellipse = std::min(strip + std::sqrt(strip * strip + 1), beside + std::sqrt(beside * beside - 1));
+    const int order =
+        std::min(std::max(gauss_order(ellipse, digits), trigonometric_order((high - low) / 2) + 2), most_gauss_nodes);
+    for (const GaussNode& node : gauss_rule(order)) {
+      const double grown = std::exp(middle + half * node.at);
+      visit(turn.centre + width * (grown - 1 / grown) / 2, half * node.weight * width * (grown + 1 / grown) / 2);
+    }
+    low = high;
+  }
+}
 
 /// A cap, or a part of one, as rays from the place where nothing slips, along which the direction hardly varies, to its
 /// boundary; their areas have signs, so that the place may lie outside.
@@ -427,12 +512,6 @@ class RestingFan {
   bool add_up();
 
  private:
-  /// Parts of the rim, halved until the slip varies little along each.
-  struct Part {
-    double from, to;
-    SlipVector at_from, at_to;
-    int level;
-  };
   void add_ray(const SphereArc& arc, double angle, double step);
   void add_graded(const SphereArc& arc);
 
@@ -502,31 +581,10 @@ void RestingFan::add_ray(const SphereArc& arc, double angle, double step) {
 
 /// Where the resting place lies so near the boundary that the direction turns there within a short way.
 void RestingFan::add_graded(const SphereArc& arc) {
-  constexpr double longest = std::numbers::pi / 2;
-  std::array<Part, 128> stack;
-  int top = 0;
-  const auto slip_at = [&](double angle) { return slip_.at(arc.at(angle)); };
-  const double length = arc.to - arc.from;
-  const int begins = std::max(1, static_cast<int>(std::ceil(length / longest)));
-  for (int i = 0; i < begins; ++i) {
-    const double from = arc.from + length * i / begins, to = arc.from + length * (i + 1) / begins;
-    stack[static_cast<std::size_t>(top++)] = {from, to, slip_at(from), slip_at(to), 0};
-  }
-  const int deepest = std::min(60, static_cast<int>(slip_.digits / std::log10(2.0)) + 2);
-  while (top > 0) {
-    const Part part = stack[static_cast<std::size_t>(--top)];
-    const double middle = (part.from + part.to) / 2, half = (part.to - part.from) / 2;
-    const SlipVector v = slip_at(middle);
-    const PartRule rule(slip_, v, part.at_from, part.at_to);
-    if (!rule.is_smooth && part.level < deepest) {
-      stack[static_cast<std::size_t>(top++)] = {part.from, middle, part.at_from, v, part.level + 1};
-      stack[static_cast<std::size_t>(top++)] = {middle, part.to, v, part.at_to, part.level + 1};
-      continue;
-    }
-    for (const GaussNode& node : gauss_rule(rule.order(half))) {
-      add_ray(arc, middle + half * node.at, half * node.weight);
-    }
-  }
+  const CircleSlip along{slip_.at(arc.at(0)), slip_.at(arc.at(std::numbers::pi)), slip_.rate(arc.b)};
+  CircleRule(along, 0, slip_.digits).over(arc.from, arc.to, [&](double angle, double weight) {
+    add_ray(arc, angle, weight);
+  });
 }
 
 /// The direction in which the slip varies most over the piece; the slip's own where it does not vary.
@@ -541,35 +599,6 @@ SpaceLinear component(const PieceSlip& slip, const SlipVector& way) {
           way.east * slip.east.slope + way.north * slip.north.slope};
 }
 
-/// Along a piece of a slice, by Gauss's rule on parts that are halved until the slip varies little over each.
-void along_slice(const PieceSlip& slip, const Slices& slices, const Slices::Slice& slice, double begin, double end,
-                 double weight, DirectionSums& sums) {
-  struct Part {
-    double from, to;
-    SlipVector at_from, at_to;
-    int level;
-  };
-  const auto slip_at = [&](double angle) { return slip.at(slices.place(slice, angle)); };
-  std::array<Part, 128> stack;
-  int top = 0;
-  stack[static_cast<std::size_t>(top++)] = {begin, end, slip_at(begin), slip_at(end), 0};
-  const int deepest = std::min(60, static_cast<int>(slip.digits / std::log10(2.0)) + 2);
-  while (top > 0) {
-    const Part part = stack[static_cast<std::size_t>(--top)];
-    const double middle = (part.from + part.to) / 2, half = (part.to - part.from) / 2;
-    const SlipVector v = slip_at(middle);
-    const PartRule rule(slip, v, part.at_from, part.at_to);
-    if (!rule.is_smooth && part.level < deepest) {
-      stack[static_cast<std::size_t>(top++)] = {part.from, middle, part.at_from, v, part.level + 1};
-      stack[static_cast<std::size_t>(top++)] = {middle, part.to, v, part.at_to, part.level + 1};
-      continue;
-    }
-    for (const GaussNode& node : gauss_rule(rule.order(half))) {
-      add_at(slip, slices.place(slice, middle + half * node.at), weight * half * node.weight, sums);
-    }
-  }
-}
-
 /// Any part of a piece, by slices across which the slip varies most.
 void over_slices(const PieceSlip& slip, HalfSpaces parts, DirectionSums& sums) {
   const Piece& piece = slip.piece;
@@ -580,8 +609,14 @@ void over_slices(const PieceSlip& slip, HalfSpaces parts, DirectionSums& sums) {
   const double axis = std::atan2(along.slope.x(), -along.slope.y());
   Slices slices = piece.is_mantle ? Slices(piece.mantle.length, parts) : Slices(parts, axis);
   slices.mind(along, across);
+  const SlipVector rate = slip.rate(slices.across());
   slices.each_piece([&](const Slices::Slice& slice, double from, double to, double weight) {
-    along_slice(slip, slices, slice, from, to, weight, sums);
+    const CircleSlip around{slip.at(slices.place(slice, 0)),
+                            slip.at(slices.place(slice, std::numbers::pi)),
+                            {slice.radius * rate.east, slice.radius * rate.north}};
+    CircleRule(around, slip.rounding, slip.digits).over(from, to, [&](double angle, double area) {
+      add_at(slip, slices.place(slice, angle), weight * area, sums);
+    });
   });
 }
 
