@@ -322,10 +322,72 @@ struct PieceSlip {
   [[nodiscard]] SlipVector rate(const Vector3& way) const { return {east.slope.dot(way), north.slope.dot(way)}; }
 };
 
-void add_at(const PieceSlip& slip, const Vector3& p, double area, DirectionSums& sums) {
-  const SlipVector v = slip.at(p);
-  const double size = std::sqrt(v.square() + slip.rounding * slip.rounding);
-  if (size > 0) sums.add(p, area * slip.load(p) / size, v);
+/// Sums loads along the directions of a slip, many places at a time: square roots and quotients of several take no
+/// longer than those of one.
+class DirectionSummer {
+ public:
+  explicit DirectionSummer(const PieceSlip& slip) : slip_(slip) {}
+
+  void add(const Vector3& p, double area) { put(p.x(), p.y(), p.z(), area, false); }
+  /// A place of the lower half of the sphere and the area that it stands for, seen along the vertical.
+  void add_above(double x, double y, double area) { put(x, y, 0, area, true); }
+  [[nodiscard]] const DirectionSums& sums() {
+    flush();
+    return sums_;
+  }
+
+ private:
+  static constexpr int room = 32;
+  using Row = Eigen::Array<double, room, 1>;
+
+  void put(double x, double y, double z, double area, bool is_above) {
+    if (count_ == room || is_above != is_above_) flush();
+    is_above_ = is_above;
+    x_[count_] = x;
+    y_[count_] = y;
+    z_[count_] = z;
+    area_[count_++] = area;
+  }
+  [[nodiscard]] Row at_all(const SpaceLinear& f) const {
+    return f.value + f.slope.x() * x_ + f.slope.y() * y_ + f.slope.z() * z_;
+  }
+  [[nodiscard]] Row weights() const;
+  void flush();
+
+  const PieceSlip& slip_;
+  Row x_, y_, z_, area_;
+  int count_ = 0;
+  bool is_above_ = false;
+  DirectionSums sums_;
+};
+
+DirectionSummer::Row DirectionSummer::weights() const {
+  const Piece& piece = slip_.piece;
+  if (slip_.projected) return at_all(piece.weight);
+  if (!piece.by_normal) return Row::Constant(piece.area);
+  Row square = Row::Zero();
+  for (int i = 0; i < 3; ++i) square += at_all({piece.normal[i], piece.normal_change.row(i).transpose()}).square();
+  return square.sqrt();
+}
+
+void DirectionSummer::flush() {
+  constexpr double no_slip = 1e-100;  // [m/s]: has no direction
+  if (count_ == 0) return;
+  for (int i = count_; i < room; ++i) x_[i] = y_[i] = z_[i] = area_[i] = 0;
+  count_ = 0;
+  if (is_above_) {
+    const Row square = x_.square() + y_.square(), cosine = (1 - square).sqrt();
+    z_ = square / (1 + cosine);
+    area_ /= cosine;
+  }
+  const Row east = at_all(slip_.east), north = at_all(slip_.north);
+  const Row size = (east.square() + north.square() + slip_.rounding * slip_.rounding).sqrt().max(no_slip);
+  const Row load = area_ * weights() * at_all(slip_.piece.depth) * at_all(slip_.pressure) / size;
+  const Row along_east = load * east, along_north = load * north;
+  sums_.east += along_east.sum();
+  sums_.north += along_north.sum();
+  sums_.east_place += Vector3((along_east * x_).sum(), (along_east * y_).sum(), (along_east * z_).sum());
+  sums_.north_place += Vector3((along_north * x_).sum(), (along_north * y_).sum(), (along_north * z_).sum());
 }
 
 /// Largest change of the slip over a cap from its value at the lowest point: along it, and by its height.
@@ -507,7 +569,7 @@ void CircleRule::over_turn(const Turn& turn, double other, double from, double t
 class RestingFan {
  public:
   /// @param centre  of find_resting_place()
-  RestingFan(const PieceSlip& slip, const Vector3& centre, DirectionSums& sums);
+  RestingFan(const PieceSlip& slip, const Vector3& centre, DirectionSummer& sums);
   /// False, and nothing added, where the slip turns round along the rays.
   bool add_up();
 
@@ -518,12 +580,12 @@ class RestingFan {
   const PieceSlip& slip_;
   Vector3 centre_;
   SphereArc rim_;  ///< of the whole cap
-  DirectionSums& sums_;
+  DirectionSummer& sums_;
   int order_ = 0;       ///< along a ray
   bool is_low_ = true;  ///< of SphereRay
 };
 
-RestingFan::RestingFan(const PieceSlip& slip, const Vector3& centre, DirectionSums& sums)
+RestingFan::RestingFan(const PieceSlip& slip, const Vector3& centre, DirectionSummer& sums)
     : slip_(slip), centre_(centre), sums_(sums) {
   const double height = slip.piece.height, rho = std::sqrt(height * (2 - height));
   rim_ = {{0, 0, height}, {rho, 0, 0}, {0, rho, 0}, 0, 2 * std::numbers::pi};
@@ -563,7 +625,9 @@ bool RestingFan::add_up() {
 void RestingFan::add_ray(const SphereArc& arc, double angle, double step) {
   static constexpr double first_ellipse = 2.89, next_ellipse = 2.6, least_digits = 3;
   const Vector3 end = arc.at(angle);
-  const SphereRay ray(centre_, end, arc.rate(angle), is_low_);
+  const Vector3 way = end - centre_, rate = arc.rate(angle);
+  const double seen = way.x() * rate.y() - way.y() * rate.x();
+  const SphereRay ray(centre_, end, rate, is_low_);
   const double fades = slip_.rounding > 0 ? std::min(slip_.rounding / std::sqrt(slip_.at(end).square()), 1.0) : 0;
   const double digits = fades > 0 ? std::max(slip_.digits + 2 * std::log10(fades), least_digits) : 0;
   double from = 0, to = fades > 0 ? std::min(2 * fades, 1.0) : 1;
@@ -571,8 +635,13 @@ void RestingFan::add_ray(const SphereArc& arc, double angle, double step) {
     int order = to == 1 ? order_ : std::min(order_, 5);
     if (fades > 0) order = std::max(order, gauss_order(from > 0 ? next_ellipse : first_ellipse, digits));
     for (const GaussNode& node : gauss_rule(order)) {
-      const auto [place, area] = ray.at((from + to) / 2 + (to - from) / 2 * node.at);
-      add_at(slip_, place, (to - from) / 2 * node.weight * area * step, sums_);
+      const double part = (from + to) / 2 + (to - from) / 2 * node.at, weight = (to - from) / 2 * node.weight * step;
+      if (is_low_) {
+        sums_.add_above(centre_.x() + part * way.x(), centre_.y() + part * way.y(), weight * part * seen);
+        continue;
+      }
+      const auto [place, area] = ray.at(part);
+      sums_.add(place, weight * area);
     }
     from = to;
     to = std::min(5 * to, 1.0);
@@ -600,7 +669,7 @@ SpaceLinear component(const PieceSlip& slip, const SlipVector& way) {
 }
 
 /// Any part of a piece, by slices across which the slip varies most.
-void over_slices(const PieceSlip& slip, HalfSpaces parts, DirectionSums& sums) {
+void over_slices(const PieceSlip& slip, HalfSpaces parts, DirectionSummer& sums) {
   const Piece& piece = slip.piece;
   const SlipVector way = steepest(slip);
   const SpaceLinear along = component(slip, way), across = component(slip, {-way.north, way.east});
@@ -615,19 +684,19 @@ void over_slices(const PieceSlip& slip, HalfSpaces parts, DirectionSums& sums) {
                             slip.at(slices.place(slice, std::numbers::pi)),
                             {slice.radius * rate.east, slice.radius * rate.north}};
     CircleRule(around, slip.rounding, slip.digits).over(from, to, [&](double angle, double area) {
-      add_at(slip, slices.place(slice, angle), weight * area, sums);
+      sums.add(slices.place(slice, angle), weight * area);
     });
   });
 }
 
 /// The cap, or its part, where one rule serves; false: none does.
-bool over_cap(const PieceSlip& slip, DirectionSums& sums) {
+bool over_cap(const PieceSlip& slip, DirectionSummer& sums) {
   const Variation change = variation(slip);
   const double part =
       (change.along + change.up) / std::sqrt(slip.at(Vector3::Zero()).square() + slip.rounding * slip.rounding);
   if (part < 0.5 && slip.piece.parts.count() == 0) {
     over_zone({0, slip.piece.height}, rule_of_variation(slip, part),
-              [&](const Vector3& p, double area) { add_at(slip, p, area, sums); });
+              [&](const Vector3& p, double area) { sums.add(p, area); });
     return true;
   }
   Vector3 centre;
@@ -635,12 +704,12 @@ bool over_cap(const PieceSlip& slip, DirectionSums& sums) {
 }
 
 /// The whole strip, if the slip varies by less than a third of its size.
-bool over_whole_strip(const PieceSlip& slip, double width, DirectionSums& sums) {
+bool over_whole_strip(const PieceSlip& slip, double width, DirectionSummer& sums) {
   constexpr double largest_part = 1.0 / 3;
   const double part = 2 * width / std::sqrt(slip.at(Vector3::Zero()).square() + slip.rounding * slip.rounding);
   if (!(part < largest_part)) return false;
   const int more = static_cast<int>(std::ceil(slip.digits / (2 * std::log10(2 / std::max(part, 1e-15)))));
-  over_mantle(slip.piece.mantle, 32, more, [&](const Vector3& p, double area) { add_at(slip, p, area, sums); });
+  over_mantle(slip.piece.mantle, 32, more, [&](const Vector3& p, double area) { sums.add(p, area); });
   return true;
 }
 
@@ -719,8 +788,8 @@ DirectionSums SmoothContact::directions(const Piece& piece, const GroundView& vi
                        rounding,
                        field.digits,
                        ground_.area == AreaMeasure::projected};
-  DirectionSums sums;
   if (rounding == 0 && slips_one_way(slip)) {
+    DirectionSums sums;
     const SlipVector way = steepest(slip);
     const SpaceLinear along = component(slip, way);
     const Range range = range_over(piece, along);
@@ -733,13 +802,14 @@ DirectionSums SmoothContact::directions(const Piece& piece, const GroundView& vi
     }
     return sums;
   }
+  DirectionSummer sums(slip);
   const bool is_whole = piece.parts.count() == 0;
   if (field.rough) {
-    over(piece, piece.parts, [&](const Vector3& p, double area) { add_at(slip, p, area, sums); });
+    over(piece, piece.parts, [&](const Vector3& p, double area) { sums.add(p, area); });
   } else if (!(piece.is_mantle ? is_whole && over_whole_strip(slip, width, sums) : over_cap(slip, sums))) {
     over_slices(slip, piece.parts, sums);
   }
-  return sums;
+  return sums.sums();
 }
 
 SlipRange SmoothContact::slip_range(const GroundView& view, const SlipField& field) const {
