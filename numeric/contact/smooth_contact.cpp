@@ -414,30 +414,30 @@ CapRule rule_of_variation(const PieceSlip& slip, double part) {
   return rule;
 }
 
-/// The place of the lower half of the ball where nothing slips, by Newton's method; whether it is near the cap.
-bool find_resting_place(const PieceSlip& slip, Vector3& place) {
+/// The places of the lower half of the ball, near the cap, where nothing slips: of the two where the line on which both
+/// components vanish meets the ball; the lower one first.
+/// @return how many
+int resting_places(const PieceSlip& slip, std::array<Vector3, 2>& places) {
   const double height = slip.piece.height;
-  if (slip.piece.is_mantle || !(height < 0.5)) return false;
+  if (slip.piece.is_mantle || !(height < 0.5)) return 0;
   const double widest = std::min(3 * std::sqrt(height * (2 - height)), 0.6);
-  place.setZero();
-  for (int pass = 0; pass < 12; ++pass) {
-    const SlipVector v = slip.at(place);
-    const double tilt = 1 / (1 - place.z());
-    const double ex = slip.east.slope.x() + slip.east.slope.z() * place.x() * tilt;
-    const double ey = slip.east.slope.y() + slip.east.slope.z() * place.y() * tilt;
-    const double nx = slip.north.slope.x() + slip.north.slope.z() * place.x() * tilt;
-    const double ny = slip.north.slope.y() + slip.north.slope.z() * place.y() * tilt;
-    const double determinant = ex * ny - ey * nx, size = ex * ex + ey * ey + nx * nx + ny * ny;
-    if (!(std::fabs(determinant) > 1e-6 * size)) return false;
-    const double dx = (v.north * ey - v.east * ny) / determinant, dy = (v.east * nx - v.north * ex) / determinant;
-    place.x() += dx;
-    place.y() += dy;
-    const double square = place.x() * place.x() + place.y() * place.y();
-    if (!(square < widest * widest)) return false;
-    place.z() = square / (1 + std::sqrt(1 - square));
-    if (std::hypot(dx, dy) <= 1e-15 * widest) return true;
+  const Vector3 &e = slip.east.slope, &n = slip.north.slope, line = e.cross(n);
+  const double square = line.squaredNorm();
+  if (!(square > 1e-12 * e.squaredNorm() * n.squaredNorm())) return 0;
+  const Vector3 foot = -(slip.east.value * n.cross(line) + slip.north.value * line.cross(e)) / square;
+  const double constant = foot.squaredNorm() - 2 * foot.z(), discriminant = line.z() * line.z() - constant * square;
+  if (!(discriminant >= 0)) return 0;
+  const double far = line.z() + std::copysign(std::sqrt(discriminant), line.z());
+  int count = 0;
+  for (const double along : {constant / far, far / square}) {
+    Vector3 p = foot + along * line;
+    const double across = p.x() * p.x() + p.y() * p.y();
+    if (!(p.z() < 1 && across < widest * widest)) continue;
+    p.z() = across / (1 + std::sqrt(1 - across));
+    places[static_cast<std::size_t>(count++)] = p;
   }
-  return false;
+  if (count == 2 && places[1].z() < places[0].z()) std::swap(places[0], places[1]);
+  return count;
 }
 
 /// How many places around a resting place the direction of the slip asks for, by where |v|² = c₀ + c₁ cos + c₂ cos 2 of
@@ -459,20 +459,74 @@ int places_around(const PieceSlip& slip, const SphereArc& rim) {
   return wanted < most_around ? 8 + 2 * static_cast<int>(std::ceil(wanted / 2)) : most_around + 1;
 }
 
+/// Where the direction of slip along a curve is singular: at t = centre ± i width.
+struct Turn {
+  double centre, width;
+};
+
+/// Gauss's rule by a parameter t from which the place along a curve is smooth, where the direction of slip turns near
+/// two places, the sharper one first.  About each t = centre + width × sinh s, and the direction is smooth in s.
+class TurnRule {
+ public:
+  /// @param whole  length of what the digits are of
+  TurnRule(const std::array<Turn, 2>& turns, double digits, double whole)
+      : turns_(turns), digits_(digits), whole_(whole) {}
+  /// Calls visit(t, weight) between two t; the order for what is not the direction is order_of(length of t) at least.
+  template <class Order, class Visit>
+  void over(double from, double to, Order&& order_of, Visit&& visit) const;
+
+ private:
+  template <class Order, class Visit>
+  void about(const Turn& turn, double other, double from, double to, Order&& order_of, Visit&& visit) const;
+  const std::array<Turn, 2>& turns_;
+  double digits_, whole_;
+};
+
+template <class Order, class Visit>
+void TurnRule::over(double from, double to, Order&& order_of, Visit&& visit) const {
+  const Turn &sharp = turns_[0], &other = turns_[1];
+  const double apart = other.centre - sharp.centre, between = (sharp.centre + other.centre) / 2;
+  // The map about the sharper one serves both where the other is no sharper than it is far.
+  const bool is_alone = !(other.width < std::fabs(apart));
+  const double split = is_alone ? (apart > 0 ? to : from) : std::clamp(between, from, to);
+  const double far = is_alone ? std::numeric_limits<double>::infinity() : std::fabs(apart);
+  if (split > from) about(apart > 0 ? sharp : other, far, from, split, order_of, visit);
+  if (to > split) about(apart > 0 ? other : sharp, far, split, to, order_of, visit);
+}
+
+/// @param other  distance of the other turn
+template <class Order, class Visit>
+void TurnRule::about(const Turn& turn, double other, double from, double to, Order&& order_of, Visit&& visit) const {
+  constexpr double part_length = 4, least_digits = 3, widest = 1e3;
+  const double width = std::clamp(turn.width, std::pow(10, -digits_ - 1) * whole_, widest * whole_);
+  const double begin = std::asinh((from - turn.centre) / width), end = std::asinh((to - turn.centre) / width);
+  const double next = std::asinh(other / width);  // where the other one lies
+  const int parts = std::max(1, static_cast<int>(std::ceil((end - begin) / part_length)));
+  const double half = (end - begin) / (2 * parts);
+  double low = from;
+  for (int i = 0; i < parts; ++i) {
+    const double middle = begin + half * (2 * i + 1);
+    const double high = i + 1 == parts ? to : turn.centre + width * std::sinh(middle + half);
+    const double digits = std::max(digits_ + std::log10((high - low) / whole_), least_digits);
+    const double strip = std::numbers::pi / 2 / half, beside = std::max((next - std::fabs(middle)) / half, 1.1);
+    const double ellipse = std::min(strip + std::sqrt(strip * strip + 1), beside + std::sqrt(beside * beside - 1));
+    const int order = std::min(std::max(gauss_order(ellipse, digits), order_of(high - low)), most_gauss_nodes);
+    for (const GaussNode& node : gauss_rule(order)) {
+      const double grown = std::exp(middle + half * node.at);
+      visit(turn.centre + width * (grown - 1 / grown) / 2, half * node.weight * width * (grown + 1 / grown) / 2);
+    }
+    low = high;
+  }
+}
+
 /// Slip along a circle, v(φ) = v(0) + v′(0) sin φ + (v(π) − v(0)) (1 − cos φ)/2.
 struct CircleSlip {
   SlipVector at_zero, at_half_turn, rate;
 };
 
-/// Where the direction of slip along a circle is singular: at φ = centre ± i width; nearest to what is integrated over.
-struct Turn {
-  double centre, width;
-};
-
 /// Rule along a circle for what the direction of the slip is a factor of.  With u = tan φ/2 the slip, as a complex
 /// number, is zero where
 ///     v(π) u² + 2 v′(0) u + v(0) = 0.
-/// About each of its two roots φ = centre + width × sinh s is smooth in s; Gauss's rule takes parts of s.
 class CircleRule {
  public:
   CircleRule(const CircleSlip& slip, double rounding, double digits);
@@ -481,9 +535,6 @@ class CircleRule {
   void over(double from, double to, Visit&& visit) const;
 
  private:
-  static constexpr double longest = std::numbers::pi;  ///< part of the circle that has the nearest roots alone
-  template <class Visit>
-  void over_turn(const Turn& turn, double other, double from, double to, double whole, Visit&& visit) const;
   std::array<Turn, 2> turns_;
   double digits_;
 };
@@ -513,67 +564,36 @@ CircleRule::CircleRule(const CircleSlip& slip, double rounding, double digits) :
   if (turns_[0].width > turns_[1].width) std::swap(turns_[0], turns_[1]);
 }
 
+/// Parts of the circle have the nearest of each root's images.
 template <class Visit>
 void CircleRule::over(double from, double to, Visit&& visit) const {
+  constexpr double longest = std::numbers::pi;
   const int parts = std::max(1, static_cast<int>(std::ceil((to - from) / longest)));
   for (int i = 0; i < parts; ++i) {
     const double begin = from + (to - from) * i / parts, end = from + (to - from) * (i + 1) / parts;
-    std::array<double, 2> centres;
-    for (std::size_t j = 0; j < 2; ++j) {
+    std::array<Turn, 2> turns = turns_;
+    for (Turn& turn : turns) {
       const double middle = (begin + end) / 2;
-      centres[j] = middle + std::remainder(turns_[j].centre - middle, 2 * std::numbers::pi);
+      turn.centre = middle + std::remainder(turn.centre - middle, 2 * std::numbers::pi);
     }
-    const double apart = centres[1] - centres[0], between = (centres[0] + centres[1]) / 2;
-    const Turn first{centres[0], turns_[0].width}, second{centres[1], turns_[1].width};
-    const bool is_alone = !(turns_[1].width < std::fabs(apart));
-    const double split = is_alone ? (apart > 0 ? end : begin) : std::clamp(between, begin, end);
-    const double far = is_alone ? std::numeric_limits<double>::infinity() : std::fabs(apart);
-    const auto part = [&](const Turn& turn, double low, double high) {
-      if (high > low) over_turn(turn, far, low, high, to - from, visit);
-    };
-    part(apart > 0 ? first : second, begin, split);
-    part(apart > 0 ? second : first, split, end);
+    TurnRule(turns, digits_, to - from)
+        .over(
+            begin, end, [](double length) { return trigonometric_order(length / 2) + 2; }, visit);
   }
 }
 
-/// @param other  distance of the other root
-/// @param whole  length of what the digits are of
-template <class Visit>
-void CircleRule::over_turn(const Turn& turn, double other, double from, double to, double whole, Visit&& visit) const {
-  constexpr double part_length = 4, least_digits = 3, widest = 1e3;
-  const double width = std::clamp(turn.width, std::pow(10, -digits_ - 1) * whole, widest * whole);
-  const double begin = std::asinh((from - turn.centre) / width), end = std::asinh((to - turn.centre) / width);
-  const double next = std::asinh(other / width);  // where the other root lies
-  const int parts = std::max(1, static_cast<int>(std::ceil((end - begin) / part_length)));
-  const double half = (end - begin) / (2 * parts);
-  double low = from;
-  for (int i = 0; i < parts; ++i) {
-    const double middle = begin + half * (2 * i + 1);
-    const double high = i + 1 == parts ? to : turn.centre + width * std::sinh(middle + half);
-    const double digits = std::max(digits_ + std::log10((high - low) / whole), least_digits);
-    const double strip = std::numbers::pi / 2 / half;
-    const double beside = std::max((next - std::fabs(middle)) / half, 1.1);
-    const double ellipse = std::min(strip + std::sqrt(strip * strip + 1), beside + std::sqrt(beside * beside - 1));
-    const int order =
-        std::min(std::max(gauss_order(ellipse, digits), trigonometric_order((high - low) / 2) + 2), most_gauss_nodes);
-    for (const GaussNode& node : gauss_rule(order)) {
-      const double grown = std::exp(middle + half * node.at);
-      visit(turn.centre + width * (grown - 1 / grown) / 2, half * node.weight * width * (grown + 1 / grown) / 2);
-    }
-    low = high;
-  }
-}
-
-/// A cap, or a part of one, as rays from the place where nothing slips, along which the direction hardly varies, to its
+/// A cap, or a part of one, as rays from a place where nothing slips, along which the direction hardly varies, to its
 /// boundary; their areas have signs, so that the place may lie outside.
 class RestingFan {
  public:
-  /// @param centre  of find_resting_place()
+  /// @param centre  of resting_places()
   RestingFan(const PieceSlip& slip, const Vector3& centre, DirectionSummer& sums);
-  /// False, and nothing added, where the slip turns round along the rays.
-  bool add_up();
+  /// Whether rays serve: not where the slip turns round near the place.
+  [[nodiscard]] bool serves() const { return serves_; }
+  void add_up(const HalfSpaces& parts);
 
  private:
+  [[nodiscard]] std::array<Turn, 2> turns(const Vector3& end) const;
   void add_ray(const SphereArc& arc, double angle, double step);
   void add_graded(const SphereArc& arc);
 
@@ -581,71 +601,89 @@ class RestingFan {
   Vector3 centre_;
   SphereArc rim_;  ///< of the whole cap
   DirectionSummer& sums_;
-  int order_ = 0;       ///< along a ray
+  bool serves_ = false;
+  int order_ = 0;       ///< along a ray, beside the direction
+  bool bends_ = false;  ///< whether the direction varies along rays so that each asks for its own rule
   bool is_low_ = true;  ///< of SphereRay
 };
 
+/// Along a ray v = λ v₁ + λ² v₂, v₂ by the heights: the direction is analytic up to |v₁/v₂|.
 RestingFan::RestingFan(const PieceSlip& slip, const Vector3& centre, DirectionSummer& sums)
     : slip_(slip), centre_(centre), sums_(sums) {
+  constexpr double far = 1.5, nearest = 0.3;
   const double height = slip.piece.height, rho = std::sqrt(height * (2 - height));
   rim_ = {{0, 0, height}, {rho, 0, 0}, {0, rho, 0}, 0, 2 * std::numbers::pi};
-}
-
-/// Along a ray v = λ v₁ + λ² v₂, v₂ by the heights: the direction is analytic up to |v₁/v₂|.
-bool RestingFan::add_up() {
-  constexpr double nearest = 1.5;
   const Vector3 &e = slip_.east.slope, &n = slip_.north.slope;
   const double determinant = std::fabs(e.x() * n.y() - e.y() * n.x());
   const double size = e.head<2>().squaredNorm() + n.head<2>().squaredNorm();
   const double least = determinant / std::sqrt(size);  // not above √2 × the lesser singular value
-  const double length = std::hypot(centre_.x(), centre_.y()) + rim_.a.x();
+  const double length = std::hypot(centre_.x(), centre_.y()) + rho;
   const double root = least / (std::hypot(e.z(), n.z()) * length / 2 + 1e-3 * least);
-  if (!(root > nearest)) return false;
-  const double bend = 2 * root - 1;
-  const double highest = std::max(slip_.piece.height, centre_.z());
+  const double highest = std::max(height, centre_.z());
   is_low_ = highest < SphereRay::low;
-  order_ =
-      std::max(ray_order(highest, length, slip_.digits), gauss_order(bend + std::sqrt(bend * bend - 1), slip_.digits));
-  if (order_ >= most_gauss_nodes) return false;
-  if (slip_.piece.parts.count() > 0) {
-    HalfSpaces all = slip_.piece.parts;
+  order_ = ray_order(highest, length, slip_.digits);
+  bends_ = !(root > far);
+  if (bends_) {
+    serves_ = is_low_ && root > nearest;
+    return;
+  }
+  const double bend = 2 * root - 1;
+  order_ = std::max(order_, gauss_order(bend + std::sqrt(bend * bend - 1), slip_.digits));
+  serves_ = order_ < most_gauss_nodes;
+}
+
+void RestingFan::add_up(const HalfSpaces& parts) {
+  if (parts.count() > 0) {
+    HalfSpaces all = parts;
     all.add({slip_.piece.height, {0, 0, -1}});
     const SphereBoundary boundary(all);
     for (int i = 0; i < boundary.count; ++i) add_graded(boundary.arcs[static_cast<std::size_t>(i)]);
-    return true;
+    return;
   }
-  const int around = places_around(slip_, rim_);
-  if (around > most_around) return add_graded(rim_), true;
+  const int around = bends_ ? most_around + 1 : places_around(slip_, rim_);
+  if (around > most_around) return add_graded(rim_);
   for (int i = 0; i < around; ++i) add_ray(rim_, 2 * std::numbers::pi * i / around, 2 * std::numbers::pi / around);
-  return true;
 }
 
-/// Below v_r the direction fades like λ/√(λ² + f²): by the roots ±if on [0, 2f] and, from five times the end of one
-/// part to that of the next, on [a, 5a], a >= 2f.  That, and all within 2f, is no more than f² of the whole.
+/// Where the direction turns along a ray: at its beginning, below v_r, and where v₁ + λ v₂ is zero.
+std::array<Turn, 2> RestingFan::turns(const Vector3& end) const {
+  constexpr double none = std::numeric_limits<double>::infinity();
+  const Vector3 way = end - centre_;
+  const SlipVector at_end = slip_.at(end);
+  std::array<Turn, 2> turns{{{0, none}, {0, none}}};
+  if (slip_.rounding > 0) turns[0].width = slip_.rounding / std::sqrt(at_end.square());
+  if (!bends_) return turns;
+  const double rise = (centre_.x() * way.x() + centre_.y() * way.y()) / (1 - centre_.z());
+  const SlipVector first = slip_.rate({way.x(), way.y(), rise});
+  const std::complex<double> v1(first.east, first.north), v2(at_end.east - first.east, at_end.north - first.north);
+  if (std::norm(v2) > 0) {
+    const std::complex<double> root = -v1 / v2;
+    turns[1] = {root.real(), std::hypot(root.imag(), slip_.rounding / std::abs(v1))};
+  }
+  if (turns[0].width > turns[1].width) std::swap(turns[0], turns[1]);
+  return turns;
+}
+
 void RestingFan::add_ray(const SphereArc& arc, double angle, double step) {
-  static constexpr double first_ellipse = 2.89, next_ellipse = 2.6, least_digits = 3;
-  const Vector3 end = arc.at(angle);
-  const Vector3 way = end - centre_, rate = arc.rate(angle);
+  const Vector3 end = arc.at(angle), way = end - centre_, rate = arc.rate(angle);
   const double seen = way.x() * rate.y() - way.y() * rate.x();
   const SphereRay ray(centre_, end, rate, is_low_);
-  const double fades = slip_.rounding > 0 ? std::min(slip_.rounding / std::sqrt(slip_.at(end).square()), 1.0) : 0;
-  const double digits = fades > 0 ? std::max(slip_.digits + 2 * std::log10(fades), least_digits) : 0;
-  double from = 0, to = fades > 0 ? std::min(2 * fades, 1.0) : 1;
-  while (from < 1) {
-    int order = to == 1 ? order_ : std::min(order_, 5);
-    if (fades > 0) order = std::max(order, gauss_order(from > 0 ? next_ellipse : first_ellipse, digits));
-    for (const GaussNode& node : gauss_rule(order)) {
-      const double part = (from + to) / 2 + (to - from) / 2 * node.at, weight = (to - from) / 2 * node.weight * step;
-      if (is_low_) {
-        sums_.add_above(centre_.x() + part * way.x(), centre_.y() + part * way.y(), weight * part * seen);
-        continue;
-      }
-      const auto [place, area] = ray.at(part);
-      sums_.add(place, weight * area);
+  const auto add = [&](double part, double weight) {
+    if (is_low_) {
+      sums_.add_above(centre_.x() + part * way.x(), centre_.y() + part * way.y(), step * weight * part * seen);
+      return;
     }
-    from = to;
-    to = std::min(5 * to, 1.0);
+    const auto [place, area] = ray.at(part);
+    sums_.add(place, step * weight * area);
+  };
+  if (!bends_ && slip_.rounding == 0) {
+    for (const GaussNode& node : gauss_rule(order_)) add((1 + node.at) / 2, node.weight / 2);
+    return;
   }
+  const std::array<Turn, 2> turns = this->turns(end);
+  constexpr int low_order = 5;
+  const auto order_of = [&](double length) { return length < 0.5 ? std::min(order_, low_order) : order_; };
+  TurnRule(turns, slip_.digits, 1).over(0, 1, order_of, add);
 }
 
 /// Where the resting place lies so near the boundary that the direction turns there within a short way.
@@ -699,8 +737,25 @@ bool over_cap(const PieceSlip& slip, DirectionSummer& sums) {
               [&](const Vector3& p, double area) { sums.add(p, area); });
     return true;
   }
-  Vector3 centre;
-  return find_resting_place(slip, centre) && RestingFan(slip, centre, sums).add_up();
+  std::array<Vector3, 2> places;
+  const int count = resting_places(slip, places);
+  if (count == 0) return false;
+  RestingFan fan(slip, places[0], sums);
+  if (count == 1 || !(places[1].z() < slip.piece.height)) {
+    if (fan.serves()) fan.add_up(slip.piece.parts);
+    return fan.serves();
+  }
+  // To each place the part that is nearer to it.
+  RestingFan other(slip, places[1], sums);
+  if (!fan.serves() || !other.serves()) return false;
+  const Vector3 apart = places[0] - places[1];
+  const double middle = apart.dot(places[0] + places[1]) / 2;
+  HalfSpaces near = slip.piece.parts, far = near;
+  near.add({-middle, apart});
+  far.add({middle, -apart});
+  fan.add_up(near);
+  other.add_up(far);
+  return true;
 }
 
 /// The whole strip, if the slip varies by less than a third of its size.
