@@ -539,6 +539,11 @@ class CircleRule {
   double digits_;
 };
 
+/// Length along a curve, near where the slip vanishes, within which it is below v_r.
+double fading(double rounding, const std::complex<double>& speed, const std::complex<double>& bend) {
+  return std::min(rounding / std::abs(speed), std::sqrt(2 * rounding / std::abs(bend)));
+}
+
 CircleRule::CircleRule(const CircleSlip& slip, double rounding, double digits) : digits_(digits) {
   using Complex = std::complex<double>;
   const auto complex = [](const SlipVector& v) { return Complex(v.east, v.north); };
@@ -556,9 +561,8 @@ CircleRule::CircleRule(const CircleSlip& slip, double rounding, double digits) :
     width = plus > 0 && minus > 0 ? std::fabs(std::log(plus / minus)) / 2 : std::numeric_limits<double>::infinity();
     if (rounding > 0 && std::isfinite(width)) {
       const double cosine = std::cos(turns_[i].centre), sine = std::sin(turns_[i].centre);
-      const Complex change = (a - c) / 2.0, speed = b * cosine + change * sine, bend = change * cosine - b * sine;
-      const double fades = std::min(rounding / std::abs(speed), std::sqrt(2 * rounding / std::abs(bend)));
-      width = std::hypot(width, fades);
+      const Complex change = (a - c) / 2.0;
+      width = std::hypot(width, fading(rounding, b * cosine + change * sine, change * cosine - b * sine));
     }
   }
   if (turns_[0].width > turns_[1].width) std::swap(turns_[0], turns_[1]);
@@ -727,6 +731,65 @@ void over_slices(const PieceSlip& slip, HalfSpaces parts, DirectionSummer& sums)
   });
 }
 
+/// A whole cap where slip vanishes along a curve but for what little it has across, as of a ball that rolls and hardly
+/// spins: rays from the lowest point, which are parts of circles, between the directions of the places where nothing
+/// slips and of those where the curve leaves the cap.
+class RollingFan {
+ public:
+  RollingFan(const PieceSlip& slip, DirectionSummer& sums) : slip_(slip), sums_(sums) {}
+  void add_up(std::span<const Vector3> resting);
+
+ private:
+  void add_ray(double azimuth, double step);
+  void add_break(double angle) {
+    double* const end = breaks_.begin() + count_++;
+    double* const place = std::upper_bound(breaks_.begin(), end, angle);
+    std::copy_backward(place, end, end + 1);
+    *place = angle;
+  }
+
+  const PieceSlip& slip_;
+  DirectionSummer& sums_;
+  std::array<double, 5> breaks_;  ///< azimuths
+  int count_ = 0;
+};
+
+void RollingFan::add_up(std::span<const Vector3> resting) {
+  constexpr int around = 20;
+  for (const Vector3& p : resting) add_break(std::atan2(p.y(), p.x()));
+  const SpaceLinear along = component(slip_, steepest(slip_));
+  const double height = slip_.piece.height, rho = std::sqrt(height * (2 - height));
+  const double middle = along.value + along.slope.z() * height,
+               size = std::hypot(along.slope.x(), along.slope.y()) * rho;
+  if (std::fabs(middle) < size) {
+    const double peak = std::atan2(along.slope.y(), along.slope.x()), half = std::acos(-middle / size);
+    for (const double angle : {peak - half, peak + half}) add_break(std::remainder(angle, 2 * std::numbers::pi));
+  }
+  if (count_ == 0) add_break(0);
+  for (int i = 0; i < count_; ++i) {
+    const double from = breaks_[static_cast<std::size_t>(i)];
+    const double to = i + 1 < count_ ? breaks_[static_cast<std::size_t>(i) + 1] : breaks_[0] + 2 * std::numbers::pi;
+    const int parts = std::max(1, static_cast<int>(std::ceil((to - from) / std::numbers::pi)));
+    for (int j = 0; j < parts; ++j) {
+      const double begin = from + (to - from) * j / parts, width = (to - from) / parts;
+      for (const GaussNode& node : gauss_rule(around)) {
+        const double quarter = std::numbers::pi / 4 * (1 + node.at), sine = std::sin(quarter);
+        add_ray(begin + width * sine * sine, std::numbers::pi / 4 * width * std::sin(2 * quarter) * node.weight);
+      }
+    }
+  }
+}
+
+void RollingFan::add_ray(double azimuth, double step) {
+  const double x = std::cos(azimuth), y = std::sin(azimuth);
+  const CircleSlip along{slip_.at(Vector3::Zero()), slip_.at({0, 0, 2}), slip_.rate({x, y, 0})};
+  const double end = 2 * std::asin(std::sqrt(slip_.piece.height / 2));
+  CircleRule(along, slip_.rounding, slip_.digits).over(0, end, [&](double angle, double weight) {
+    const double sine = std::sin(angle / 2), across = 2 * sine * std::cos(angle / 2);
+    sums_.add({across * x, across * y, 2 * sine * sine}, weight * across * step);
+  });
+}
+
 /// The cap, or its part, where one rule serves; false: none does.
 bool over_cap(const PieceSlip& slip, DirectionSummer& sums) {
   const Variation change = variation(slip);
@@ -739,15 +802,20 @@ bool over_cap(const PieceSlip& slip, DirectionSummer& sums) {
   }
   std::array<Vector3, 2> places;
   const int count = resting_places(slip, places);
-  if (count == 0) return false;
+  const auto roll = [&] {
+    if (slip.piece.parts.count() > 0 || !(slip.piece.height < 2)) return false;
+    RollingFan(slip, sums).add_up({places.data(), static_cast<std::size_t>(count)});
+    return true;
+  };
+  if (count == 0) return roll();
   RestingFan fan(slip, places[0], sums);
   if (count == 1 || !(places[1].z() < slip.piece.height)) {
     if (fan.serves()) fan.add_up(slip.piece.parts);
-    return fan.serves();
+    return fan.serves() || roll();
   }
   // To each place the part that is nearer to it.
   RestingFan other(slip, places[1], sums);
-  if (!fan.serves() || !other.serves()) return false;
+  if (!fan.serves() || !other.serves()) return roll();
   const Vector3 apart = places[0] - places[1];
   const double middle = apart.dot(places[0] + places[1]) / 2;
   HalfSpaces near = slip.piece.parts, far = near;
