@@ -617,10 +617,13 @@ RestingFan::RestingFan(const PieceSlip& slip, const Vector3& centre, DirectionSu
   constexpr double far = 1.5, nearest = 0.3;
   const double height = slip.piece.height, rho = std::sqrt(height * (2 - height));
   rim_ = {{0, 0, height}, {rho, 0, 0}, {0, rho, 0}, 0, 2 * std::numbers::pi};
-  const Vector3 &e = slip_.east.slope, &n = slip_.north.slope;
-  const double determinant = std::fabs(e.x() * n.y() - e.y() * n.x());
-  const double size = e.head<2>().squaredNorm() + n.head<2>().squaredNorm();
-  const double least = determinant / std::sqrt(size);  // not above √2 × the lesser singular value
+  // Its rates along the ball at the place itself: where there are two close to each other they hardly vary there.
+  const Vector3 &e = slip_.east.slope, &n = slip_.north.slope,
+                tilt = Vector3(centre.x(), centre.y(), 0) / (1 - centre.z());
+  const SlipVector by_x = slip_.rate({1, 0, tilt.x()}), by_y = slip_.rate({0, 1, tilt.y()});
+  const double determinant = std::fabs(by_x.east * by_y.north - by_y.east * by_x.north);
+  const double least =
+      determinant / std::sqrt(by_x.square() + by_y.square());  // not above √2 × the lesser singular value
   const double length = std::hypot(centre_.x(), centre_.y()) + rho;
   const double root = least / (std::hypot(e.z(), n.z()) * length / 2 + 1e-3 * least);
   const double highest = std::max(height, centre_.z());
