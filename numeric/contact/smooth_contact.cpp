@@ -414,23 +414,35 @@ CapRule rule_of_variation(const PieceSlip& slip, double part) {
   return rule;
 }
 
-/// The places of the lower half of the ball, near the cap, where nothing slips: of the two where the line on which both
-/// components vanish meets the ball; the lower one first.
+/// The line on which both components of the slip vanish, and the ball: they meet at middle ± √square × line.
+struct RestingLine {
+  Vector3 line, middle;
+  double square;         ///< < 0: the line misses the ball
+  bool is_line = false;  ///< or the components vanish on one plane, or none
+
+  explicit RestingLine(const PieceSlip& slip) {
+    const Vector3 &e = slip.east.slope, &n = slip.north.slope, across = e.cross(n);
+    const double size = across.norm();
+    is_line = size > 1e-6 * e.norm() * n.norm();
+    if (!is_line) return;
+    line = across / size;
+    const Vector3 foot = -(slip.east.value * n.cross(line) + slip.north.value * line.cross(e)) / size;
+    middle = foot + line.z() * line;
+    square = line.z() * line.z() - foot.squaredNorm() + 2 * foot.z();
+  }
+};
+
+/// The places of the lower half of the ball, near the cap, where nothing slips, the lower one first.
 /// @return how many
 int resting_places(const PieceSlip& slip, std::array<Vector3, 2>& places) {
   const double height = slip.piece.height;
   if (slip.piece.is_mantle || !(height < 0.5)) return 0;
   const double widest = std::min(3 * std::sqrt(height * (2 - height)), 0.6);
-  const Vector3 &e = slip.east.slope, &n = slip.north.slope, line = e.cross(n);
-  const double square = line.squaredNorm();
-  if (!(square > 1e-12 * e.squaredNorm() * n.squaredNorm())) return 0;
-  const Vector3 foot = -(slip.east.value * n.cross(line) + slip.north.value * line.cross(e)) / square;
-  const double constant = foot.squaredNorm() - 2 * foot.z(), discriminant = line.z() * line.z() - constant * square;
-  if (!(discriminant >= 0)) return 0;
-  const double far = line.z() + std::copysign(std::sqrt(discriminant), line.z());
+  const RestingLine rests(slip);
+  if (!rests.is_line || !(rests.square >= 0)) return 0;
   int count = 0;
-  for (const double along : {constant / far, far / square}) {
-    Vector3 p = foot + along * line;
+  for (const double side : {-1.0, 1.0}) {
+    Vector3 p = rests.middle + side * std::sqrt(rests.square) * rests.line;
     const double across = p.x() * p.x() + p.y() * p.y();
     if (!(p.z() < 1 && across < widest * widest)) continue;
     p.z() = across / (1 + std::sqrt(1 - across));
@@ -530,6 +542,7 @@ struct CircleSlip {
 class CircleRule {
  public:
   CircleRule(const CircleSlip& slip, double rounding, double digits);
+  CircleRule(const std::array<Turn, 2>& turns, double digits) : turns_(turns), digits_(digits) {}
   /// Calls visit(φ, weight) between two angles.
   template <class Visit>
   void over(double from, double to, Visit&& visit) const;
@@ -735,52 +748,58 @@ void over_slices(const PieceSlip& slip, HalfSpaces parts, DirectionSummer& sums)
 }
 
 /// A whole cap where slip vanishes along a curve but for what little it has across, as of a ball that rolls and hardly
-/// spins: rays from the lowest point, which are parts of circles, between the directions of the places where nothing
-/// slips and of those where the curve leaves the cap.
+/// spins: rays from the lowest point, which are parts of circles, around which the sums of rays turn near the places
+/// where nothing slips, or nearly so, and where the curve leaves the cap.
 class RollingFan {
  public:
   RollingFan(const PieceSlip& slip, DirectionSummer& sums) : slip_(slip), sums_(sums) {}
-  void add_up(std::span<const Vector3> resting);
+  void add_up();
 
  private:
+  [[nodiscard]] std::array<Turn, 2> turns() const;
   void add_ray(double azimuth, double step);
-  void add_break(double angle) {
-    double* const end = breaks_.begin() + count_++;
-    double* const place = std::upper_bound(breaks_.begin(), end, angle);
-    std::copy_backward(place, end, end + 1);
-    *place = angle;
-  }
 
   const PieceSlip& slip_;
   DirectionSummer& sums_;
-  std::array<double, 5> breaks_;  ///< azimuths
-  int count_ = 0;
 };
 
-void RollingFan::add_up(std::span<const Vector3> resting) {
-  constexpr int around = 20;
-  for (const Vector3& p : resting) add_break(std::atan2(p.y(), p.x()));
+/// Azimuths of the places where nothing slips; complex ones where the line misses the ball.  At a real one the sum of a
+/// ray has a term like w log w only, so that a width of 1e-5 changes nothing above 1e-9.
+std::array<Turn, 2> RollingFan::turns() const {
+  using Complex = std::complex<double>;
+  constexpr double none = std::numeric_limits<double>::infinity(), sharpest = 3e-5;
+  std::array<Turn, 2> turns{{{0, none}, {0, none}}};
+  const RestingLine rests(slip_);
+  if (!rests.is_line) return turns;
+  const Vector3 &middle = rests.middle, way = std::sqrt(std::fabs(rests.square)) * rests.line;
+  if (rests.square >= 0) {
+    for (const int i : {0, 1}) {
+      const Vector3 p = i == 0 ? Vector3(middle - way) : Vector3(middle + way);
+      if (p.z() < 2 * slip_.piece.height) turns[static_cast<std::size_t>(i)] = {std::atan2(p.y(), p.x()), sharpest};
+    }
+    if (turns[0].width > turns[1].width) std::swap(turns[0], turns[1]);
+    return turns;
+  }
+  // ψ = arctan(y/x) = −i/2 log((x + iy)/(x − iy)).
+  const Complex one(middle.x() - way.y(), middle.y() + way.x()), other(middle.x() + way.y(), way.x() - middle.y());
+  const double azimuth = std::atan2(middle.y(), middle.x()), half = std::arg(one * std::conj(other)) / 2;
+  const double width = std::fabs(std::log(std::norm(one) / std::norm(other))) / 4;
+  turns[0] = {half + std::numbers::pi * std::round((azimuth - half) / std::numbers::pi), std::max(width, sharpest)};
+  return turns;
+}
+
+void RollingFan::add_up() {
+  constexpr double digits = 10;
   const SpaceLinear along = component(slip_, steepest(slip_));
   const double height = slip_.piece.height, rho = std::sqrt(height * (2 - height));
-  const double middle = along.value + along.slope.z() * height,
-               size = std::hypot(along.slope.x(), along.slope.y()) * rho;
-  if (std::fabs(middle) < size) {
-    const double peak = std::atan2(along.slope.y(), along.slope.x()), half = std::acos(-middle / size);
-    for (const double angle : {peak - half, peak + half}) add_break(std::remainder(angle, 2 * std::numbers::pi));
-  }
-  if (count_ == 0) add_break(0);
-  for (int i = 0; i < count_; ++i) {
-    const double from = breaks_[static_cast<std::size_t>(i)];
-    const double to = i + 1 < count_ ? breaks_[static_cast<std::size_t>(i) + 1] : breaks_[0] + 2 * std::numbers::pi;
-    const int parts = std::max(1, static_cast<int>(std::ceil((to - from) / std::numbers::pi)));
-    for (int j = 0; j < parts; ++j) {
-      const double begin = from + (to - from) * j / parts, width = (to - from) / parts;
-      for (const GaussNode& node : gauss_rule(around)) {
-        const double quarter = std::numbers::pi / 4 * (1 + node.at), sine = std::sin(quarter);
-        add_ray(begin + width * sine * sine, std::numbers::pi / 4 * width * std::sin(2 * quarter) * node.weight);
-      }
-    }
-  }
+  const double middle = along.value + along.slope.z() * height;
+  const double size = std::hypot(along.slope.x(), along.slope.y()) * rho;
+  const CircleRule rule(turns(), std::min(slip_.digits, digits));
+  const auto add = [&](double azimuth, double step) { add_ray(azimuth, step); };
+  const double peak = std::atan2(along.slope.y(), along.slope.x());
+  const double half = std::fabs(middle) < size ? std::acos(-middle / size) : 0;
+  if (half > 0) rule.over(peak - half, peak + half, add);
+  rule.over(peak + half, peak - half + 2 * std::numbers::pi, add);
 }
 
 void RollingFan::add_ray(double azimuth, double step) {
@@ -807,7 +826,7 @@ bool over_cap(const PieceSlip& slip, DirectionSummer& sums) {
   const int count = resting_places(slip, places);
   const auto roll = [&] {
     if (slip.piece.parts.count() > 0 || !(slip.piece.height < 2)) return false;
-    RollingFan(slip, sums).add_up({places.data(), static_cast<std::size_t>(count)});
+    RollingFan(slip, sums).add_up();
     return true;
   };
   if (count == 0) return roll();
