@@ -481,8 +481,9 @@ struct Turn {
 class TurnRule {
  public:
   /// @param whole  length of what the digits are of
-  TurnRule(const std::array<Turn, 2>& turns, double digits, double whole)
-      : turns_(turns), digits_(digits), whole_(whole) {}
+  /// @param power  of the length of a part, with which what it has to do with the direction falls
+  TurnRule(const std::array<Turn, 2>& turns, double digits, double whole, double power)
+      : turns_(turns), digits_(digits), whole_(whole), power_(power) {}
   /// Calls visit(t, weight) between two t; the order for what is not the direction is order_of(length of t) at least.
   template <class Order, class Visit>
   void over(double from, double to, Order&& order_of, Visit&& visit) const;
@@ -491,7 +492,7 @@ class TurnRule {
   template <class Order, class Visit>
   void about(const Turn& turn, double other, double from, double to, Order&& order_of, Visit&& visit) const;
   const std::array<Turn, 2>& turns_;
-  double digits_, whole_;
+  double digits_, whole_, power_;
 };
 
 template <class Order, class Visit>
@@ -519,7 +520,7 @@ void TurnRule::about(const Turn& turn, double other, double from, double to, Ord
   for (int i = 0; i < parts; ++i) {
     const double middle = begin + half * (2 * i + 1);
     const double high = i + 1 == parts ? to : turn.centre + width * std::sinh(middle + half);
-    const double digits = std::max(digits_ + std::log10((high - low) / whole_), least_digits);
+    const double digits = std::max(digits_ + power_ * std::log10((high - low) / whole_), least_digits);
     const double strip = std::numbers::pi / 2 / half, beside = std::max((next - std::fabs(middle)) / half, 1.1);
     const double ellipse = std::min(strip + std::sqrt(strip * strip + 1), beside + std::sqrt(beside * beside - 1));
     const int order = std::min(std::max(gauss_order(ellipse, digits), order_of(high - low)), most_gauss_nodes);
@@ -542,14 +543,15 @@ struct CircleSlip {
 class CircleRule {
  public:
   CircleRule(const CircleSlip& slip, double rounding, double digits);
-  CircleRule(const std::array<Turn, 2>& turns, double digits) : turns_(turns), digits_(digits) {}
+  CircleRule(const std::array<Turn, 2>& turns, double digits, double power)
+      : turns_(turns), digits_(digits), power_(power) {}
   /// Calls visit(φ, weight) between two angles.
   template <class Visit>
   void over(double from, double to, Visit&& visit) const;
 
  private:
   std::array<Turn, 2> turns_;
-  double digits_;
+  double digits_, power_ = 1;
 };
 
 /// Length along a curve, near where the slip vanishes, within which it is below v_r.
@@ -593,7 +595,7 @@ void CircleRule::over(double from, double to, Visit&& visit) const {
       const double middle = (begin + end) / 2;
       turn.centre = middle + std::remainder(turn.centre - middle, 2 * std::numbers::pi);
     }
-    TurnRule(turns, digits_, to - from)
+    TurnRule(turns, digits_, to - from, power_)
         .over(
             begin, end, [](double length) { return trigonometric_order(length / 2) + 2; }, visit);
   }
@@ -703,7 +705,7 @@ void RestingFan::add_ray(const SphereArc& arc, double angle, double step) {
   const std::array<Turn, 2> turns = this->turns(end);
   constexpr int low_order = 5;
   const auto order_of = [&](double length) { return length < 0.5 ? std::min(order_, low_order) : order_; };
-  TurnRule(turns, slip_.digits, 1).over(0, 1, order_of, add);
+  TurnRule(turns, slip_.digits, 1, 2).over(0, 1, order_of, add);
 }
 
 /// Where the resting place lies so near the boundary that the direction turns there within a short way.
@@ -759,6 +761,7 @@ class RollingFan {
   [[nodiscard]] std::array<Turn, 2> turns() const;
   void add_ray(double azimuth, double step);
 
+  static constexpr double most_digits = 10;
   const PieceSlip& slip_;
   DirectionSummer& sums_;
 };
@@ -789,12 +792,11 @@ std::array<Turn, 2> RollingFan::turns() const {
 }
 
 void RollingFan::add_up() {
-  constexpr double digits = 10;
   const SpaceLinear along = component(slip_, steepest(slip_));
   const double height = slip_.piece.height, rho = std::sqrt(height * (2 - height));
   const double middle = along.value + along.slope.z() * height;
   const double size = std::hypot(along.slope.x(), along.slope.y()) * rho;
-  const CircleRule rule(turns(), std::min(slip_.digits, digits));
+  const CircleRule rule(turns(), std::min(slip_.digits, most_digits), 1.5);
   const auto add = [&](double azimuth, double step) { add_ray(azimuth, step); };
   const double peak = std::atan2(along.slope.y(), along.slope.x());
   const double half = std::fabs(middle) < size ? std::acos(-middle / size) : 0;
@@ -806,7 +808,7 @@ void RollingFan::add_ray(double azimuth, double step) {
   const double x = std::cos(azimuth), y = std::sin(azimuth);
   const CircleSlip along{slip_.at(Vector3::Zero()), slip_.at({0, 0, 2}), slip_.rate({x, y, 0})};
   const double end = 2 * std::asin(std::sqrt(slip_.piece.height / 2));
-  CircleRule(along, slip_.rounding, slip_.digits).over(0, end, [&](double angle, double weight) {
+  CircleRule(along, slip_.rounding, std::min(slip_.digits, most_digits)).over(0, end, [&](double angle, double weight) {
     const double sine = std::sin(angle / 2), across = 2 * sine * std::cos(angle / 2);
     sums_.add({across * x, across * y, 2 * sine * sine}, weight * across * step);
   });
