@@ -305,8 +305,7 @@ void SmoothContact::add_piece(Piece& piece, Sums& sums) {
 
 namespace {
 
-constexpr double most_variation = 0.45;  ///< of the slip over a cell, from its middle, in parts of it
-constexpr int most_around = 48;          ///< beyond it, graded parts take fewer
+constexpr int most_around = 48;  ///< beyond it, graded parts take fewer
 
 /// Slip over a piece, in its coordinates, and what presses there.
 struct PieceSlip {
@@ -319,12 +318,76 @@ struct PieceSlip {
     return piece.depth.at(p) * pressure.at(p) * weight_at(piece, p, projected);
   }
   [[nodiscard]] SlipVector at(const Vector3& p) const { return {east.at(p), north.at(p)}; }
+  /// Its change along a vector.
+  [[nodiscard]] SlipVector rate(const Vector3& way) const { return {east.slope.dot(way), north.slope.dot(way)}; }
 };
 
-void add_at(const PieceSlip& slip, const Vector3& p, double area, DirectionSums& sums) {
-  const SlipVector v = slip.at(p);
-  const double size = std::sqrt(v.square() + slip.rounding * slip.rounding);
-  if (size > 0) sums.add(p, area * slip.load(p) / size, v);
+/// Sums loads along the directions of a slip, many places at a time: square roots and quotients of several take no
+/// longer than those of one.
+class DirectionSummer {
+ public:
+  explicit DirectionSummer(const PieceSlip& slip) : slip_(slip) {}
+
+  void add(const Vector3& p, double area) { put(p.x(), p.y(), p.z(), area, false); }
+  /// A place of the lower half of the sphere and the area that it stands for, seen along the vertical.
+  void add_above(double x, double y, double area) { put(x, y, 0, area, true); }
+  [[nodiscard]] const DirectionSums& sums() {
+    flush();
+    return sums_;
+  }
+
+ private:
+  static constexpr int room = 32;
+  using Row = Eigen::Array<double, room, 1>;
+
+  void put(double x, double y, double z, double area, bool is_above) {
+    if (count_ == room || is_above != is_above_) flush();
+    is_above_ = is_above;
+    x_[count_] = x;
+    y_[count_] = y;
+    z_[count_] = z;
+    area_[count_++] = area;
+  }
+  [[nodiscard]] Row at_all(const SpaceLinear& f) const {
+    return f.value + f.slope.x() * x_ + f.slope.y() * y_ + f.slope.z() * z_;
+  }
+  [[nodiscard]] Row weights() const;
+  void flush();
+
+  const PieceSlip& slip_;
+  Row x_, y_, z_, area_;
+  int count_ = 0;
+  bool is_above_ = false;
+  DirectionSums sums_;
+};
+
+DirectionSummer::Row DirectionSummer::weights() const {
+  const Piece& piece = slip_.piece;
+  if (slip_.projected) return at_all(piece.weight);
+  if (!piece.by_normal) return Row::Constant(piece.area);
+  Row square = Row::Zero();
+  for (int i = 0; i < 3; ++i) square += at_all({piece.normal[i], piece.normal_change.row(i).transpose()}).square();
+  return square.sqrt();
+}
+
+void DirectionSummer::flush() {
+  constexpr double no_slip = 1e-100;  // [m/s]: has no direction
+  if (count_ == 0) return;
+  for (int i = count_; i < room; ++i) x_[i] = y_[i] = z_[i] = area_[i] = 0;
+  count_ = 0;
+  if (is_above_) {
+    const Row square = x_.square() + y_.square(), cosine = (1 - square).sqrt();
+    z_ = square / (1 + cosine);
+    area_ /= cosine;
+  }
+  const Row east = at_all(slip_.east), north = at_all(slip_.north);
+  const Row size = (east.square() + north.square() + slip_.rounding * slip_.rounding).sqrt().max(no_slip);
+  const Row load = area_ * weights() * at_all(slip_.piece.depth) * at_all(slip_.pressure) / size;
+  const Row along_east = load * east, along_north = load * north;
+  sums_.east += along_east.sum();
+  sums_.north += along_north.sum();
+  sums_.east_place += Vector3((along_east * x_).sum(), (along_east * y_).sum(), (along_east * z_).sum());
+  sums_.north_place += Vector3((along_north * x_).sum(), (along_north * y_).sum(), (along_north * z_).sum());
 }
 
 /// Largest change of the slip over a cap from its value at the lowest point: along it, and by its height.
@@ -351,30 +414,42 @@ CapRule rule_of_variation(const PieceSlip& slip, double part) {
   return rule;
 }
 
-/// The place of the lower half of the ball where nothing slips, by Newton's method; whether it is near the cap.
-bool find_resting_place(const PieceSlip& slip, Vector3& place) {
-  const double height = slip.piece.height;
-  if (slip.piece.is_mantle || !(height < 0.5)) return false;
-  const double widest = std::min(3 * std::sqrt(height * (2 - height)), 0.6);
-  place.setZero();
-  for (int pass = 0; pass < 12; ++pass) {
-    const SlipVector v = slip.at(place);
-    const double tilt = 1 / (1 - place.z());
-    const double ex = slip.east.slope.x() + slip.east.slope.z() * place.x() * tilt;
-    const double ey = slip.east.slope.y() + slip.east.slope.z() * place.y() * tilt;
-    const double nx = slip.north.slope.x() + slip.north.slope.z() * place.x() * tilt;
-    const double ny = slip.north.slope.y() + slip.north.slope.z() * place.y() * tilt;
-    const double determinant = ex * ny - ey * nx, size = ex * ex + ey * ey + nx * nx + ny * ny;
-    if (!(std::fabs(determinant) > 1e-6 * size)) return false;
-    const double dx = (v.north * ey - v.east * ny) / determinant, dy = (v.east * nx - v.north * ex) / determinant;
-    place.x() += dx;
-    place.y() += dy;
-    const double square = place.x() * place.x() + place.y() * place.y();
-    if (!(square < widest * widest)) return false;
-    place.z() = square / (1 + std::sqrt(1 - square));
-    if (std::hypot(dx, dy) <= 1e-15 * widest) return true;
+/// The line on which both components of the slip vanish, and the ball: they meet at middle ± √square × line.
+struct RestingLine {
+  Vector3 line, middle;
+  double square;         ///< < 0: the line misses the ball
+  bool is_line = false;  ///< or the components vanish on one plane, or none
+
+  explicit RestingLine(const PieceSlip& slip) {
+    const Vector3 &e = slip.east.slope, &n = slip.north.slope, across = e.cross(n);
+    const double size = across.norm();
+    is_line = size > 1e-6 * e.norm() * n.norm();
+    if (!is_line) return;
+    line = across / size;
+    const Vector3 foot = -(slip.east.value * n.cross(line) + slip.north.value * line.cross(e)) / size;
+    middle = foot + line.z() * line;
+    square = line.z() * line.z() - foot.squaredNorm() + 2 * foot.z();
   }
-  return false;
+};
+
+/// The places of the lower half of the ball, near the cap, where nothing slips, the lower one first.
+/// @return how many
+int resting_places(const PieceSlip& slip, std::array<Vector3, 2>& places) {
+  const double height = slip.piece.height;
+  if (slip.piece.is_mantle || !(height < 0.5)) return 0;
+  const double widest = std::min(3 * std::sqrt(height * (2 - height)), 0.6);
+  const RestingLine rests(slip);
+  if (!rests.is_line || !(rests.square >= 0)) return 0;
+  int count = 0;
+  for (const double side : {-1.0, 1.0}) {
+    Vector3 p = rests.middle + side * std::sqrt(rests.square) * rests.line;
+    const double across = p.x() * p.x() + p.y() * p.y();
+    if (!(p.z() < 1 && across < widest * widest)) continue;
+    p.z() = across / (1 + std::sqrt(1 - across));
+    places[static_cast<std::size_t>(count++)] = p;
+  }
+  if (count == 2 && places[1].z() < places[0].z()) std::swap(places[0], places[1]);
+  return count;
 }
 
 /// How many places around a resting place the direction of the slip asks for, by where |v|² = c₀ + c₁ cos + c₂ cos 2 of
@@ -396,137 +471,249 @@ int places_around(const PieceSlip& slip, const SphereArc& rim) {
   return wanted < most_around ? 8 + 2 * static_cast<int>(std::ceil(wanted / 2)) : most_around + 1;
 }
 
-/// Gauss's rule on a part of a curve, by how much the slip varies over it.
-struct PartRule {
-  bool is_smooth;  ///< enough for one rule
-  double digits, square, varies;
-
-  PartRule(const PieceSlip& slip, const SlipVector& middle, const SlipVector& from, const SlipVector& to)
-      : digits(slip.digits), square(middle.square() + slip.rounding * slip.rounding) {
-    const auto change = [&](const SlipVector& other) {
-      return SlipVector{other.east - middle.east, other.north - middle.north}.square();
-    };
-    varies = std::max(change(from), change(to));
-    is_smooth = varies <= most_variation * most_variation * square;
-  }
-  /// @param half  of the angle that the part spans [rad]
-  [[nodiscard]] int order(double half) const {
-    if (!is_smooth) return 2;
-    const double inverse = std::sqrt(square / std::max(varies, 1e-12 * square));
-    return std::max(gauss_order(inverse + std::sqrt(inverse * inverse - 1), digits), trigonometric_order(half) + 2);
-  }
+/// Where the direction of slip along a curve is singular: at t = centre ± i width.
+struct Turn {
+  double centre, width;
 };
 
-/// A cap, or a part of one, as rays from the place where nothing slips, along which the direction hardly varies, to its
+/// Gauss's rule by a parameter t from which the place along a curve is smooth, where the direction of slip turns near
+/// two places, the sharper one first.  About each t = centre + width × sinh s, and the direction is smooth in s.
+class TurnRule {
+ public:
+  /// @param whole  length of what the digits are of
+  /// @param power  of the length of a part, with which what it has to do with the direction falls
+  TurnRule(const std::array<Turn, 2>& turns, double digits, double whole, double power)
+      : turns_(turns), digits_(digits), whole_(whole), power_(power) {}
+  /// Calls visit(t, weight) between two t; the order for what is not the direction is order_of(length of t) at least.
+  template <class Order, class Visit>
+  void over(double from, double to, Order&& order_of, Visit&& visit) const;
+
+ private:
+  template <class Order, class Visit>
+  void about(const Turn& turn, double other, double from, double to, Order&& order_of, Visit&& visit) const;
+  const std::array<Turn, 2>& turns_;
+  double digits_, whole_, power_;
+};
+
+template <class Order, class Visit>
+void TurnRule::over(double from, double to, Order&& order_of, Visit&& visit) const {
+  const Turn &sharp = turns_[0], &other = turns_[1];
+  const double apart = other.centre - sharp.centre, between = (sharp.centre + other.centre) / 2;
+  // The map about the sharper one serves both where the other is no sharper than it is far.
+  const bool is_alone = !(other.width < std::fabs(apart));
+  const double split = is_alone ? (apart > 0 ? to : from) : std::clamp(between, from, to);
+  const double far = is_alone ? std::numeric_limits<double>::infinity() : std::fabs(apart);
+  if (split > from) about(apart > 0 ? sharp : other, far, from, split, order_of, visit);
+  if (to > split) about(apart > 0 ? other : sharp, far, split, to, order_of, visit);
+}
+
+/// @param other  distance of the other turn
+template <class Order, class Visit>
+void TurnRule::about(const Turn& turn, double other, double from, double to, Order&& order_of, Visit&& visit) const {
+  constexpr double part_length = 4, least_digits = 3, widest = 1e3;
+  const double width = std::clamp(turn.width, std::pow(10, -digits_ - 1) * whole_, widest * whole_);
+  const double begin = std::asinh((from - turn.centre) / width), end = std::asinh((to - turn.centre) / width);
+  const double next = std::asinh(other / width);  // where the other one lies
+  const int parts = std::max(1, static_cast<int>(std::ceil((end - begin) / part_length)));
+  const double half = (end - begin) / (2 * parts);
+  double low = from;
+  for (int i = 0; i < parts; ++i) {
+    const double middle = begin + half * (2 * i + 1);
+    const double high = i + 1 == parts ? to : turn.centre + width * std::sinh(middle + half);
+    const double digits = std::max(digits_ + power_ * std::log10((high - low) / whole_), least_digits);
+    const double strip = std::numbers::pi / 2 / half, beside = std::max((next - std::fabs(middle)) / half, 1.1);
+    const double ellipse = std::min(strip + std::sqrt(strip * strip + 1), beside + std::sqrt(beside * beside - 1));
+    const int order = std::min(std::max(gauss_order(ellipse, digits), order_of(high - low)), most_gauss_nodes);
+    for (const GaussNode& node : gauss_rule(order)) {
+      const double grown = std::exp(middle + half * node.at);
+      visit(turn.centre + width * (grown - 1 / grown) / 2, half * node.weight * width * (grown + 1 / grown) / 2);
+    }
+    low = high;
+  }
+}
+
+/// Slip along a circle, v(φ) = v(0) + v′(0) sin φ + (v(π) − v(0)) (1 − cos φ)/2.
+struct CircleSlip {
+  SlipVector at_zero, at_half_turn, rate;
+};
+
+/// Rule along a circle for what the direction of the slip is a factor of.  With u = tan φ/2 the slip, as a complex
+/// number, is zero where
+///     v(π) u² + 2 v′(0) u + v(0) = 0.
+class CircleRule {
+ public:
+  CircleRule(const CircleSlip& slip, double rounding, double digits);
+  CircleRule(const std::array<Turn, 2>& turns, double digits, double power)
+      : turns_(turns), digits_(digits), power_(power) {}
+  /// Calls visit(φ, weight) between two angles.
+  template <class Visit>
+  void over(double from, double to, Visit&& visit) const;
+
+ private:
+  std::array<Turn, 2> turns_;
+  double digits_, power_ = 1;
+};
+
+/// Length along a curve, near where the slip vanishes, within which it is below v_r.
+double fading(double rounding, const std::complex<double>& speed, const std::complex<double>& bend) {
+  return std::min(rounding / std::abs(speed), std::sqrt(2 * rounding / std::abs(bend)));
+}
+
+CircleRule::CircleRule(const CircleSlip& slip, double rounding, double digits) : digits_(digits) {
+  using Complex = std::complex<double>;
+  const auto complex = [](const SlipVector& v) { return Complex(v.east, v.north); };
+  const Complex c = complex(slip.at_zero), b = complex(slip.rate), a = complex(slip.at_half_turn);
+  const Complex root = std::sqrt(b * b - a * c);
+  const Complex q = std::norm(b + root) > std::norm(b - root) ? -b - root : root - b;
+  const std::array<Complex, 2> over{q, c}, under{a, q};
+  for (std::size_t i = 0; i < 2; ++i) {
+    // φ = 2 arctan(over/under) = −i log((under + i over)/(under − i over)).
+    const Complex turned(-over[i].imag(), over[i].real());
+    const double plus = std::norm(under[i] + turned), minus = std::norm(under[i] - turned);
+    const Complex ratio = (under[i] + turned) * std::conj(under[i] - turned);
+    double& width = turns_[i].width;
+    turns_[i].centre = std::arg(ratio);
+    width = plus > 0 && minus > 0 ? std::fabs(std::log(plus / minus)) / 2 : std::numeric_limits<double>::infinity();
+    if (rounding > 0 && std::isfinite(width)) {
+      const double cosine = std::cos(turns_[i].centre), sine = std::sin(turns_[i].centre);
+      const Complex change = (a - c) / 2.0;
+      width = std::hypot(width, fading(rounding, b * cosine + change * sine, change * cosine - b * sine));
+    }
+  }
+  if (turns_[0].width > turns_[1].width) std::swap(turns_[0], turns_[1]);
+}
+
+/// Parts of the circle have the nearest of each root's images.
+template <class Visit>
+void CircleRule::over(double from, double to, Visit&& visit) const {
+  constexpr double longest = std::numbers::pi;
+  const int parts = std::max(1, static_cast<int>(std::ceil((to - from) / longest)));
+  for (int i = 0; i < parts; ++i) {
+    const double begin = from + (to - from) * i / parts, end = from + (to - from) * (i + 1) / parts;
+    std::array<Turn, 2> turns = turns_;
+    for (Turn& turn : turns) {
+      const double middle = (begin + end) / 2;
+      turn.centre = middle + std::remainder(turn.centre - middle, 2 * std::numbers::pi);
+    }
+    TurnRule(turns, digits_, to - from, power_)
+        .over(
+            begin, end, [](double length) { return trigonometric_order(length / 2) + 2; }, visit);
+  }
+}
+
+/// A cap, or a part of one, as rays from a place where nothing slips, along which the direction hardly varies, to its
 /// boundary; their areas have signs, so that the place may lie outside.
 class RestingFan {
  public:
-  /// @param centre  of find_resting_place()
-  RestingFan(const PieceSlip& slip, const Vector3& centre, DirectionSums& sums);
-  /// False, and nothing added, where the slip turns round along the rays.
-  bool add_up();
+  /// @param centre  of resting_places()
+  RestingFan(const PieceSlip& slip, const Vector3& centre, DirectionSummer& sums);
+  /// Whether rays serve: not where the slip turns round near the place.
+  [[nodiscard]] bool serves() const { return serves_; }
+  void add_up(const HalfSpaces& parts);
 
  private:
-  /// Parts of the rim, halved until the slip varies little along each.
-  struct Part {
-    double from, to;
-    SlipVector at_from, at_to;
-    int level;
-  };
+  [[nodiscard]] std::array<Turn, 2> turns(const Vector3& end) const;
   void add_ray(const SphereArc& arc, double angle, double step);
   void add_graded(const SphereArc& arc);
 
   const PieceSlip& slip_;
   Vector3 centre_;
   SphereArc rim_;  ///< of the whole cap
-  DirectionSums& sums_;
-  int order_ = 0;       ///< along a ray
+  DirectionSummer& sums_;
+  bool serves_ = false;
+  int order_ = 0;       ///< along a ray, beside the direction
+  bool bends_ = false;  ///< whether the direction varies along rays so that each asks for its own rule
   bool is_low_ = true;  ///< of SphereRay
 };
 
-RestingFan::RestingFan(const PieceSlip& slip, const Vector3& centre, DirectionSums& sums)
+/// Along a ray v = λ v₁ + λ² v₂, v₂ by the heights: the direction is analytic up to |v₁/v₂|.
+RestingFan::RestingFan(const PieceSlip& slip, const Vector3& centre, DirectionSummer& sums)
     : slip_(slip), centre_(centre), sums_(sums) {
+  constexpr double far = 1.5, nearest = 0.3;
   const double height = slip.piece.height, rho = std::sqrt(height * (2 - height));
   rim_ = {{0, 0, height}, {rho, 0, 0}, {0, rho, 0}, 0, 2 * std::numbers::pi};
+  // Its rates along the ball at the place itself: where there are two close to each other they hardly vary there.
+  const Vector3 &e = slip_.east.slope, &n = slip_.north.slope,
+                tilt = Vector3(centre.x(), centre.y(), 0) / (1 - centre.z());
+  const SlipVector by_x = slip_.rate({1, 0, tilt.x()}), by_y = slip_.rate({0, 1, tilt.y()});
+  const double determinant = std::fabs(by_x.east * by_y.north - by_y.east * by_x.north);
+  const double least =
+      determinant / std::sqrt(by_x.square() + by_y.square());  // not above √2 × the lesser singular value
+  const double length = std::hypot(centre_.x(), centre_.y()) + rho;
+  const double root = least / (std::hypot(e.z(), n.z()) * length / 2 + 1e-3 * least);
+  const double highest = std::max(height, centre_.z());
+  is_low_ = highest < SphereRay::low;
+  order_ = ray_order(highest, length, slip_.digits);
+  bends_ = !(root > far);
+  if (bends_) {
+    serves_ = is_low_ && root > nearest;
+    return;
+  }
+  const double bend = 2 * root - 1;
+  order_ = std::max(order_, gauss_order(bend + std::sqrt(bend * bend - 1), slip_.digits));
+  serves_ = order_ < most_gauss_nodes;
 }
 
-/// Along a ray v = λ v₁ + λ² v₂, v₂ by the heights: the direction is analytic up to |v₁/v₂|.
-bool RestingFan::add_up() {
-  constexpr double nearest = 1.5;
-  const Vector3 &e = slip_.east.slope, &n = slip_.north.slope;
-  const double determinant = std::fabs(e.x() * n.y() - e.y() * n.x());
-  const double size = e.head<2>().squaredNorm() + n.head<2>().squaredNorm();
-  const double least = determinant / std::sqrt(size);  // not above √2 × the lesser singular value
-  const double length = std::hypot(centre_.x(), centre_.y()) + rim_.a.x();
-  const double root = least / (std::hypot(e.z(), n.z()) * length / 2 + 1e-3 * least);
-  if (!(root > nearest)) return false;
-  const double bend = 2 * root - 1;
-  const double highest = std::max(slip_.piece.height, centre_.z());
-  is_low_ = highest < SphereRay::low;
-  order_ =
-      std::max(ray_order(highest, length, slip_.digits), gauss_order(bend + std::sqrt(bend * bend - 1), slip_.digits));
-  if (order_ >= most_gauss_nodes) return false;
-  if (slip_.piece.parts.count() > 0) {
-    HalfSpaces all = slip_.piece.parts;
+void RestingFan::add_up(const HalfSpaces& parts) {
+  if (parts.count() > 0) {
+    HalfSpaces all = parts;
     all.add({slip_.piece.height, {0, 0, -1}});
     const SphereBoundary boundary(all);
     for (int i = 0; i < boundary.count; ++i) add_graded(boundary.arcs[static_cast<std::size_t>(i)]);
-    return true;
+    return;
   }
-  const int around = places_around(slip_, rim_);
-  if (around > most_around) return add_graded(rim_), true;
+  const int around = bends_ ? most_around + 1 : places_around(slip_, rim_);
+  if (around > most_around) return add_graded(rim_);
   for (int i = 0; i < around; ++i) add_ray(rim_, 2 * std::numbers::pi * i / around, 2 * std::numbers::pi / around);
-  return true;
 }
 
-/// Below v_r the direction fades like λ/√(λ² + f²): by the roots ±if on [0, 2f] and, from five times the end of one
-/// part to that of the next, on [a, 5a], a >= 2f.  That, and all within 2f, is no more than f² of the whole.
-void RestingFan::add_ray(const SphereArc& arc, double angle, double step) {
-  static constexpr double first_ellipse = 2.89, next_ellipse = 2.6, least_digits = 3;
-  const Vector3 end = arc.at(angle);
-  const SphereRay ray(centre_, end, arc.rate(angle), is_low_);
-  const double fades = slip_.rounding > 0 ? std::min(slip_.rounding / std::sqrt(slip_.at(end).square()), 1.0) : 0;
-  const double digits = fades > 0 ? std::max(slip_.digits + 2 * std::log10(fades), least_digits) : 0;
-  double from = 0, to = fades > 0 ? std::min(2 * fades, 1.0) : 1;
-  while (from < 1) {
-    int order = to == 1 ? order_ : std::min(order_, 5);
-    if (fades > 0) order = std::max(order, gauss_order(from > 0 ? next_ellipse : first_ellipse, digits));
-    for (const GaussNode& node : gauss_rule(order)) {
-      const auto [place, area] = ray.at((from + to) / 2 + (to - from) / 2 * node.at);
-      add_at(slip_, place, (to - from) / 2 * node.weight * area * step, sums_);
-    }
-    from = to;
-    to = std::min(5 * to, 1.0);
+/// Where the direction turns along a ray: at its beginning, below v_r, and where v₁ + λ v₂ is zero.
+std::array<Turn, 2> RestingFan::turns(const Vector3& end) const {
+  constexpr double none = std::numeric_limits<double>::infinity();
+  const Vector3 way = end - centre_;
+  const SlipVector at_end = slip_.at(end);
+  std::array<Turn, 2> turns{{{0, none}, {0, none}}};
+  if (slip_.rounding > 0) turns[0].width = slip_.rounding / std::sqrt(at_end.square());
+  if (!bends_) return turns;
+  const double rise = (centre_.x() * way.x() + centre_.y() * way.y()) / (1 - centre_.z());
+  const SlipVector first = slip_.rate({way.x(), way.y(), rise});
+  const std::complex<double> v1(first.east, first.north), v2(at_end.east - first.east, at_end.north - first.north);
+  if (std::norm(v2) > 0) {
+    const std::complex<double> root = -v1 / v2;
+    turns[1] = {root.real(), std::hypot(root.imag(), slip_.rounding / std::abs(v1))};
   }
+  if (turns[0].width > turns[1].width) std::swap(turns[0], turns[1]);
+  return turns;
+}
+
+void RestingFan::add_ray(const SphereArc& arc, double angle, double step) {
+  const Vector3 end = arc.at(angle), way = end - centre_, rate = arc.rate(angle);
+  const double seen = way.x() * rate.y() - way.y() * rate.x();
+  const SphereRay ray(centre_, end, rate, is_low_);
+  const auto add = [&](double part, double weight) {
+    if (is_low_) {
+      sums_.add_above(centre_.x() + part * way.x(), centre_.y() + part * way.y(), step * weight * part * seen);
+      return;
+    }
+    const auto [place, area] = ray.at(part);
+    sums_.add(place, step * weight * area);
+  };
+  if (!bends_ && slip_.rounding == 0) {
+    for (const GaussNode& node : gauss_rule(order_)) add((1 + node.at) / 2, node.weight / 2);
+    return;
+  }
+  const std::array<Turn, 2> turns = this->turns(end);
+  constexpr int low_order = 5;
+  const auto order_of = [&](double length) { return length < 0.5 ? std::min(order_, low_order) : order_; };
+  TurnRule(turns, slip_.digits, 1, 2).over(0, 1, order_of, add);
 }
 
 /// Where the resting place lies so near the boundary that the direction turns there within a short way.
 void RestingFan::add_graded(const SphereArc& arc) {
-  constexpr double longest = std::numbers::pi / 2;
-  std::array<Part, 128> stack;
-  int top = 0;
-  const auto slip_at = [&](double angle) { return slip_.at(arc.at(angle)); };
-  const double length = arc.to - arc.from;
-  const int begins = std::max(1, static_cast<int>(std::ceil(length / longest)));
-  for (int i = 0; i < begins; ++i) {
-    const double from = arc.from + length * i / begins, to = arc.from + length * (i + 1) / begins;
-    stack[static_cast<std::size_t>(top++)] = {from, to, slip_at(from), slip_at(to), 0};
-  }
-  const int deepest = std::min(60, static_cast<int>(slip_.digits / std::log10(2.0)) + 2);
-  while (top > 0) {
-    const Part part = stack[static_cast<std::size_t>(--top)];
-    const double middle = (part.from + part.to) / 2, half = (part.to - part.from) / 2;
-    const SlipVector v = slip_at(middle);
-    const PartRule rule(slip_, v, part.at_from, part.at_to);
-    if (!rule.is_smooth && part.level < deepest) {
-      stack[static_cast<std::size_t>(top++)] = {part.from, middle, part.at_from, v, part.level + 1};
-      stack[static_cast<std::size_t>(top++)] = {middle, part.to, v, part.at_to, part.level + 1};
-      continue;
-    }
-    for (const GaussNode& node : gauss_rule(rule.order(half))) {
-      add_ray(arc, middle + half * node.at, half * node.weight);
-    }
-  }
+  const CircleSlip along{slip_.at(arc.at(0)), slip_.at(arc.at(std::numbers::pi)), slip_.rate(arc.b)};
+  CircleRule(along, 0, slip_.digits).over(arc.from, arc.to, [&](double angle, double weight) {
+    add_ray(arc, angle, weight);
+  });
 }
 
 /// The direction in which the slip varies most over the piece; the slip's own where it does not vary.
@@ -541,37 +728,8 @@ SpaceLinear component(const PieceSlip& slip, const SlipVector& way) {
           way.east * slip.east.slope + way.north * slip.north.slope};
 }
 
-/// Along a piece of a slice, by Gauss's rule on parts that are halved until the slip varies little over each.
-void along_slice(const PieceSlip& slip, const Slices& slices, const Slices::Slice& slice, double begin, double end,
-                 double weight, DirectionSums& sums) {
-  struct Part {
-    double from, to;
-    SlipVector at_from, at_to;
-    int level;
-  };
-  const auto slip_at = [&](double angle) { return slip.at(slices.place(slice, angle)); };
-  std::array<Part, 128> stack;
-  int top = 0;
-  stack[static_cast<std::size_t>(top++)] = {begin, end, slip_at(begin), slip_at(end), 0};
-  const int deepest = std::min(60, static_cast<int>(slip.digits / std::log10(2.0)) + 2);
-  while (top > 0) {
-    const Part part = stack[static_cast<std::size_t>(--top)];
-    const double middle = (part.from + part.to) / 2, half = (part.to - part.from) / 2;
-    const SlipVector v = slip_at(middle);
-    const PartRule rule(slip, v, part.at_from, part.at_to);
-    if (!rule.is_smooth && part.level < deepest) {
-      stack[static_cast<std::size_t>(top++)] = {part.from, middle, part.at_from, v, part.level + 1};
-      stack[static_cast<std::size_t>(top++)] = {middle, part.to, v, part.at_to, part.level + 1};
-      continue;
-    }
-    for (const GaussNode& node : gauss_rule(rule.order(half))) {
-      add_at(slip, slices.place(slice, middle + half * node.at), weight * half * node.weight, sums);
-    }
-  }
-}
-
 /// Any part of a piece, by slices across which the slip varies most.
-void over_slices(const PieceSlip& slip, HalfSpaces parts, DirectionSums& sums) {
+void over_slices(const PieceSlip& slip, HalfSpaces parts, DirectionSummer& sums) {
   const Piece& piece = slip.piece;
   const SlipVector way = steepest(slip);
   const SpaceLinear along = component(slip, way), across = component(slip, {-way.north, way.east});
@@ -580,32 +738,125 @@ void over_slices(const PieceSlip& slip, HalfSpaces parts, DirectionSums& sums) {
   const double axis = std::atan2(along.slope.x(), -along.slope.y());
   Slices slices = piece.is_mantle ? Slices(piece.mantle.length, parts) : Slices(parts, axis);
   slices.mind(along, across);
+  const SlipVector rate = slip.rate(slices.across());
   slices.each_piece([&](const Slices::Slice& slice, double from, double to, double weight) {
-    along_slice(slip, slices, slice, from, to, weight, sums);
+    const CircleSlip around{slip.at(slices.place(slice, 0)),
+                            slip.at(slices.place(slice, std::numbers::pi)),
+                            {slice.radius * rate.east, slice.radius * rate.north}};
+    CircleRule(around, slip.rounding, slip.digits).over(from, to, [&](double angle, double area) {
+      sums.add(slices.place(slice, angle), weight * area);
+    });
+  });
+}
+
+/// A whole cap where slip vanishes along a curve but for what little it has across, as of a ball that rolls and hardly
+/// spins: rays from the lowest point, which are parts of circles, around which the sums of rays turn near the places
+/// where nothing slips, or nearly so, and where the curve leaves the cap.
+class RollingFan {
+ public:
+  RollingFan(const PieceSlip& slip, DirectionSummer& sums) : slip_(slip), sums_(sums) {}
+  void add_up();
+
+ private:
+  [[nodiscard]] std::array<Turn, 2> turns() const;
+  void add_ray(double azimuth, double step);
+
+  static constexpr double most_digits = 10;
+  const PieceSlip& slip_;
+  DirectionSummer& sums_;
+};
+
+/// Azimuths of the places where nothing slips; complex ones where the line misses the ball.  At a real one the sum of a
+/// ray has a term like w log w only, so that a width of 1e-5 changes nothing above 1e-9.
+std::array<Turn, 2> RollingFan::turns() const {
+  using Complex = std::complex<double>;
+  constexpr double none = std::numeric_limits<double>::infinity(), sharpest = 3e-5;
+  std::array<Turn, 2> turns{{{0, none}, {0, none}}};
+  const RestingLine rests(slip_);
+  if (!rests.is_line) return turns;
+  const Vector3 &middle = rests.middle, way = std::sqrt(std::fabs(rests.square)) * rests.line;
+  if (rests.square >= 0) {
+    for (const int i : {0, 1}) {
+      const Vector3 p = i == 0 ? Vector3(middle - way) : Vector3(middle + way);
+      if (p.z() < 2 * slip_.piece.height) turns[static_cast<std::size_t>(i)] = {std::atan2(p.y(), p.x()), sharpest};
+    }
+    if (turns[0].width > turns[1].width) std::swap(turns[0], turns[1]);
+    return turns;
+  }
+  // ψ = arctan(y/x) = −i/2 log((x + iy)/(x − iy)).
+  const Complex one(middle.x() - way.y(), middle.y() + way.x()), other(middle.x() + way.y(), way.x() - middle.y());
+  const double azimuth = std::atan2(middle.y(), middle.x()), half = std::arg(one * std::conj(other)) / 2;
+  const double width = std::fabs(std::log(std::norm(one) / std::norm(other))) / 4;
+  turns[0] = {half + std::numbers::pi * std::round((azimuth - half) / std::numbers::pi), std::max(width, sharpest)};
+  return turns;
+}
+
+void RollingFan::add_up() {
+  const SpaceLinear along = component(slip_, steepest(slip_));
+  const double height = slip_.piece.height, rho = std::sqrt(height * (2 - height));
+  const double middle = along.value + along.slope.z() * height;
+  const double size = std::hypot(along.slope.x(), along.slope.y()) * rho;
+  const CircleRule rule(turns(), std::min(slip_.digits, most_digits), 1.5);
+  const auto add = [&](double azimuth, double step) { add_ray(azimuth, step); };
+  const double peak = std::atan2(along.slope.y(), along.slope.x());
+  const double half = std::fabs(middle) < size ? std::acos(-middle / size) : 0;
+  if (half > 0) rule.over(peak - half, peak + half, add);
+  rule.over(peak + half, peak - half + 2 * std::numbers::pi, add);
+}
+
+void RollingFan::add_ray(double azimuth, double step) {
+  const double x = std::cos(azimuth), y = std::sin(azimuth);
+  const CircleSlip along{slip_.at(Vector3::Zero()), slip_.at({0, 0, 2}), slip_.rate({x, y, 0})};
+  const double end = 2 * std::asin(std::sqrt(slip_.piece.height / 2));
+  CircleRule(along, slip_.rounding, std::min(slip_.digits, most_digits)).over(0, end, [&](double angle, double weight) {
+    const double sine = std::sin(angle / 2), across = 2 * sine * std::cos(angle / 2);
+    sums_.add({across * x, across * y, 2 * sine * sine}, weight * across * step);
   });
 }
 
 /// The cap, or its part, where one rule serves; false: none does.
-bool over_cap(const PieceSlip& slip, DirectionSums& sums) {
+bool over_cap(const PieceSlip& slip, DirectionSummer& sums) {
   const Variation change = variation(slip);
   const double part =
       (change.along + change.up) / std::sqrt(slip.at(Vector3::Zero()).square() + slip.rounding * slip.rounding);
   if (part < 0.5 && slip.piece.parts.count() == 0) {
     over_zone({0, slip.piece.height}, rule_of_variation(slip, part),
-              [&](const Vector3& p, double area) { add_at(slip, p, area, sums); });
+              [&](const Vector3& p, double area) { sums.add(p, area); });
     return true;
   }
-  Vector3 centre;
-  return find_resting_place(slip, centre) && RestingFan(slip, centre, sums).add_up();
+  std::array<Vector3, 2> places;
+  const int count = resting_places(slip, places);
+  const auto roll = [&] {
+    if (slip.piece.parts.count() > 0 || !(slip.piece.height < 2)) return false;
+    RollingFan(slip, sums).add_up();
+    return true;
+  };
+  if (count == 0) return roll();
+  RestingFan fan(slip, places[0], sums);
+  if (count == 1 || !(places[1].z() < slip.piece.height)) {
+    if (fan.serves()) fan.add_up(slip.piece.parts);
+    return fan.serves() || roll();
+  }
+  // To each place the part that is nearer to it.
+  RestingFan other(slip, places[1], sums);
+  if (!fan.serves() || !other.serves()) return roll();
+  const Vector3 apart = places[0] - places[1];
+  const double middle = apart.dot(places[0] + places[1]) / 2;
+  HalfSpaces near = slip.piece.parts, far = near;
+  near.add({-middle, apart});
+  far.add({middle, -apart});
+  fan.add_up(near);
+  other.add_up(far);
+  return true;
 }
 
 /// The whole strip, if the slip varies by less than a third of its size.
-bool over_whole_strip(const PieceSlip& slip, double width, DirectionSums& sums) {
+bool over_whole_strip(const PieceSlip& slip, double width, DirectionSummer& sums) {
   constexpr double largest_part = 1.0 / 3;
   const double part = 2 * width / std::sqrt(slip.at(Vector3::Zero()).square() + slip.rounding * slip.rounding);
   if (!(part < largest_part)) return false;
   const int more = static_cast<int>(std::ceil(slip.digits / (2 * std::log10(2 / std::max(part, 1e-15)))));
-  over_mantle(slip.piece.mantle, 32, more, [&](const Vector3& p, double area) { add_at(slip, p, area, sums); });
+  over_mantle(slip.piece.mantle, 32, more, [&](const Vector3& p, double area) { sums.add(p, area); });
   return true;
 }
 
@@ -684,8 +935,8 @@ DirectionSums SmoothContact::directions(const Piece& piece, const GroundView& vi
                        rounding,
                        field.digits,
                        ground_.area == AreaMeasure::projected};
-  DirectionSums sums;
   if (rounding == 0 && slips_one_way(slip)) {
+    DirectionSums sums;
     const SlipVector way = steepest(slip);
     const SpaceLinear along = component(slip, way);
     const Range range = range_over(piece, along);
@@ -698,13 +949,14 @@ DirectionSums SmoothContact::directions(const Piece& piece, const GroundView& vi
     }
     return sums;
   }
+  DirectionSummer sums(slip);
   const bool is_whole = piece.parts.count() == 0;
   if (field.rough) {
-    over(piece, piece.parts, [&](const Vector3& p, double area) { add_at(slip, p, area, sums); });
+    over(piece, piece.parts, [&](const Vector3& p, double area) { sums.add(p, area); });
   } else if (!(piece.is_mantle ? is_whole && over_whole_strip(slip, width, sums) : over_cap(slip, sums))) {
     over_slices(slip, piece.parts, sums);
   }
-  return sums;
+  return sums.sums();
 }
 
 SlipRange SmoothContact::slip_range(const GroundView& view, const SlipField& field) const {

@@ -37,8 +37,9 @@ class SmoothContact final : public ContactSurface {
   SmoothContact(const Body& body, const Ground& ground);
 
   [[nodiscard]] ContactLoad load(const GroundView& view, LoadRates* rates, std::vector<int>* submerged) override;
-  /// About the place where nothing slips, if that is near the patch: there the direction of the slip varies around it
-  /// alone.  Parts over which the slip varies strongly are halved, as far as 10^−digits asks for it and work allows.
+  /// About the place where nothing slips, or the two, if near the patch: there the direction of the slip varies around
+  /// it alone; else along circles, graded towards where the slip vanishes.  Of a cap that rolls and hardly spins right
+  /// to some 1e-7 of F_n, of what the clamp or a seam cuts no better than its slices where slip all but vanishes.
   [[nodiscard]] SlipLoad slip_load(const GroundView& view, const SlipField& field) override;
   [[nodiscard]] SlipRange slip_range(const GroundView& view, const SlipField& field) const override;
 

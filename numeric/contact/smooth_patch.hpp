@@ -243,6 +243,8 @@ class Slices {
   /// Within an interval, by a parameter from 0 to 1 in which roots at both of its ends become smooth.
   [[nodiscard]] Slice slice(int interval, double part) const;
   [[nodiscard]] Vector3 place(const Slice& slice, double angle) const;
+  /// Unit, along the ground and along a slice at its lowest point.
+  [[nodiscard]] const Vector3& across() const { return across_; }
 
   /// Calls visit(slice, from, to, weight): ∫f dA = Σ weight ∫f dφ.
   template <class Visit>
