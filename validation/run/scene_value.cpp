@@ -226,7 +226,11 @@ std::vector<std::string> scene_head(const Scene& scene, Model model, std::option
   std::vector<std::string> head = scene.summary(model, unsettled);
   const bool is_one_body =
       std::none_of(unsettled.begin(), unsettled.end(), [](const std::string& key) { return key.starts_with("body."); });
-  if (is_one_body) head.insert(head.begin() + 1, body_words(scene, model));
+  if (is_one_body) {
+    head.insert(head.begin() + 1, body_words(scene, model));
+    if (const std::string doubts = unit_doubts(body_properties(scene, model)); !doubts.empty())
+      head.insert(head.begin(), doubts);
+  }
   if (model == Model::discrete) {
     std::string words = "impact: " + law_words(scene, approach, unsettled);
     if (is_settled("run.impacts")) words += fmt::format("; at most {} impacts", scene.most_impacts());

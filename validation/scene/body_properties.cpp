@@ -287,4 +287,16 @@ std::string body_words(const Scene& scene, Model model) {
                      three(body.principal_inertia(), ", "));
 }
 
+std::string unit_doubts(const BodyProperties& body) {
+  constexpr double largest = 20, heaviest = 1000, densest = 2.5e5;  // [m], [kg], [kg/m³]
+  const double volume = body.extents.prod();  // of the box about the body, which it does not exceed
+  const bool is_large = body.extents.maxCoeff() > largest, is_dense = volume > 0 && body.mass > densest * volume;
+  if (!is_large && !is_dense && !(body.mass > heaviest)) return "";
+  const std::string words = is_large ? fmt::format("{} m across", significant(body.extents.maxCoeff(), 3))
+                            : is_dense
+                                ? fmt::format("{} kg in {} m³", significant(body.mass, 3), significant(volume, 3))
+                                : fmt::format("{} kg", significant(body.mass, 3));
+  return fmt::format("!: warning: a body of {}: lengths are in m and masses in kg; were mm or g meant?", words);
+}
+
 }  // namespace clatter::validation

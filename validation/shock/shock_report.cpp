@@ -412,17 +412,6 @@ std::string probe_words(const std::vector<Probe>& probes) {
   return words + ", body frame";
 }
 
-/// A note on probes so far off the body that their places may be in another unit or frame.
-std::string far_probes(const Scene& scene, const std::vector<Probe>& probes) {
-  const BodyProperties body = body_properties(scene, Model::discrete);
-  std::string names;
-  for (const Probe& probe : probes) {
-    const bool is_far = (probe.place.cwiseAbs() - body.extents).maxCoeff() > 0;
-    if (is_far && scene.body.shape != BodyScene::Shape::mesh) names += (names.empty() ? "" : ", ") + probe.name;
-  }
-  return names.empty() ? "" : names + ": off the body, whose extents are above; places are in m, from its middle";
-}
-
 }  // namespace
 
 std::vector<Column> shock_columns() {
@@ -558,8 +547,9 @@ Report shock_report(const ShockRun& run, const ShockView& view) {
   const std::string facets = continuous ? facet_words(run.scene, run.continuous->planned.run) : "";
   if (!facets.empty()) report.head.push_back(facets);
   report.head.push_back(probe_words(run.probes));
+  if (const std::string far = probe_doubts(run.scene, run.probes); !far.empty())
+    report.head.insert(report.head.begin(), far);
   report.notes = notes_of(run, view);
-  if (const std::string far = far_probes(run.scene, run.probes); !far.empty()) report.notes.push_back(far);
   const Grid impacts = impacts_of(run);
   const Grid pulses = pulse_grid(pulses_of(run), run.scene.accuracy.digits, view.part);
   report.grid = view.rows == ShockRows::pulses ? pulses : impacts;

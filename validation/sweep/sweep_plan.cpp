@@ -520,6 +520,8 @@ Report SweepPlan::report() const {
   Report report = begun_report(
       "sweep", fmt::format("{} model, one row per {}", name, row_names[static_cast<std::size_t>(layout.rows)]));
   report.head = scene_head(scene, model, {}, unsettled);
+  if (const std::string doubts = probe_doubts(scene, layout.probes); !doubts.empty())
+    report.head.insert(report.head.begin(), doubts);
   report.fields["model"] = name;
   report.fields["scene"] = scene_value(scene);
   forget(unsettled, report.fields["scene"]);
