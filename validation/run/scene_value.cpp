@@ -166,8 +166,6 @@ std::vector<std::string> discrete_summary(const Scene& scene, const KeyNames& un
 
 const char* method_name(numeric::Method method) { return method_names()[static_cast<std::size_t>(method)].c_str(); }
 
-const char* law_name(analytic::RestitutionLaw law) { return law_names()[static_cast<std::size_t>(law)].c_str(); }
-
 std::string Scene::drop_words(const KeyNames& unsettled) const {
   const bool sweeps_angle = sweep && sweep->quantity == SceneSweep::Quantity::angle_deg;
   std::string turn = sweeps_angle ? fmt::format("{}° to {}°", shortest(sweep->from), shortest(sweep->to))

@@ -247,7 +247,7 @@ Vector3 BodyProperties::principal_inertia() const { return mass * principal(gyra
 
 SolidBody solid_body(const Scene& scene) {
   const BodyScene& body = scene.body;
-  if (body.shape != BodyScene::Shape::mesh) {
+  if (!body.is_polyhedron()) {
     const BodyProperties given = shape_properties(scene, body.meshed_radius());
     return {{.mass = given.mass, .centre = given.centre, .inertia = given.mass * given.gyration_square},
             numeric::boundary_surface(own_mesh(body)),
@@ -262,7 +262,7 @@ SolidBody solid_body(const Scene& scene) {
 }
 
 BodyProperties body_properties(const Scene& scene, Model model) {
-  if (scene.body.shape == BodyScene::Shape::mesh) return of_solid(solid_body(scene));
+  if (scene.body.is_polyhedron()) return of_solid(solid_body(scene));
   return shape_properties(scene, model == Model::discrete ? scene.body.radius : scene.body.meshed_radius());
 }
 

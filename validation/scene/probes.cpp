@@ -85,7 +85,7 @@ std::vector<numeric::Vector3> places_from(const numeric::Vector3& centre, const 
 
 std::string probe_doubts(const Scene& scene, const std::vector<Probe>& probes) {
   constexpr double rounding = 1e-9;
-  if (scene.body.shape == BodyScene::Shape::mesh) return "";  // in its file's frame
+  if (scene.body.is_polyhedron()) return "";  // in its file's frame
   const numeric::Vector3 extents = body_properties(scene, Model::continuous).extents;
   std::string names;
   for (const Probe& probe : probes) {

@@ -316,7 +316,7 @@ void choose_setters(const SceneValues& values, const std::vector<Setting>& setti
 }
 
 bool may_leave_its_plane(const SweepPlan& plan) {
-  if (plan.scene.body.shape == BodyScene::Shape::mesh || !reason_in_space(plan.scene).empty()) return true;
+  if (plan.scene.body.is_polyhedron() || !reason_in_space(plan.scene).empty()) return true;
   const std::vector<SweepAxis>& axes = plan.points.axes();
   return std::any_of(axes.begin(), axes.end(), [](const SweepAxis& axis) {
     return axis.key == "drop.tilt_deg" || axis.key == "drop.orientation" || axis.is_attitude();
