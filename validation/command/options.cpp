@@ -88,7 +88,7 @@ void add_scene_flags(Command& command, SceneFlags& given, Model model) {
   add_scene_argument(command, given.source, false);
   for (const Key* key : flag_keys(model)) {
     if (key->is_truth()) command.add_flag(key->flag, given.truths[key->flag], key->help, group);
-    else command.add_text(key->flag, given.texts[key->flag], key->type, key->help, group);
+    else command.add_text(key->flag, given.texts[key->flag], key->value_type(), key->help, group);
   }
 }
 

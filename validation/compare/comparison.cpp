@@ -240,7 +240,7 @@ void find_discrete_sides(Comparison& comparison, const Scene& scene, const numer
   const DiscreteDrop drop = given.drop(scene);
   comparison.approach_speed = first_approach_speed(drop);
   comparison.discrete = discrete_side(scene, given);
-  const bool is_same = scene.body.shape == BodyScene::Shape::mesh || body.smooth();
+  const bool is_same = scene.body.is_polyhedron() || body.smooth();
   if (is_same || !has_other_corners(drop, mesh.drop(scene))) return;
   comparison.as_given = std::move(comparison.discrete);
   comparison.discrete = discrete_side(scene, mesh);

@@ -22,21 +22,14 @@ using numeric::Vector3;
 constexpr double small = 0.02;  // what turning, gravity and indentation may be at the first stiffness
 
 double feature_of(const Scene& scene, const numeric::Body& body) {
-  switch (scene.body.shape) {
-    case BodyScene::Shape::rod:
-      return scene.body.meshed_radius() * (1 - std::cos(2 * std::numbers::pi / scene.body.meshed_sectors()));
-    case BodyScene::Shape::box: return scene.body.size.minCoeff();
-    case BodyScene::Shape::mesh: break;
-    case BodyScene::Shape::sphere:
-    case BodyScene::Shape::ellipsoid:
-    case BodyScene::Shape::capsule: {
-      const double half = scene.body.extents(scene.body.radius).minCoeff() / 2;
-      if (scene.body.is_smooth()) return half;
-      return half *
-             (1 - std::cos(std::numbers::pi / std::max(scene.body.meshed_sectors(), 4 * scene.body.meshed_rings())));
-    }
-  }
-  return body.radius() / 100;
+  const BodyScene& shape = scene.body;
+  if (shape.is_polyhedron()) return body.radius() / 100;
+  const bool is_rod = shape.traits().has_sectors && !shape.is_round();
+  const double half = is_rod ? shape.meshed_radius() : shape.extents(shape.radius).minCoeff() / 2;
+  if (!shape.traits().has_sectors) return 2 * half;
+  if (shape.is_smooth()) return half;
+  if (is_rod) return half * (1 - std::cos(2 * std::numbers::pi / shape.meshed_sectors()));
+  return half * (1 - std::cos(std::numbers::pi / std::max(shape.meshed_sectors(), 4 * shape.meshed_rings())));
 }
 
 /// Height at touch-down of the lowest vertex that does not touch; of a smooth shape that of its other end, or its least

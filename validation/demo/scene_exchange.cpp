@@ -9,7 +9,8 @@ namespace clatter::validation {
 void require_shown(const Scene& scene) {
   if (scene.body.shape == BodyScene::Shape::mesh)
     throw BadInput("body.shape 'mesh': must be rod or box; a page can name no file");
-  if (scene.body.is_round()) throw BadInput("body.shape: must be rod or box; the page draws no other shape");
+  if (scene.body.shape != BodyScene::Shape::rod && scene.body.shape != BodyScene::Shape::box)
+    throw BadInput("body.shape: must be rod or box; the page draws no other shape");
   if (scene.sweep) throw BadInput("sweep: must be left out; the page shows one drop, and this scene sweeps a quantity");
 }
 

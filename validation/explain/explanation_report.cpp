@@ -15,6 +15,7 @@
 #include "validation/run/scene_value.hpp"
 #include "validation/run/shortfall.hpp"
 #include "validation/scene/body_properties.hpp"
+#include "validation/scene/names.hpp"
 
 namespace clatter::validation {
 namespace {
@@ -32,16 +33,6 @@ Step missing_impact(const Run& run, int n) {
   step.equations.push_back(
       {.quantity = number("Δh", miss.margin, "m"), .words = {"margin, the rounding error of that height"}});
   return step;
-}
-
-std::string restitution_words(const analytic::ImpactLaw& law) {
-  switch (law.law) {
-    case analytic::RestitutionLaw::newton: return "Newton's coefficient of restitution";
-    case analytic::RestitutionLaw::poisson: return "Poisson's coefficient of restitution";
-    case analytic::RestitutionLaw::stronge: return "Stronge's coefficient of restitution";
-    case analytic::RestitutionLaw::viscoelastic: break;
-  }
-  return "";
 }
 
 }  // namespace
@@ -121,7 +112,7 @@ void write_law(StepWriter& writer, const Scene& scene, const analytic::ImpactLaw
       given.damping_time = writer.given(tau, {"damping over stiffness of the ground, c_G/k_G"});
     }
   } else {
-    given.restitution = writer.given(number("e", law.restitution, ""), {restitution_words(law)});
+    given.restitution = writer.given(number("e", law.restitution, ""), {words_of(law.law).coefficient});
   }
   const Quantity coefficient = number("μ", law.friction_value, "");
   if (law.friction == analytic::FrictionKind::coulomb && law.friction_value > 0)

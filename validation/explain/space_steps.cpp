@@ -38,22 +38,6 @@ const char* path_words(space::PathKind path) {
   return "";
 }
 
-const char* end_words(analytic::RestitutionLaw law) {
-  switch (law) {
-    case analytic::RestitutionLaw::newton:
-      return "Newton's law ends the impact where the normal velocity is −e times "
-             "that before.";
-    case analytic::RestitutionLaw::poisson:
-      return "Poisson's law ends the impact at 1 + e times the impulse of "
-             "compression.";
-    case analytic::RestitutionLaw::stronge:
-      return "Stronge's law ends the impact where the work given back is e² "
-             "times that of compression.";
-    case analytic::RestitutionLaw::viscoelastic: break;
-  }
-  return "The impact ends where the ground has given back what its dampers left.";
-}
-
 /// Largest error of the row's numbers, relative to their sizes; infinite where it cannot be predicted.
 double relative_error(const ImpactRow& row, double reach) {
   const space::RowErrors& error = row.error;
@@ -337,7 +321,7 @@ class SpatialImpact {
     std::optional<Quantity> e = given_.restitution;
     if (!e && is_straight)
       e = write_restitution(writer_, given_, approach, analytic::restitution_at(drop_.law.law, -approach.value(0, 0)));
-    writer_.open("The impulse", {end_words(drop_.law.law.law)});
+    writer_.open("The impulse", {words_of(drop_.law.law.law).ends});
     const Quantity z = number("P_z", struck_.impulse.z(), "N·s", row_.error.impulse);
     const Quantity p = {"P", struck_.impulse, "N·s", row_.error.impulse};
     if (given_.friction) {

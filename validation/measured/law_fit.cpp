@@ -484,14 +484,4 @@ const std::array<RestitutionLaw, 3>& fitted_laws() {
   return laws;
 }
 
-const char* fitted_law_name(RestitutionLaw law) {
-  switch (law) {
-    case RestitutionLaw::newton: return "newton";
-    case RestitutionLaw::poisson: return "poisson";
-    case RestitutionLaw::stronge: return "stronge";
-    case RestitutionLaw::viscoelastic: return "viscoelastic";
-  }
-  return "";
-}
-
 }  // namespace clatter::validation

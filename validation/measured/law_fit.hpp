@@ -133,6 +133,5 @@ struct LawFit {
 [[nodiscard]] double floor_error(const TrackedBody& body, const TrackImpact& impact, double friction);
 
 [[nodiscard]] const std::array<analytic::RestitutionLaw, 3>& fitted_laws();
-[[nodiscard]] const char* fitted_law_name(analytic::RestitutionLaw law);
 
 }  // namespace clatter::validation

@@ -9,6 +9,7 @@
 #include "validation/output/bad_input.hpp"
 #include "validation/output/number.hpp"
 #include "validation/output/version.hpp"
+#include "validation/scene/scene.hpp"
 
 namespace clatter::validation {
 namespace {
@@ -120,7 +121,7 @@ Report begun(const MeasuredRun& run, const std::string& action, const std::strin
 
 /// "poisson, e = 0.47, μ = 0.097".
 std::string law_words(const FittedLaw& law) {
-  return fmt::format("{}, e = {}, μ = {}", fitted_law_name(law.law), significant(law.restitution, 3),
+  return fmt::format("{}, e = {}, μ = {}", law_name(law.law), significant(law.restitution, 3),
                      significant(law.friction, 3));
 }
 
@@ -158,10 +159,10 @@ Row law_row(const std::string& name, const LawFit& law, const PairedDifference& 
 }
 
 std::string preference_words(const MeasuredFit& fit) {
-  std::string words = fmt::format("least loss: {}", fitted_law_name(fit.laws[fit.best].law.law));
+  std::string words = fmt::format("least loss: {}", law_name(fit.laws[fit.best].law.law));
   for (std::size_t i = 0; i < fit.laws.size(); ++i) {
     if (i == fit.best) continue;
-    words += fmt::format("; {} is {}", fitted_law_name(fit.laws[i].law.law),
+    words += fmt::format("; {} is {}", law_name(fit.laws[i].law.law),
                          fit.against_best[i].is_clear() ? "clearly worse" : "not told apart from it");
   }
   return words + (fit.dependent_gain.is_clear() ? "; restitution depends on the corner's effective mass"
@@ -228,8 +229,8 @@ Report measured_fit_report(const MeasuredRun& run) {
   const MeasuredFit& fit = run.fit;
   report.grid.columns = measured_fit_columns();
   for (std::size_t i = 0; i < fit.laws.size(); ++i)
-    report.grid.rows.push_back(law_row(fitted_law_name(fit.laws[i].law.law), fit.laws[i], fit.against_best[i]));
-  const std::string best = fitted_law_name(fit.laws[fit.best].law.law);
+    report.grid.rows.push_back(law_row(law_name(fit.laws[i].law.law), fit.laws[i], fit.against_best[i]));
+  const std::string best = law_name(fit.laws[fit.best].law.law);
   report.grid.rows.push_back(
       law_row(best + ", e(ν)", fit.dependent, {-fit.dependent_gain.mean, fit.dependent_gain.error}));
   report.grid.rows.push_back(law_row(best + ", described", fit.described, {std::nan(""), std::nan("")}));

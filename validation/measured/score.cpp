@@ -17,6 +17,7 @@
 #include "validation/output/bad_input.hpp"
 #include "validation/output/number.hpp"
 #include "validation/scene/names.hpp"
+#include "validation/scene/scene.hpp"
 #include "validation/sweep/counter_random.hpp"
 
 namespace clatter::validation {
@@ -345,7 +346,7 @@ class Scorer {
     if (const auto& stated = file.file.description.published)
       published_ = FittedLaw{analytic::RestitutionLaw::newton, stated->restitution, 0, stated->friction};
     for (const char* name : {"as fitted", "restitution by effective mass", "body as described"}) add_row(name);
-    for (const LawFit& law : fit.laws) add_row(fitted_law_name(law.law.law));
+    for (const LawFit& law : fit.laws) add_row(law_name(law.law.law));
     if (published_) add_row("published parameters");
     for (const char* name : {"flat rebound", "no change", "floor: any impulse there", "no point impact: one impact",
                              "no point impact: the sequence"})
@@ -397,7 +398,7 @@ class Scorer {
     put("as fitted", drop.error);
     put("restitution by effective mass", relative_error(body, m, struck(body, before, m.corner, fit_.dependent.law)));
     for (const LawFit& law : fit_.laws)
-      put(fitted_law_name(law.law.law), relative_error(body, m, struck(body, before, m.corner, law.law)));
+      put(law_name(law.law.law), relative_error(body, m, struck(body, before, m.corner, law.law)));
     State flat = before;
     flat.velocity.z() *= -fit_.laws[fit_.best].law.restitution;
     put("flat rebound", relative_error(body, m, flat));

@@ -36,9 +36,9 @@ Scene begun_scene(BodyScene::Shape shape) {
 std::string default_words(const Key& key) {
   if (key.is_required) return "required";
   if (std::holds_alternative<ListValue>(key.value)) return "";
-  for (const auto shape : {BodyScene::Shape::rod, BodyScene::Shape::box, BodyScene::Shape::mesh}) {
+  for (std::size_t shape = 0; shape < shape_names().size(); ++shape) {
     Scene scene;
-    scene.body.shape = shape;
+    scene.body.shape = static_cast<BodyScene::Shape>(shape);
     scene.world.ground.stiffness = 0;  // none
     scene.world.gravity = 0;
     const Value value = key.get(scene);

@@ -153,6 +153,7 @@ struct ReportInput : ShockInput {
   std::string output;
   std::optional<int> drops, threads;
   std::optional<double> scatter;  ///< [°]
+  std::string rank_by;            ///< column of the sweep
 };
 
 /// The drops of the sweep over attitudes.
@@ -188,7 +189,8 @@ SweepRequest sweep_of(const ReportInput& input, const Attitudes& attitudes) {
                        .rows = {},
                        .columns = {},
                        .no_errors = true,
-                       .summary = true};
+                       .summary = true,
+                       .rank_by = input.rank_by};
   if (request.file.empty()) request.text = "";
   for (const SceneOverride& given : overrides_of(input.scene)) {
     const bool is_attitude = given.key == "drop.attitude" || are_alternatives(given.key, "drop.attitude");
@@ -202,6 +204,7 @@ std::string sweep_command_of(const SweepRequest& request) {
   std::string words = "clatter sweep " + shell_word(request.file) + " --model " + name_of(*request.model);
   for (const std::string& set : request.sets) words += " --set " + shell_word(set);
   for (const std::string& probe : request.probes) words += " --probe " + shell_word(probe);
+  if (!request.rank_by.empty()) words += " --rank-by " + shell_word(request.rank_by);
   return words + fmt::format(" --random {} --scatter {} --no-errors --summary", *request.random, *request.scatter);
 }
 
@@ -348,6 +351,7 @@ void require_worst_attitudes(const ReportInput& input, const Scene& scene) {
   refuse("--drops", input.drops, true);
   refuse("--scatter", input.scatter, false);
   refuse("--threads", input.threads, false);
+  refuse("--rank-by", input.rank_by.empty() ? std::nullopt : std::optional(input.rank_by), false);
 }
 
 /// The page, and the exit status of the run that it is about.
@@ -416,6 +420,9 @@ Command report_command() {
                                "of a box, over its faces, edges and corners (260); 0: none", group));
     command.add(number_argument("--scatter", input.scatter, {0, 180, false, "from 0 to 180 degrees"}, "DEG",
                                 "standard deviation of their turns about each axis (3)", group));
+    command.add_text("--rank-by", input.rank_by, "COLUMN",
+                     "of clatter sweep's rows, by which they are ranked (the first probe's peak or change of velocity)",
+                     group);
     command.add(threads_argument(input.threads, "for them (all cores)", group));
     command.add({.name = "--output", .target = &input.output, .type = "FILE", .help = "the page", .group = "Output"});
     command.footer =

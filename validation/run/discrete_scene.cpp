@@ -195,7 +195,7 @@ std::vector<Eigen::Vector2d> places_of(const analytic::PlanarBody& body) {
 /// A place from the centre of mass as one from the geometric centre of a rod or box.
 Vector3 from_geometric_centre(const Scene& scene, const Vector3& place) {
   const std::vector<double>& centre = scene.body.centre;
-  const bool is_moved = !centre.empty() && scene.body.shape != BodyScene::Shape::mesh;
+  const bool is_moved = !centre.empty() && !scene.body.is_polyhedron();
   return is_moved ? Vector3(place + vector_of(centre)) : place;
 }
 
@@ -328,7 +328,7 @@ std::string reason_in_space(const Scene& scene) {
   if (!vanish({rate.x(), rate.z()}, rate.norm()))
     return given("drop.angular_velocity") + " has a part that is not about y";
   const std::vector<double>&centre = scene.body.centre, &inertia = scene.body.inertia;
-  const bool is_about_plane = scene.body.shape != BodyScene::Shape::mesh;  // a mesh's plane is where its corners say
+  const bool is_about_plane = !scene.body.is_polyhedron();  // a mesh's plane is where its corners say
   if (is_about_plane && !centre.empty() && centre[1] != 0) return given("body.centre") + " lies off the plane y = 0";
   if (inertia.size() == 6 && !vanish({inertia[3], inertia[5]}, *std::max_element(inertia.begin(), inertia.end())))
     return given("body.inertia") + " has no principal axis y";
@@ -397,7 +397,7 @@ double first_approach_speed(const DiscreteDrop& drop) {
 }
 
 DiscreteBody::DiscreteBody(const Scene& scene) : centre_(body_properties(scene, Model::discrete).centre) {
-  if (scene.body.shape == BodyScene::Shape::mesh) solid_ = std::make_shared<const numeric::Body>(scene.make_body());
+  if (scene.body.is_polyhedron()) solid_ = std::make_shared<const numeric::Body>(scene.make_body());
   else scene_ = scene;
 }
 
@@ -406,7 +406,7 @@ DiscreteBody::DiscreteBody(std::shared_ptr<const numeric::Body> solid) : solid_(
 DiscreteBody::DiscreteBody(const numeric::Body& solid) : solid_(std::shared_ptr<void>(), &solid) {}
 
 DiscreteBody::DiscreteBody(const Scene& scene, const numeric::Body& body)
-    : DiscreteBody(scene.body.shape == BodyScene::Shape::mesh ? DiscreteBody(body) : DiscreteBody(scene)) {}
+    : DiscreteBody(scene.body.is_polyhedron() ? DiscreteBody(body) : DiscreteBody(scene)) {}
 
 const std::optional<analytic::PlanarBody>& DiscreteBody::outline() {
   if (!has_looked_for_outline_) outline_ = solid_ ? symmetric_outline(*solid_) : simple_outline(*scene_);
@@ -502,14 +502,14 @@ Value law_fields(const Scene& scene, std::optional<double> approach) {
 }
 
 std::string corner_name(const Scene& scene, const space::Corner& corner) {
-  if (scene.body.shape == BodyScene::Shape::mesh) return std::to_string(corner.index + 1);
+  if (scene.body.is_polyhedron()) return std::to_string(corner.index + 1);
   return side_name(scene.body.shape, from_geometric_centre(scene, corner.place));
 }
 
 std::string corner_names(const Scene& scene, const Vector3& place) {
   constexpr double middle = 1e-9;  // of the size: below it the mean is that of corners on both sides
   const BodyScene& body = scene.body;
-  if (body.shape == BodyScene::Shape::mesh) return "";
+  if (body.is_polyhedron()) return "";
   const bool is_rod = body.has_length();
   const Vector3 mean = from_geometric_centre(scene, place), size = is_rod ? Vector3(body.length, 0, 0) : body.size;
   if (body.is_round() && !is_rod) return side_name(body.shape, mean);

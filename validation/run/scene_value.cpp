@@ -166,8 +166,6 @@ std::vector<std::string> discrete_summary(const Scene& scene, const KeyNames& un
 
 const char* method_name(numeric::Method method) { return method_names()[static_cast<std::size_t>(method)].c_str(); }
 
-const char* law_name(analytic::RestitutionLaw law) { return law_names()[static_cast<std::size_t>(law)].c_str(); }
-
 std::string Scene::drop_words(const KeyNames& unsettled) const {
   const bool sweeps_angle = sweep && sweep->quantity == SceneSweep::Quantity::angle_deg;
   std::string turn = sweeps_angle ? fmt::format("{}° to {}°", shortest(sweep->from), shortest(sweep->to))
@@ -226,7 +224,11 @@ std::vector<std::string> scene_head(const Scene& scene, Model model, std::option
   std::vector<std::string> head = scene.summary(model, unsettled);
   const bool is_one_body =
       std::none_of(unsettled.begin(), unsettled.end(), [](const std::string& key) { return key.starts_with("body."); });
-  if (is_one_body) head.insert(head.begin() + 1, body_words(scene, model));
+  if (is_one_body) {
+    head.insert(head.begin() + 1, body_words(scene, model));
+    if (const std::string doubts = unit_doubts(body_properties(scene, model)); !doubts.empty())
+      head.insert(head.begin(), doubts);
+  }
   if (model == Model::discrete) {
     std::string words = "impact: " + law_words(scene, approach, unsettled);
     if (is_settled("run.impacts")) words += fmt::format("; at most {} impacts", scene.most_impacts());

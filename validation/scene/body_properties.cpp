@@ -247,7 +247,7 @@ Vector3 BodyProperties::principal_inertia() const { return mass * principal(gyra
 
 SolidBody solid_body(const Scene& scene) {
   const BodyScene& body = scene.body;
-  if (body.shape != BodyScene::Shape::mesh) {
+  if (!body.is_polyhedron()) {
     const BodyProperties given = shape_properties(scene, body.meshed_radius());
     return {{.mass = given.mass, .centre = given.centre, .inertia = given.mass * given.gyration_square},
             numeric::boundary_surface(own_mesh(body)),
@@ -262,7 +262,7 @@ SolidBody solid_body(const Scene& scene) {
 }
 
 BodyProperties body_properties(const Scene& scene, Model model) {
-  if (scene.body.shape == BodyScene::Shape::mesh) return of_solid(solid_body(scene));
+  if (scene.body.is_polyhedron()) return of_solid(solid_body(scene));
   return shape_properties(scene, model == Model::discrete ? scene.body.radius : scene.body.meshed_radius());
 }
 
@@ -285,6 +285,18 @@ std::string body_words(const Scene& scene, Model model) {
   return fmt::format("body: mass {} kg, extents {} m, centre of mass ({}) m, principal inertia {} kg·m²",
                      short_text(body.mass), three(body.extents, " × "), three(body.centre, ", "),
                      three(body.principal_inertia(), ", "));
+}
+
+std::string unit_doubts(const BodyProperties& body) {
+  constexpr double largest = 20, heaviest = 1000, densest = 2.5e5;  // [m], [kg], [kg/m³]
+  const double volume = body.extents.prod();  // of the box about the body, which it does not exceed
+  const bool is_large = body.extents.maxCoeff() > largest, is_dense = volume > 0 && body.mass > densest * volume;
+  if (!is_large && !is_dense && !(body.mass > heaviest)) return "";
+  const std::string words = is_large ? fmt::format("{} m across", significant(body.extents.maxCoeff(), 3))
+                            : is_dense
+                                ? fmt::format("{} kg in {} m³", significant(body.mass, 3), significant(volume, 3))
+                                : fmt::format("{} kg", significant(body.mass, 3));
+  return fmt::format("!: warning: a body of {}: lengths are in m and masses in kg; were mm or g meant?", words);
 }
 
 }  // namespace clatter::validation

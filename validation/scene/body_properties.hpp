@@ -54,4 +54,8 @@ struct SolidBody {
 /// The same for a reader: "body: mass … kg, extents …".
 [[nodiscard]] std::string body_words(const Scene& scene, Model model);
 
+/// A question to whoever typed sizes or masses that no dropped thing has, "mm typed?": larger than 20 m, heavier than
+/// 1 t, or ten times as dense as any metal; empty: none.
+[[nodiscard]] std::string unit_doubts(const BodyProperties& body);
+
 }  // namespace clatter::validation

@@ -72,7 +72,7 @@ void add_to(numeric::ImpactRecord& row, const ImpactSizes& sizes, double before,
 /// R (1 − cos(π/n)) beside a rod's axis; a sphere's facet spans a cap in which one meridian's cosine is added as a
 /// factor. What maps a unit ball to an ellipsoid stretches no distance by more than its longest semiaxis.
 double facet_depth(const BodyScene& body) {
-  if (body.shape == BodyScene::Shape::box || body.shape == BodyScene::Shape::mesh || body.is_smooth()) return 0;
+  if (!body.traits().has_sectors || body.is_smooth()) return 0;
   const double around = std::cos(std::numbers::pi / body.meshed_sectors());
   if (body.shape == BodyScene::Shape::rod) return body.meshed_radius() * (1 - around);
   const double along = std::cos(std::numbers::pi / (4 * body.meshed_rings()));

@@ -79,16 +79,6 @@ Echo echo_of(const Key& key, const Scene& scene, Model model) {
 
 }  // namespace
 
-const std::vector<std::string>& shape_names() {
-  static const std::vector<std::string> names{"rod", "box", "mesh", "sphere", "ellipsoid", "capsule"};
-  return names;
-}
-
-const std::vector<std::string>& law_names() {
-  static const std::vector<std::string> names{"newton", "poisson", "stronge", "viscoelastic"};
-  return names;
-}
-
 const std::vector<std::string>& area_names() {
   static const std::vector<std::string> names{"surface", "projected"};
   return names;
@@ -134,6 +124,11 @@ Value Key::get(const Scene& scene) const {
   settle_defaults(shown);
   const Echo shows = echo_of(*this, scene, Model::continuous);
   return shows == Echo::value ? value_of(*this, shown) : Value();
+}
+
+std::string Key::value_type() const {
+  const auto* const names = std::get_if<NameValue>(&value);
+  return names && *type == '\0' ? fmt::format("{}", fmt::join(*names->names, "|")) : type;
 }
 
 std::string Key::argument() const {

@@ -155,7 +155,7 @@ void append_impact(std::vector<Key>& keys) {
            "coefficient of the discrete model; without it from the ground's damping, or 1 without a ground",
            OptionalNumber{[](Scene& s) -> std::optional<double>& { return s.impact.restitution; }, restitutions},
            [](const Scene& s, Model) { return null_if(restitution_law(s) == viscoelastic); }},
-          {"impact.law", Use::both, "--restitution-law", "newton|poisson|stronge|viscoelastic", "",
+          {"impact.law", Use::both, "--restitution-law", "", "",
            "what the coefficient relates; viscoelastic: it follows from the ground's damping and the approach speed, "
            "as "
            "it does where a ground and no restitution is given",
@@ -176,8 +176,7 @@ void append_shape(std::vector<Key>& keys) {
   keys.insert(
       keys.end(),
       {
-          {"body.shape", Use::both, "--body", "rod|box|mesh|sphere|ellipsoid|capsule", "",
-           "shape of what falls; a rod with a radius is a cylinder",
+          {"body.shape", Use::both, "--body", "", "", "shape of what falls; a rod with a radius is a cylinder",
            NameValue{&shape_names(), [](const Scene& s) { return index_of(s.body.shape); },
                      [](Scene& s, std::size_t i) { s.body.shape = static_cast<BodyScene::Shape>(i); }}},
           {"body.mass", Use::both, "--mass", "KG", "kg", "mass",
@@ -281,7 +280,7 @@ void append_ground(std::vector<Key>& keys) {
            "of the ground; without it static_friction",
            NumberValue{[](Scene& s) -> double& { return s.world.ground.sliding_friction; }, not_negative_number},
            of_ground},
-          {"ground.area", Use::both, "--area", "surface|projected", "", "area over which the load is integrated",
+          {"ground.area", Use::both, "--area", "", "", "area over which the load is integrated",
            NameValue{&area_names(), [](const Scene& s) { return index_of(s.world.ground.area); },
                      [](Scene& s, std::size_t i) { s.world.ground.area = static_cast<numeric::AreaMeasure>(i); }},
            of_ground},

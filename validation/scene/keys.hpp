@@ -72,7 +72,7 @@ struct Key {
   const char* name;  ///< "drop.angle_deg"
   Use use;
   const char* flag;  ///< "--angle"; empty: it has none
-  const char* type;  ///< of the flag's value, in help: "DEG", "rod|box|mesh"; empty: a flag without a value
+  const char* type;  ///< of the flag's value, in help: "DEG"; empty: a flag without a value, or one of names
   const char* unit;  ///< empty: none
   const char* help;
   KeyValue value;
@@ -81,6 +81,8 @@ struct Key {
   bool is_required = false;                      ///< no scene of the continuous model is without it
   std::span<const char* const> instead_of = {};  ///< keys whose place it takes: a scene has it or some of them
 
+  /// What the flag's value is in help: `type`, or the names to choose from, "rod|box|mesh".
+  [[nodiscard]] std::string value_type() const;
   /// Name of the argument in Python and on the page: the flag's, or without one the key's last word.
   [[nodiscard]] std::string argument() const;
   [[nodiscard]] bool is_for(Model model) const {

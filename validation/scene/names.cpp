@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "validation/scene/names.hpp"
 
+#include "validation/scene/keys.hpp"
+
 namespace clatter::validation {
 
 using analytic::ImpactMode;
@@ -103,6 +105,35 @@ const char* end_name(numeric::ContactEnd end) {
     case numeric::ContactEnd::middle: return "middle";
   }
   return "";
+}
+
+namespace {
+
+/// In the order of the enumerators.
+constexpr RestitutionWords restitution_laws[]{
+    {"newton", "Newton's coefficient of restitution",
+     "Newton's law ends the impact where the normal velocity is −e times that before."},
+    {"poisson", "Poisson's coefficient of restitution",
+     "Poisson's law ends the impact at 1 + e times the impulse of compression."},
+    {"stronge", "Stronge's coefficient of restitution",
+     "Stronge's law ends the impact where the work given back is e² times that of compression."},
+    {"viscoelastic", "", "The impact ends where the ground has given back what its dampers left."}};
+
+}  // namespace
+
+const RestitutionWords& words_of(analytic::RestitutionLaw law) {
+  return restitution_laws[static_cast<std::size_t>(law)];
+}
+
+const char* law_name(analytic::RestitutionLaw law) { return words_of(law).name; }
+
+const std::vector<std::string>& law_names() {
+  static const std::vector<std::string> names = [] {
+    std::vector<std::string> all;
+    for (const RestitutionWords& law : restitution_laws) all.emplace_back(law.name);
+    return all;
+  }();
+  return names;
 }
 
 }  // namespace clatter::validation

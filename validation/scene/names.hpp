@@ -19,4 +19,12 @@ namespace clatter::validation {
 [[nodiscard]] bool is_cut_short(numeric::Outcome outcome);
 [[nodiscard]] const char* end_name(numeric::ContactEnd end);
 
+/// A restitution law in words; all that this program says of it, but for its formulas in `explain`.
+struct RestitutionWords {
+  const char* name;         ///< in scene files, flags and JSON
+  const char* coefficient;  ///< "Newton's coefficient of restitution"; empty: it takes none
+  const char* ends;         ///< when an impact is over, a sentence
+};
+[[nodiscard]] const RestitutionWords& words_of(analytic::RestitutionLaw law);
+
 }  // namespace clatter::validation

@@ -83,6 +83,21 @@ std::vector<numeric::Vector3> places_from(const numeric::Vector3& centre, const 
   return places;
 }
 
+std::string probe_doubts(const Scene& scene, const std::vector<Probe>& probes) {
+  constexpr double rounding = 1e-9;
+  if (scene.body.is_polyhedron()) return "";  // in its file's frame
+  const numeric::Vector3 extents = body_properties(scene, Model::continuous).extents;
+  std::string names;
+  for (const Probe& probe : probes) {
+    const double outside = (probe.place.cwiseAbs() - extents / 2).maxCoeff();
+    if (outside > rounding * extents.maxCoeff()) names += (names.empty() ? "" : ", ") + probe.name;
+  }
+  return names.empty()
+             ? ""
+             : fmt::format("!: warning: {}: outside of the body; places are in m, from its middle; were mm meant?",
+                           names);
+}
+
 Value probe_fields(const std::vector<Probe>& probes) {
   Value::List list;
   for (const Probe& probe : probes) {

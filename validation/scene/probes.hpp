@@ -35,6 +35,9 @@ struct Probe {
 [[nodiscard]] std::vector<numeric::Vector3> places_from(const numeric::Vector3& centre,
                                                         const std::vector<Probe>& probes);
 
+/// A question about probes outside of the box about the body, "were mm meant?"; empty: there are none.
+[[nodiscard]] std::string probe_doubts(const Scene& scene, const std::vector<Probe>& probes);
+
 /// As the JSON echo has them.
 [[nodiscard]] Value probe_fields(const std::vector<Probe>& probes);
 

@@ -146,14 +146,25 @@ void check_mesh(const SceneValues& values, BodyScene& body) {
   if (body.is_stl() && !body.density) values.require("body.mass", "or body.mesh.density: an STL surface has neither");
 }
 
+/// "a rod, sphere or capsule".
+std::string shapes_with(bool ShapeTraits::*property) {
+  std::vector<std::string> names;
+  for (const ShapeTraits& shape : shape_traits) {
+    if (shape.*property) names.emplace_back(shape.name);
+  }
+  const std::string last = names.size() > 1 ? " or " + names.back() : "";
+  if (names.size() > 1) names.pop_back();
+  return fmt::format("a {}{}", fmt::join(names, ", "), last);
+}
+
 void check_body(const SceneValues& values, BodyScene& body) {
   using Shape = BodyScene::Shape;
   if (body.shape != Shape::rod) only_for(values, {"body.mesh.layers"}, "a rod");
-  if (!body.has_length()) only_for(values, {"body.length"}, "a rod or capsule");
-  if (!body.has_radius()) only_for(values, {"body.radius"}, "a rod, sphere or capsule");
-  if (!body.has_radius() && !body.is_round())
-    only_for(values, {"body.mesh.sectors", "body.mesh.rings"}, "a rod, sphere, ellipsoid or capsule");
-  if (!body.has_size()) only_for(values, {"body.size"}, "a box or ellipsoid");
+  if (!body.has_length()) only_for(values, {"body.length"}, shapes_with(&ShapeTraits::has_length));
+  if (!body.has_radius()) only_for(values, {"body.radius"}, shapes_with(&ShapeTraits::has_radius));
+  if (!body.traits().has_sectors)
+    only_for(values, {"body.mesh.sectors", "body.mesh.rings"}, shapes_with(&ShapeTraits::has_sectors));
+  if (!body.has_size()) only_for(values, {"body.size"}, shapes_with(&ShapeTraits::has_size));
   if (body.shape != Shape::box) only_for(values, {"body.mesh.nx", "body.mesh.ny", "body.mesh.nz"}, "a box");
   if (body.shape != Shape::mesh) only_for(values, {"body.mesh.file", "body.mesh.unit", "body.mesh.density"}, "a mesh");
   if (body.shape == Shape::box) values.require("body.size", "the box's [L, W, T] in m");
@@ -250,7 +261,7 @@ void check_impact(const SceneValues& values, const Scene& scene) {
   if (!scene.impact.law || *scene.impact.law == RestitutionLaw::newton) return;
   const bool is_viscoelastic = *scene.impact.law == RestitutionLaw::viscoelastic;
   if (is_viscoelastic && !scene.has_ground())
-    values.refuse("impact.law", "newton, poisson or stronge where no ground is given, whose damping it takes");
+    values.refuse("impact.law", "another law where no ground is given, whose damping it takes");
   if (is_viscoelastic && scene.impact.restitution)
     values.refuse("impact.restitution", "left out: the viscoelastic law takes it from the ground's damping");
   if (!is_viscoelastic && !scene.impact.restitution)

@@ -30,6 +30,19 @@ struct DiscreteImpact {
 /// The mesh of a body's file, read once for all who ask (body_properties.cpp).
 class MeshFile;
 
+/// What a shape of bodies is and has: the one table of shapes, in the order of BodyScene::Shape.
+struct ShapeTraits {
+  const char* name;    ///< in scene files, flags and JSON
+  bool is_polyhedron;  ///< its corners, mass and inertia are those of a surface
+  bool is_round;       ///< without vertices
+  bool has_length, has_radius, has_size;
+  bool has_sectors;  ///< its mesh is one around an axis
+};
+inline constexpr ShapeTraits shape_traits[]{
+    {"rod", false, false, true, true, false, true},       {"box", false, false, false, false, true, false},
+    {"mesh", true, false, false, false, false, false},    {"sphere", false, true, false, true, false, true},
+    {"ellipsoid", false, true, false, false, true, true}, {"capsule", false, true, true, true, false, true}};
+
 /// What the body is made of.
 struct BodyScene {
   enum class Shape { rod, box, mesh, sphere, ellipsoid, capsule } shape = Shape::rod;
@@ -53,11 +66,12 @@ struct BodyScene {
   bool merge = true;
 
   [[nodiscard]] bool is_stl() const;
-  /// Without vertices: a sphere, an ellipsoid, a capsule.
-  [[nodiscard]] bool is_round() const { return shape >= Shape::sphere; }
-  [[nodiscard]] bool has_length() const { return shape == Shape::rod || shape == Shape::capsule; }
-  [[nodiscard]] bool has_radius() const { return has_length() || shape == Shape::sphere; }
-  [[nodiscard]] bool has_size() const { return shape == Shape::box || shape == Shape::ellipsoid; }
+  [[nodiscard]] const ShapeTraits& traits() const { return shape_traits[static_cast<std::size_t>(shape)]; }
+  [[nodiscard]] bool is_polyhedron() const { return traits().is_polyhedron; }
+  [[nodiscard]] bool is_round() const { return traits().is_round; }
+  [[nodiscard]] bool has_length() const { return traits().has_length; }
+  [[nodiscard]] bool has_radius() const { return traits().has_radius; }
+  [[nodiscard]] bool has_size() const { return traits().has_size; }
   /// Extents along the body axes, of a rod or capsule with this radius [m].  Domain: no mesh.
   [[nodiscard]] numeric::Vector3 extents(double of_radius) const;
   /// A rod without thickness, which the continuous model gives `meshed_radius()`.

@@ -11,6 +11,7 @@
 #include "validation/output/bad_input.hpp"
 #include "validation/output/number.hpp"
 #include "validation/scene/body_properties.hpp"
+#include "validation/scene/keys.hpp"
 #include "validation/scene/names.hpp"
 #include "validation/scene/scene.hpp"
 
@@ -20,6 +21,15 @@ namespace {
 constexpr double degree = std::numbers::pi / 180;
 
 }  // namespace
+
+const std::vector<std::string>& shape_names() {
+  static const std::vector<std::string> names = [] {
+    std::vector<std::string> all;
+    for (const ShapeTraits& shape : shape_traits) all.emplace_back(shape.name);
+    return all;
+  }();
+  return names;
+}
 
 bool BodyScene::is_stl() const {
   std::string extension = std::filesystem::path(file).extension().string();

@@ -246,6 +246,51 @@ void Oscillator::note_rest_of(const LongDrive& drive, const ChebyshevPolynomial&
   slack_ += left > 0 ? turn * fastest + 2 * zeta_ * left : 0;
 }
 
+namespace {
+
+/// φ₁ and φ₂ of (3), by their series where the closed forms cancel.
+std::pair<Complex, Complex> ramp_functions(Complex x) {
+  constexpr double small = 1;
+  constexpr int terms = 20;
+  if (std::abs(x) > small) {
+    const Complex first = (std::exp(x) - 1.0) / x;
+    return {first, (first - 1.0) / x};
+  }
+  Complex second = 1;  // Σ x^k/(k + 2)!, by Horner's rule, times 2 until the end
+  for (int k = terms; k > 2; --k) second = 1.0 + second * x / static_cast<double>(k);
+  second /= 2;
+  return {1.0 + second * x, second};
+}
+
+}  // namespace
+
+Oscillator::Ramp Oscillator::ramp_of(double time) const {
+  const auto [level, slope] = ramp_functions(lambda_ * time);
+  return {time, std::exp(lambda_ * time), level, slope};
+}
+
+void Oscillator::ramp(double from, double to, double time) {
+  if (!(time > 0)) return;
+  const double parts = std::fmax(1, std::ceil(std::abs(lambda_) * time)), length = time / parts;
+  if (ramp_.time != length) ramp_ = ramp_of(length);
+  Response now = response(q_, from);
+  note(now);
+  for (double i = 0; i < parts; ++i) {
+    const double begin = from + (to - from) * (i / parts), end = from + (to - from) * ((i + 1) / parts);
+    const Complex next_q = ramp_.after(q_, begin, end);
+    const Response next = response(next_q, end);
+    note(next);
+    note_turns({length,
+                [&](double t) {
+                  const double at = begin + (end - begin) * (t / length);
+                  return response(ramp_of(t).after(q_, begin, at), at);
+                }},
+               now, next);
+    q_ = next_q;
+    now = next;
+  }
+}
+
 ResponseExtremes Oscillator::take_extremes() {
   const ResponseExtremes taken = extremes_;
   extremes_ = {};
@@ -305,6 +350,26 @@ ResponsePoint response(std::span<const BasePiece> pieces, double frequency, doub
   }
   point.primary = oscillator.take_extremes();
   const double stretch = 1 / std::sqrt(1 - 1 / (4 * quality * quality));  // ω/ω_d
+  point.pseudo_velocity_error = left_open * stretch;
+  point.acceleration_error = left_open * stretch * oscillator.omega();
+  end(oscillator, point);
+  return point;
+}
+
+ResponsePoint response(std::span<const BaseSample> samples, double frequency, double quality) {
+  Oscillator oscillator(frequency, quality);
+  ResponsePoint point{.frequency = frequency};
+  double left_open = 0;
+  for (std::size_t i = 1; i < samples.size(); ++i) {
+    const BaseSample &from = samples[i - 1], &to = samples[i];
+    oscillator.ramp(from.acceleration, to.acceleration, to.time - from.time);
+    if (i + 1 < samples.size()) {
+      const double bend = samples[i + 1].acceleration - 2 * to.acceleration + from.acceleration;
+      left_open += std::fabs(bend) * (to.time - from.time) / 12;
+    }
+  }
+  point.primary = oscillator.take_extremes();
+  const double stretch = 1 / std::sqrt(1 - 1 / (4 * quality * quality));
   point.pseudo_velocity_error = left_open * stretch;
   point.acceleration_error = left_open * stretch * oscillator.omega();
   end(oscillator, point);

@@ -51,6 +51,11 @@ class Oscillator {
   /// where |λ| time is large; else the convolution of (1) with a Gauss rule over parts of at most one radian, which is
   /// exact to rounding too.
   void drive(const ChebyshevPolynomial& p, double time);
+  /// Under an acceleration that runs straight from one value to another [m/s²], as between the samples of a record;
+  /// with φ₁(x) = (e^x − 1)/x, φ₂(x) = (φ₁(x) − 1)/x and h = time,
+  ///     q(h) = e^{λh} q(0) − h (φ₁(λh) s(0) + φ₂(λh) (s(h) − s(0))),                                         (3)
+  /// the ramp-invariant filter of ISO 18431-4.  Extremes between the samples count, too.
+  void ramp(double from, double to, double time);
 
   /// Since the last call, or the beginning.
   [[nodiscard]] ResponseExtremes take_extremes();
@@ -65,6 +70,15 @@ class Oscillator {
   struct Part;
   struct Turning;
   class LongDrive;
+  /// (3) of a part of a ramp.
+  struct Ramp {
+    double time = 0;  ///< [s]
+    std::complex<double> turn, level, slope;
+    [[nodiscard]] std::complex<double> after(std::complex<double> q, double from, double to) const {
+      return turn * q - time * (level * from + slope * (to - from));
+    }
+  };
+  [[nodiscard]] Ramp ramp_of(double time) const;
   [[nodiscard]] Response response(std::complex<double> q, double s) const;
   void note(const Response& at);
   void note_turns(const Turning& part, const Response& from, const Response& to);
@@ -77,6 +91,7 @@ class Oscillator {
   std::complex<double> lambda_;
   std::complex<double> q_ = 0;
   double slack_ = 0;
+  Ramp ramp_;  ///< of the last part: samples are often at equal distances
   ResponseExtremes extremes_;
 };
 
@@ -114,6 +129,14 @@ struct ResponsePoint {
 /// By the exact solution on the polynomials.  The error is that of the polynomials: |δz| ω_d <= ∫|δs| dt, δs up to
 /// their tails.
 [[nodiscard]] ResponsePoint response(std::span<const BasePiece> pieces, double frequency, double quality);
+/// Acceleration along an axis at an instant.
+struct BaseSample {
+  double time = 0;          ///< [s]
+  double acceleration = 0;  ///< [m/s²]
+};
+/// By the exact solution of straight lines between samples; before the first and after the last the base counts as
+/// unaccelerated.  The error is ∫|δs| dt of the lines, h |δ²s|/12 for each step by its second differences.
+[[nodiscard]] ResponsePoint response(std::span<const BaseSample> samples, double frequency, double quality);
 /// In closed form: largest over all partial sums of the train and over the turns between and after its steps.  The
 /// error is that of the steps, and of their times by a turn ω δt of the response so far.
 [[nodiscard]] ResponsePoint response(std::span<const VelocityStep> steps, double frequency, double quality);

@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <fmt/format.h>
+
+#include <sstream>
 
 #include "validation/command/command.hpp"
 #include "validation/output/bad_input.hpp"
 #include "validation/output/interrupt.hpp"
+#include "validation/shock/measured_shock.hpp"
 #include "validation/shock/shock_history.hpp"
 #include "validation/shock/shock_options.hpp"
 #include "validation/shock/shock_pulses.hpp"
@@ -14,11 +18,59 @@ namespace {
 const char* const shock_summary = "shock at points of the body";
 
 struct ShockCommandInput : ShockInput {
+  std::string measured;  ///< a record in place of a drop; empty: none
+  std::string columns;   ///< of it, divided by commas
+  std::optional<AccelerationUnit> unit;
+  std::string against;  ///< a scene to stand beside it
   OutputChoice output;
   PlotChoice plot;
 };
 
+/// The scene beside a record, run at its one probe; nothing where none is given.
+std::optional<ShockRun> run_beside(const ShockCommandInput& input, const ShockRequest& request) {
+  ShockInput drop = input;
+  if (!input.against.empty() && !input.scene.source.empty())
+    throw BadInput("--against: a scene is given already; give one of them, not both");
+  if (!input.against.empty()) drop.scene.source = input.against;
+  if (drop.scene.source.empty() && input.probes.empty()) return std::nullopt;
+  const Scene scene = shock_scene(drop);
+  const std::vector<Probe> probes = probes_of(drop);
+  if (probes.size() != 1)
+    throw BadInput(
+        fmt::format("--against: {} probes; one point of the body is where the record was taken", probes.size()));
+  ShockRequest simulated = request;
+  simulated.continuous = model_of(drop) == Model::continuous;
+  simulated.axis.reset();
+  return run_shock(scene, probes, simulated);
+}
+
+int run_measured(const ShockCommandInput& input) {
+  ShockView view = input.view;
+  view.rows = input.rows.value_or(view.rows);
+  if (input.part) view.part = FragilePart{(*input.part)[0], (*input.part)[1] * standard_gravity};
+  check_files(input.output, plot_files(input.plot));
+  PlotFile plot(input.plot);
+  RecordRequest wanted{.path = input.measured, .rate = input.view.rate, .unit = input.unit};
+  std::istringstream names(input.columns);
+  for (std::string name; std::getline(names, name, ',');) wanted.columns.push_back(name);
+  view.rate.reset();
+  const MeasuredShock shock = measure_shock(read_accelerations(wanted), input.request);
+  const std::optional<ShockRun> beside = run_beside(input, input.request);
+  const ShockRun* const simulated = beside ? &*beside : nullptr;
+  write_report(input.output, measured_shock_report(shock, input.request, view, simulated));
+  if (plot.is_wanted())
+    plot.write(measured_shock_picture(shock, input.request, view, simulated),
+               {"clatter shock --measured: " + input.measured});
+  return 0;
+}
+
 int run_shock_command(const ShockCommandInput& input) {
+  if (!input.measured.empty()) return run_measured(input);
+  for (const auto& [given, option] : {std::pair{!input.columns.empty(), "--column"},
+                                      {input.unit.has_value(), "--unit"},
+                                      {!input.against.empty(), "--against"}}) {
+    if (given) throw BadInput(fmt::format("{}: only with --measured FILE", option));
+  }
   const Scene scene = shock_scene(input);
   const std::vector<Probe> probes = probes_of(input);
   if (probes.empty())
@@ -55,8 +107,15 @@ Command shock_command() {
                                 "of table and CSV: impacts, response spectra, or impacts as test pulses (impact)",
                                 "Shock"));
     command.add(number_argument("--rate", input.view.rate, {1e-3, 1e9, false, "from 0.001 to 1e9 Hz"}, "HZ",
-                                "rows are the history at this rate, with each peak: force, torque, pressure, probes",
+                                "rows are the history at this rate, with each peak: force, torque, pressure, probes; "
+                                "with --measured how often was sampled",
                                 "Shock"));
+    const char* const group = "Measured";
+    command.add_text("--measured", input.measured, "FILE",
+                     "accelerations of a logger or drop tower (CSV) in place of a drop: its blows and spectra", group);
+    command.add_text("--column", input.columns, "NAME,...", "its columns of acceleration, one to three", group);
+    command.add(choice_argument("--unit", input.unit, {"g", "m/s2"}, "of them, where the file does not say", group));
+    command.add_text("--against", input.against, "SCENE", "a drop to stand beside the record, at its one probe", group);
     add_output_options(command, input.output);
     add_plot_options(command, input.plot);
     command.footer =
@@ -65,12 +124,14 @@ Command shock_command() {
         "--plot camera.svg\n"
         "Example: clatter shock phone-damped --impacts 2 --probe camera:0.048,0.016,0.0095 --rate 1e6 --format csv "
         "--output camera.csv\n"
+        "Example: clatter shock --measured logger.csv --unit g --against phone.toml --probe board:0.02,0.01,0.003\n"
         "The change of velocity is what a fragile part inside feels of a blow that is short to it; the peak depends on "
         "the floor.\n"
         "Peaks are specific forces, what an accelerometer reads, of a rigid body: parts that bend are left out.";
     command.columns = {{"shock", shock_columns},
                        {"shock-spectrum", spectrum_columns},
                        {"shock-pulse", pulse_columns},
+                       {"shock-measured", measured_shock_columns},
                        {"shock-history", [] { return shock_history_columns({"probe"}); }}};
   });
 }

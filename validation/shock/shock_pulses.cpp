@@ -22,35 +22,6 @@ double restitution_of(const ShockRun& run, int impact) {
   return run.continuous->planned.run.impacts.at(static_cast<std::size_t>(impact) - 1).value.restitution;
 }
 
-Row row_of(const ShockRun& run, const ShockRow& blow, const std::optional<FragilePart>& part) {
-  const int digits = run.scene.accuracy.digits;
-  const Estimated velocity{blow.value.delta_v_size, blow.error.delta_v_size};
-  const Estimated peak{blow.value.peak_size, blow.error.peak_size};
-  const double of_v = relative(velocity.error, velocity.value), of_a = relative(peak.error, peak.value);
-  const TestPulse pulse = equivalent_pulse(velocity.value, peak.value);
-  const double restitution = restitution_of(run, blow.impact);
-  Row row{Cell(run.probes[blow.probe].name), Cell(blow.impact)}, errors;
-  const auto add = [&](double value, double of_value) {
-    const Estimated number{value, std::fabs(value) * of_value};
-    row.push_back(std::isfinite(value) ? known_cell(number, {digits, 0}) : Cell());
-    errors.emplace_back(std::isfinite(value) ? error_or_nothing(number) : Value());
-  };
-  if (!blow.predictable) row[1].shown = fmt::format("{}?", blow.impact);
-  add(velocity.value, of_v);
-  add(peak.value / standard_gravity, of_a);
-  add(pulse.duration, of_v + of_a);
-  add(pulse.height(0), 2 * of_v);
-  add(pulse.height(restitution), 2 * of_v);
-  row.emplace_back(std::string(1, covering_condition(velocity.value, peak.value)));
-  // ln of a response changes by no more than ln of f T does.
-  for (const PulseShape shape : shapes)
-    add(part ? margin(*part, shape, velocity.value, peak.value) : std::nan(""), of_v + 2 * of_a);
-  row.emplace_back(restitution, 4);
-  if (!std::isfinite(restitution)) row.back() = Cell();
-  row.insert(row.end(), errors.begin(), errors.end());
-  return row;
-}
-
 /// Along a boundary, from short pulses to the longest one shown: change of velocity and peak in g.
 std::vector<std::pair<double, double>> boundary_points(const FragilePart& part, PulseShape shape, double last) {
   constexpr int count = 160;
@@ -90,18 +61,56 @@ std::vector<Column> pulse_columns() {
   return columns;
 }
 
-Grid pulse_grid(const ShockRun& run, const std::optional<FragilePart>& part) {
+Row pulse_row(const Pulse& pulse, int digits, const std::optional<FragilePart>& part) {
+  const Estimated &velocity = pulse.velocity, &peak = pulse.peak;
+  const double of_v = relative(velocity.error, velocity.value), of_a = relative(peak.error, peak.value);
+  const TestPulse half_sine = equivalent_pulse(velocity.value, peak.value);
+  Row row{Cell(pulse.probe), Cell(pulse.impact)}, errors;
+  const auto add = [&](double value, double of_value) {
+    const Estimated number{value, std::fabs(value) * of_value};
+    row.push_back(std::isfinite(value) ? known_cell(number, {digits, 0}) : Cell());
+    errors.emplace_back(std::isfinite(value) ? error_or_nothing(number) : Value());
+  };
+  if (!pulse.predictable) row[1].shown = fmt::format("{}?", pulse.impact);
+  add(velocity.value, of_v);
+  add(peak.value / standard_gravity, of_a);
+  add(half_sine.duration, of_v + of_a);
+  add(half_sine.height(0), 2 * of_v);
+  add(half_sine.height(pulse.restitution), 2 * of_v);
+  row.emplace_back(std::string(1, covering_condition(velocity.value, peak.value)));
+  // ln of a response changes by no more than ln of f T does.
+  for (const PulseShape shape : shapes)
+    add(part ? margin(*part, shape, velocity.value, peak.value) : std::nan(""), of_v + 2 * of_a);
+  row.emplace_back(pulse.restitution, 4);
+  if (!std::isfinite(pulse.restitution)) row.back() = Cell();
+  row.insert(row.end(), errors.begin(), errors.end());
+  return row;
+}
+
+Grid pulse_grid(const std::vector<Pulse>& pulses, int digits, const std::optional<FragilePart>& part) {
   Grid grid{pulse_columns(), {}, 2};
   for (Column& column : grid.columns) {
     if (!part && column.name.starts_with("margin")) column.shown = false;
   }
-  if (!run.continuous) return grid;
+  for (const Pulse& pulse : pulses) grid.rows.push_back(pulse_row(pulse, digits, part));
+  return grid;
+}
+
+std::vector<Pulse> pulses_of(const ShockRun& run) {
+  std::vector<Pulse> pulses;
+  if (!run.continuous) return pulses;
   for (std::size_t probe = 0; probe < run.probes.size(); ++probe) {
     for (const ShockRow& blow : run.continuous->rows) {
-      if (blow.probe == probe) grid.rows.push_back(row_of(run, blow, part));
+      if (blow.probe != probe) continue;
+      pulses.push_back({run.probes[probe].name,
+                        blow.impact,
+                        {blow.value.delta_v_size, blow.error.delta_v_size},
+                        {blow.value.peak_size, blow.error.peak_size},
+                        restitution_of(run, blow.impact),
+                        blow.predictable});
     }
   }
-  return grid;
+  return pulses;
 }
 
 std::vector<std::string> pulse_notes(const std::optional<FragilePart>& part) {
@@ -153,14 +162,14 @@ Value pulse_fields(const Grid& grid, const std::optional<FragilePart>& part) {
   return fields;
 }
 
-std::optional<PicturePanel> boundary_panel(const ShockRun& run, const FragilePart& part) {
-  if (!run.continuous || run.continuous->rows.empty()) return std::nullopt;
+std::optional<PicturePanel> boundary_panel(const std::vector<Pulse>& pulses, const FragilePart& part) {
+  if (pulses.empty()) return std::nullopt;
   PicturePanel panel{.columns = {{"velocity", "m/s", "change of velocity"}}};
   panel.plot.x_label = "change of velocity [m/s]";
   panel.plot.y_label = "peak [g]";
   panel.plot.logarithmic_x = panel.plot.logarithmic_y = true;
   double last = 0;
-  for (const ShockRow& blow : run.continuous->rows) last = std::max(last, 1.5 * blow.value.delta_v_size);
+  for (const Pulse& pulse : pulses) last = std::max(last, 1.5 * pulse.velocity.value);
   const auto add = [&](const std::string& legend, FigureCurve::Style style,
                        const std::vector<std::pair<double, double>>& points) {
     const std::string name = fmt::format("a{}", panel.columns.size());
@@ -177,13 +186,11 @@ std::optional<PicturePanel> boundary_panel(const ShockRun& run, const FragilePar
     add(fmt::format("{} fails the part above and right of this", shape_words[i]),
         i == 0 ? FigureCurve::Style::line : FigureCurve::Style::dashed, boundary_points(part, shapes[i], last));
   }
-  for (std::size_t probe = 0; probe < run.probes.size(); ++probe) {
-    for (const ShockRow& blow : run.continuous->rows) {
-      constexpr int most_marks = 4;  // later blows are weak, and a legend has an end
-      if (blow.probe != probe || !blow.predictable || blow.impact > most_marks) continue;
-      add(fmt::format("{}, impact {}", run.probes[probe].name, blow.impact), FigureCurve::Style::marks,
-          {{blow.value.delta_v_size, blow.value.peak_size / standard_gravity}});
-    }
+  for (const Pulse& pulse : pulses) {
+    constexpr int most_marks = 4;  // later blows are weak, and a legend has an end
+    if (!pulse.predictable || pulse.impact > most_marks) continue;
+    add(fmt::format("{}, impact {}", pulse.probe, pulse.impact), FigureCurve::Style::marks,
+        {{pulse.velocity.value, pulse.peak.value / standard_gravity}});
   }
   return panel;
 }

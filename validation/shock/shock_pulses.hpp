@@ -13,15 +13,26 @@
 
 namespace clatter::validation {
 
-/// A row for each impact and probe of the continuous model.
+/// What one blow does to one point.
+struct Pulse {
+  std::string probe;
+  int impact = 0;            ///< from 1
+  Estimated velocity, peak;  ///< |ΔV| [m/s] and largest specific force [m/s²]
+  double restitution = 0;    ///< of the impact; not finite where it is not known
+  bool predictable = true;
+};
+/// By the continuous model, in the order of probes.
+[[nodiscard]] std::vector<Pulse> pulses_of(const ShockRun& run);
+
+/// A row for each pulse.
 [[nodiscard]] std::vector<Column> pulse_columns();
 /// The margins are empty without a part.
-[[nodiscard]] Grid pulse_grid(const ShockRun& run, const std::optional<FragilePart>& part);
+[[nodiscard]] Grid pulse_grid(const std::vector<Pulse>& pulses, int digits, const std::optional<FragilePart>& part);
 /// The service conditions and, with a part, its damage boundary.
 [[nodiscard]] std::vector<std::string> pulse_notes(const std::optional<FragilePart>& part);
 /// `rows` of the grid, service conditions, damage boundary.
 [[nodiscard]] Value pulse_fields(const Grid& grid, const std::optional<FragilePart>& part);
 /// The damage boundary of a part, for both pulses, and where the blows lie; none without a blow.
-[[nodiscard]] std::optional<PicturePanel> boundary_panel(const ShockRun& run, const FragilePart& part);
+[[nodiscard]] std::optional<PicturePanel> boundary_panel(const std::vector<Pulse>& pulses, const FragilePart& part);
 
 }  // namespace clatter::validation

@@ -208,13 +208,12 @@ std::string blows_word(const Spectrum& spectrum) {
   return spectrum.impacts == 1 ? "1" : fmt::format("1-{}", spectrum.impacts);
 }
 
-Row point_row(const ShockRun& run, const Spectrum& spectrum, const ResponsePoint& point) {
+Row point_row(const NamedSpectrum& named, const ResponsePoint& point, int digits) {
   const ResponseExtremes whole = point.whole();
-  const int digits = run.scene.accuracy.digits;
+  const Spectrum& spectrum = *named.spectrum;
   const Estimated v{whole.pseudo_velocity.maximax(), point.pseudo_velocity_error};
   const Estimated a{whole.acceleration.maximax(), point.acceleration_error};
-  Row cells{Cell(run.probes[spectrum.probe].name), Cell(axis_names[spectrum.axis]),
-            Cell(spectrum.continuous ? "continuous" : "discrete"), Cell(blows_word(spectrum)),
+  Row cells{Cell(named.probe), Cell(named.axis), Cell(named.model), Cell(blows_word(spectrum)),
             Cell(point.frequency, 4)};
   cells.push_back(known_cell(v, {digits, 0}));
   cells.push_back(known_cell(a, {digits, 0}));
@@ -230,12 +229,15 @@ Row point_row(const ShockRun& run, const Spectrum& spectrum, const ResponsePoint
   return cells;
 }
 
-Grid spectra_of(const ShockRun& run) {
-  Grid grid{spectrum_columns(), {}, 5};
-  for (const Spectrum& spectrum : run.spectra) {
-    for (const ResponsePoint& point : spectrum.points) grid.rows.push_back(point_row(run, spectrum, point));
-  }
-  return grid;
+NamedSpectrum named(const ShockRun& run, const Spectrum& spectrum) {
+  return {run.probes[spectrum.probe].name, spectrum.continuous ? "continuous" : "discrete", axis_names[spectrum.axis],
+          &spectrum};
+}
+
+std::vector<NamedSpectrum> named_spectra(const ShockRun& run) {
+  std::vector<NamedSpectrum> all;
+  for (const Spectrum& spectrum : run.spectra) all.push_back(named(run, spectrum));
+  return all;
 }
 
 /// Which spectra stand beside one another for readers, in their order.
@@ -252,54 +254,50 @@ std::string part_words(const Spectrum& spectrum) {
 }
 
 /// The spectra of a probe in the model that comes first, each once.
-std::vector<const Spectrum*> shown_spectra(const ShockRun& run, std::size_t probe) {
-  std::vector<const Spectrum*> shown;
+std::vector<NamedSpectrum> shown_spectra(const ShockRun& run, std::size_t probe) {
+  std::vector<NamedSpectrum> shown;
   for (const ShownSpectrum& one : main_spectra) {
     const Spectrum* const found = run.spectrum(probe, run.continuous.has_value(), one.blows);
-    if (found) shown.push_back(found);
+    if (found) shown.push_back(named(run, *found));
   }
   return shown;
 }
 
-/// One table of the pseudo-velocities of all probes.
-Grid digest_of(const ShockRun& run) {
-  Grid digest{{word_column("probe", "probe", ""), {"frequency", "f", "Hz"}}, {}, 2};
-  std::vector<std::string> names;
-  for (const Spectrum* spectrum : shown_spectra(run, 0))
-    digest.columns.push_back({part_words(*spectrum), part_words(*spectrum), "m/s"});
-  for (std::size_t probe = 0; probe < run.probes.size(); ++probe) {
-    const std::vector<const Spectrum*> shown = shown_spectra(run, probe);
-    for (std::size_t i = 0; !shown.empty() && i < shown.front()->points.size(); ++i) {
-      Row row{Cell(run.probes[probe].name), Cell(shown.front()->points[i].frequency, 4)};
-      for (const Spectrum* spectrum : shown) {
-        const ResponsePoint& point = spectrum->points[i];
-        row.push_back(known_cell({point.whole().pseudo_velocity.maximax(), point.pseudo_velocity_error},
-                                 {std::min(run.scene.accuracy.digits, 6), 0}));
-      }
-      digest.rows.push_back(row);
-    }
-  }
-  return digest;
+std::vector<std::vector<NamedSpectrum>> shown_spectra(const ShockRun& run) {
+  std::vector<std::vector<NamedSpectrum>> shown;
+  for (std::size_t probe = 0; probe < run.probes.size(); ++probe) shown.push_back(shown_spectra(run, probe));
+  return shown;
 }
 
-std::string quality_words(double quality) {
-  return std::isfinite(quality) ? fmt::format("Q = {}", shortest(quality)) : "undamped";
+/// "impact 1", with the model where not all are of one.
+std::string words_of(const NamedSpectrum& one, const std::vector<NamedSpectrum>& among) {
+  const bool is_other = one.model != among.front().model;
+  return part_words(*one.spectrum) +
+         (is_other ? fmt::format(", {}", one.model == "discrete" ? "discrete model" : one.model) : "");
+}
+
+/// The largest pseudo-velocity [m/s] or acceleration [g] of a point of a spectrum.
+Estimated maximax(const ResponsePoint& point, bool is_acceleration) {
+  const ResponseExtremes whole = point.whole();
+  if (!is_acceleration) return {whole.pseudo_velocity.maximax(), point.pseudo_velocity_error};
+  return Estimated{whole.acceleration.maximax(), point.acceleration_error} * (1 / standard_gravity);
 }
 
 /// A few frequencies of a probe's spectra, a line each.
 void add_spectrum_notes(const ShockRun& run, std::size_t probe, std::vector<std::string>& notes) {
-  const std::vector<const Spectrum*> shown = shown_spectra(run, probe);
+  const std::vector<NamedSpectrum> shown = shown_spectra(run, probe);
   if (shown.empty()) return;
-  const std::string where = fmt::format("{} along {}", run.probes[probe].name, axis_names[shown.front()->axis]);
-  const auto& points = shown.front()->points;
+  const std::string where = fmt::format("{} along {}", run.probes[probe].name, shown.front().axis);
+  const auto& points = shown.front().spectrum->points;
   const std::size_t step = std::max<std::size_t>(1, (points.size() - 1) / 3);
   for (std::size_t i = 0; i < points.size(); i += step) {
     std::string words = fmt::format("{}, oscillator of {} Hz, {}: pseudo-velocity", where,
                                     significant(points[i].frequency, 4), quality_words(run.request.quality));
-    for (const Spectrum* spectrum : shown) {
-      words += fmt::format("{} {} m/s by {}", spectrum == shown.front() ? "" : ",",
-                           significant(spectrum->points[i].whole().pseudo_velocity.maximax(), 4),
-                           spectrum->blows == Blows::flat ? "a flat drop" : part_words(*spectrum));
+    for (const NamedSpectrum& one : shown) {
+      const Spectrum& spectrum = *one.spectrum;
+      words += fmt::format("{} {} m/s by {}", &one == &shown.front() ? "" : ",",
+                           significant(spectrum.points[i].whole().pseudo_velocity.maximax(), 4),
+                           spectrum.blows == Blows::flat ? "a flat drop" : part_words(spectrum));
     }
     notes.push_back(words);
   }
@@ -372,21 +370,6 @@ Value point_value(const ResponsePoint& point) {
                                                whole.acceleration, point.acceleration_error)}};
 }
 
-Value spectra_value(const ShockRun& run) {
-  Value::List list;
-  for (const Spectrum& spectrum : run.spectra) {
-    Value::List points;
-    for (const ResponsePoint& point : spectrum.points) points.push_back(point_value(point));
-    list.emplace_back(Value::Fields{{"probe", run.probes[spectrum.probe].name},
-                                    {"axis", axis_names[spectrum.axis]},
-                                    {"model", spectrum.continuous ? "continuous" : "discrete"},
-                                    {"blows", blows_word(spectrum)},
-                                    {"quality", run.request.quality},
-                                    {"points", points}});
-  }
-  return list;
-}
-
 Value envelopes_value(const ShockRun& run) {
   Value::List list;
   for (std::size_t i = 0; i < run.envelopes.size(); ++i) {
@@ -427,17 +410,6 @@ std::string probe_words(const std::vector<Probe>& probes) {
   std::string words;
   for (const Probe& probe : probes) words += (words.empty() ? "probes: " : "; ") + place_words(probe);
   return words + ", body frame";
-}
-
-/// A note on probes so far off the body that their places may be in another unit or frame.
-std::string far_probes(const Scene& scene, const std::vector<Probe>& probes) {
-  const BodyProperties body = body_properties(scene, Model::discrete);
-  std::string names;
-  for (const Probe& probe : probes) {
-    const bool is_far = (probe.place.cwiseAbs() - body.extents).maxCoeff() > 0;
-    if (is_far && scene.body.shape != BodyScene::Shape::mesh) names += (names.empty() ? "" : ", ") + probe.name;
-  }
-  return names.empty() ? "" : names + ": off the body, whose extents are above; places are in m, from its middle";
 }
 
 }  // namespace
@@ -489,6 +461,81 @@ std::vector<Column> spectrum_columns() {
   return columns;
 }
 
+Grid spectrum_grid(const std::vector<NamedSpectrum>& spectra, int digits) {
+  Grid grid{spectrum_columns(), {}, 5};
+  for (const NamedSpectrum& one : spectra) {
+    for (const ResponsePoint& point : one.spectrum->points) grid.rows.push_back(point_row(one, point, digits));
+  }
+  return grid;
+}
+
+Grid spectrum_digest(const std::vector<std::vector<NamedSpectrum>>& shown, int digits) {
+  Grid digest{{word_column("probe", "probe", ""), {"frequency", "f", "Hz"}}, {}, 2};
+  if (shown.empty()) return digest;
+  for (const char* unit : {"m/s", "g"}) {
+    for (const NamedSpectrum& one : shown.front())
+      digest.columns.push_back({words_of(one, shown.front()), words_of(one, shown.front()), unit});
+  }
+  for (const std::vector<NamedSpectrum>& of_probe : shown) {
+    for (std::size_t i = 0; !of_probe.empty() && i < of_probe.front().spectrum->points.size(); ++i) {
+      Row row{Cell(of_probe.front().probe), Cell(of_probe.front().spectrum->points[i].frequency, 4)};
+      for (const bool is_acceleration : {false, true}) {
+        for (const NamedSpectrum& one : of_probe)
+          row.push_back(known_cell(maximax(one.spectrum->points[i], is_acceleration), {std::min(digits, 4), 0}));
+      }
+      digest.rows.push_back(row);
+    }
+  }
+  return digest;
+}
+
+Value spectrum_values(const std::vector<NamedSpectrum>& spectra, double quality) {
+  Value::List list;
+  for (const NamedSpectrum& one : spectra) {
+    Value::List points;
+    for (const ResponsePoint& point : one.spectrum->points) points.push_back(point_value(point));
+    list.emplace_back(Value::Fields{{"probe", one.probe},
+                                    {"axis", one.axis},
+                                    {"model", one.model},
+                                    {"blows", blows_word(*one.spectrum)},
+                                    {"quality", quality},
+                                    {"points", points}});
+  }
+  return list;
+}
+
+std::vector<PicturePanel> spectrum_panels(const std::vector<NamedSpectrum>& shown, std::optional<double> severity) {
+  std::vector<PicturePanel> panels;
+  if (shown.empty()) return panels;
+  for (const bool is_acceleration : {false, true}) {
+    PicturePanel panel{.columns = {{"frequency", "Hz", "natural frequency"}}};
+    panel.plot.logarithmic_x = panel.plot.logarithmic_y = true;
+    panel.plot.y_label = is_acceleration ? "largest acceleration [g]"
+                                         : fmt::format("{} along {} [m/s]", shown.front().probe, shown.front().axis);
+    for (const ResponsePoint& point : shown.front().spectrum->points) panel.rows.push_back({point.frequency});
+    for (const NamedSpectrum& one : shown) {
+      const std::string name = fmt::format("v{}", panel.columns.size());
+      const std::string legend = words_of(one, shown);
+      panel.columns.push_back({name, is_acceleration ? "g" : "m/s", legend});
+      for (std::size_t i = 0; i < panel.rows.size(); ++i)
+        panel.rows[i].push_back(maximax(one.spectrum->points[i], is_acceleration).value);
+      panel.plot.curves.push_back(
+          {.x = "frequency",
+           .y = name,
+           .legend = legend,
+           .style = one.model == shown.front().model ? FigureCurve::Style::line : FigureCurve::Style::dashed});
+    }
+    if (severity && !is_acceleration) add_severity(*severity, panel);
+    panels.push_back(std::move(panel));
+  }
+  panels.back().plot.x_label = "natural frequency [Hz]";
+  return panels;
+}
+
+std::string quality_words(double quality) {
+  return std::isfinite(quality) ? fmt::format("Q = {}", shortest(quality)) : "undamped";
+}
+
 Report shock_report(const ShockRun& run, const ShockView& view) {
   constexpr const char* titles[] = {"what each impact does to points of the body",
                                     "response spectra at points of the body",
@@ -500,12 +547,16 @@ Report shock_report(const ShockRun& run, const ShockView& view) {
   const std::string facets = continuous ? facet_words(run.scene, run.continuous->planned.run) : "";
   if (!facets.empty()) report.head.push_back(facets);
   report.head.push_back(probe_words(run.probes));
+  if (const std::string far = probe_doubts(run.scene, run.probes); !far.empty())
+    report.head.insert(report.head.begin(), far);
   report.notes = notes_of(run, view);
-  if (const std::string far = far_probes(run.scene, run.probes); !far.empty()) report.notes.push_back(far);
   const Grid impacts = impacts_of(run);
-  const Grid pulses = pulse_grid(run, view.part);
-  report.grid = view.rows == ShockRows::spectra ? spectra_of(run) : view.rows == ShockRows::pulses ? pulses : impacts;
-  if (view.rows == ShockRows::spectra) report.digest = digest_of(run);
+  const Grid pulses = pulse_grid(pulses_of(run), run.scene.accuracy.digits, view.part);
+  report.grid = view.rows == ShockRows::pulses ? pulses : impacts;
+  if (view.rows == ShockRows::spectra) {
+    report.grid = spectrum_grid(named_spectra(run), run.scene.accuracy.digits);
+    report.digest = spectrum_digest(shown_spectra(run), run.scene.accuracy.digits);
+  }
   if (view.rate) {
     report.grid = shock_history_grid(run, *view.rate);
     report.digest.reset();
@@ -516,7 +567,7 @@ Report shock_report(const ShockRun& run, const ShockView& view) {
   report.fields["scene"][probe_table] = probe_fields(run.probes);
   report.fields["body"] = body_value(run.scene, model);
   report.fields["impacts"] = row_objects(impacts);
-  report.fields["spectra"] = spectra_value(run);
+  report.fields["spectra"] = spectrum_values(named_spectra(run), run.request.quality);
   report.fields["envelopes"] = envelopes_value(run);
   report.fields["pulses"] = pulse_fields(pulses, view.part);
   add_outcome(run, report);
@@ -527,36 +578,17 @@ Report shock_report(const ShockRun& run, const ShockView& view) {
 }
 
 Picture shock_picture(const ShockRun& run, const ShockView& view) {
-  Picture picture{.what = fmt::format("pseudo-velocity over natural frequency, {}", quality_words(run.request.quality)),
+  Picture picture{.what = fmt::format("Response spectra, {}", quality_words(run.request.quality)),
                   .scene = run.scene.summary(run.continuous ? Model::continuous : Model::discrete)};
   for (std::size_t probe = 0; probe < run.probes.size(); ++probe) {
-    std::vector<const Spectrum*> shown = shown_spectra(run, probe);
-    if (shown.empty()) continue;
+    std::vector<NamedSpectrum> shown = shown_spectra(run, probe);
     const Spectrum* const discrete = run.whole(probe, false);
-    if (run.continuous && discrete && run.parted.are_one(discrete->impacts)) shown.push_back(discrete);
-    PicturePanel panel{.columns = {{"frequency", "Hz", "natural frequency"}}};
-    panel.plot.logarithmic_x = panel.plot.logarithmic_y = true;
-    panel.plot.y_label = fmt::format("{} along {} [m/s]", run.probes[probe].name, axis_names[shown.front()->axis]);
-    for (std::size_t i = 0; i < shown.front()->points.size(); ++i)
-      panel.rows.push_back({shown.front()->points[i].frequency});
-    for (const Spectrum* spectrum : shown) {
-      const std::string name = fmt::format("v{}", panel.columns.size());
-      const bool is_other = run.continuous && !spectrum->continuous;
-      const std::string legend = part_words(*spectrum) + (is_other ? ", discrete model" : "");
-      panel.columns.push_back({name, "m/s", legend});
-      for (std::size_t i = 0; i < panel.rows.size(); ++i)
-        panel.rows[i].push_back(spectrum->points[i].whole().pseudo_velocity.maximax());
-      panel.plot.curves.push_back({.x = "frequency",
-                                   .y = name,
-                                   .legend = legend,
-                                   .style = is_other ? FigureCurve::Style::dashed : FigureCurve::Style::line});
-    }
-    if (view.severity) add_severity(*view.severity, panel);
-    picture.panels.push_back(std::move(panel));
+    if (!shown.empty() && run.continuous && discrete && run.parted.are_one(discrete->impacts))
+      shown.push_back(named(run, *discrete));
+    for (PicturePanel& panel : spectrum_panels(shown, view.severity)) picture.panels.push_back(std::move(panel));
   }
-  if (!picture.panels.empty()) picture.panels.back().plot.x_label = "natural frequency [Hz]";
   if (view.part) {
-    if (auto panel = boundary_panel(run, *view.part)) picture.panels.push_back(std::move(*panel));
+    if (auto panel = boundary_panel(pulses_of(run), *view.part)) picture.panels.push_back(std::move(*panel));
   }
   return picture;
 }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "validation/output/picture.hpp"
@@ -16,6 +17,22 @@ namespace clatter::validation {
 [[nodiscard]] std::vector<Column> shock_columns();
 /// A row for each frequency of each spectrum.
 [[nodiscard]] std::vector<Column> spectrum_columns();
+
+/// A spectrum with what its rows and curves are called.
+struct NamedSpectrum {
+  std::string probe, model;
+  std::string axis;  ///< "x", or a column of a record
+  const Spectrum* spectrum = nullptr;
+};
+[[nodiscard]] Grid spectrum_grid(const std::vector<NamedSpectrum>& spectra, int digits);
+/// One table of the pseudo-velocities and accelerations of all probes, those of the first naming the columns.
+[[nodiscard]] Grid spectrum_digest(const std::vector<std::vector<NamedSpectrum>>& shown, int digits);
+[[nodiscard]] Value spectrum_values(const std::vector<NamedSpectrum>& spectra, double quality);
+/// Pseudo-velocity and acceleration over natural frequency; models other than the first one's are dashed.
+[[nodiscard]] std::vector<PicturePanel> spectrum_panels(const std::vector<NamedSpectrum>& shown,
+                                                        std::optional<double> severity);
+/// "Q = 10", or "undamped".
+[[nodiscard]] std::string quality_words(double quality);
 
 enum class ShockRows { impacts, spectra, pulses };
 

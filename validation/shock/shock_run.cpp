@@ -128,8 +128,7 @@ std::string run_discrete_side(const Scene& scene, const std::vector<Probe>& prob
 /// As `compare` tells it: by the corners that the continuous model has.
 PartedBlows parted(const Scene& scene, const numeric::Body& body, const std::vector<numeric::ImpactRecord>& records) {
   DiscreteBody given(scene, body), mesh(body);
-  const bool is_other =
-      scene.body.shape != BodyScene::Shape::mesh && has_other_corners(given.drop(scene), mesh.drop(scene));
+  const bool is_other = !scene.body.is_polyhedron() && has_other_corners(given.drop(scene), mesh.drop(scene));
   return parted_blows(discrete_side(scene, is_other ? mesh : given), records, body);
 }
 

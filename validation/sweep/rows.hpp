@@ -35,6 +35,7 @@ struct RowLayout {
   std::vector<ImpactColumn> asked{};  ///< with rows of scenes
   std::vector<std::string> named{};   ///< columns asked for that these rows have anyway
   std::vector<Probe> probes{};        ///< with rows of scenes
+  std::string rank_by{};              ///< column by which a summary ranks attitudes; empty: as ranking_column() has it
 
   /// Whether rows have this number of impacts.
   [[nodiscard]] bool has(std::string_view quantity) const;
@@ -65,7 +66,8 @@ void read_impact_columns(const std::string& names, int impacts, RowLayout& layou
 
 /// What the columns of a probe's largest specific force and of its largest |ΔV| begin with, before the probe's name.
 inline constexpr std::string_view peak_column = "peak_g_", shock_column = "delta_v_";
-/// The column by which rows are ranked for a probe.
+/// The column by which rows are ranked for a probe.  A summary takes the one that was asked for, else that of the first
+/// probe, else the largest force or impulse.
 [[nodiscard]] std::string ranking_column(const RowLayout& layout, const Probe& probe);
 
 /// The hardest that a point of the body goes through in the impacts of a scene.

@@ -50,8 +50,10 @@ Estimated Histogram::percentile(double part) const {
 
 Summary::Summary(const RowLayout& layout, const SweepPoints& points)
     : columns_(sweep_columns(layout)), first_(1 + layout.swept.size()),
-      rank_by_(layout.probes.empty() ? "" : ranking_column(layout, layout.probes.front())), points_(&points),
-      numbers_(columns_.size()),
+      rank_by_(!layout.rank_by.empty() ? layout.rank_by
+               : layout.probes.empty() ? ""
+                                       : ranking_column(layout, layout.probes.front())),
+      points_(&points), numbers_(columns_.size()),
       largest_(static_cast<std::size_t>(points.attitudes()), std::vector<Extreme>(columns_.size(), {0, -1})),
       texts_(columns_.size()), row_(columns_.size()) {}
 

@@ -81,7 +81,7 @@ class Summary {
 
   std::vector<Column> columns_;
   std::size_t first_;    ///< column that is summarised: swept keys need not be told
-  std::string rank_by_;  ///< name of the column by which attitudes are ranked first; empty: there is no probe
+  std::string rank_by_;  ///< name of the column by which attitudes are ranked first; empty: the force or impulse
   const SweepPoints* points_;
   std::vector<Numbers> numbers_;
   std::vector<std::vector<Extreme>> largest_;  ///< of each listed attitude, of each column; index -1: none yet

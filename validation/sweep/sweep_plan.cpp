@@ -316,7 +316,7 @@ void choose_setters(const SceneValues& values, const std::vector<Setting>& setti
 }
 
 bool may_leave_its_plane(const SweepPlan& plan) {
-  if (plan.scene.body.shape == BodyScene::Shape::mesh || !reason_in_space(plan.scene).empty()) return true;
+  if (plan.scene.body.is_polyhedron() || !reason_in_space(plan.scene).empty()) return true;
   const std::vector<SweepAxis>& axes = plan.points.axes();
   return std::any_of(axes.begin(), axes.end(), [](const SweepAxis& axis) {
     return axis.key == "drop.tilt_deg" || axis.key == "drop.orientation" || axis.is_attitude();
@@ -346,6 +346,34 @@ void choose_columns(const SweepRequest& request, SweepPlan& plan) {
   }
   read_impact_columns(columns, impacts, layout);
   plan.words.push_back(fmt::format("columns: {}", columns));
+}
+
+/// @throws BadInput for a column that is none, or holds no numbers
+void choose_ranking(const SweepRequest& request, SweepPlan& plan) {
+  if (request.rank_by.empty()) return;
+  if (!request.summary || plan.points.attitudes() == 0)
+    throw BadInput(fmt::format("--rank-by {}: ranks the attitudes of --summary, --set {}=26 or a list", request.rank_by,
+                               attitude_key));
+  std::vector<std::string> names;
+  for (const Column& column : sweep_columns(plan.layout)) {
+    if (!column.words && !column.name.ends_with("_error")) names.push_back(column.name);
+  }
+  if (std::ranges::find(names, request.rank_by) == names.end())
+    throw BadInput(fmt::format("--rank-by {}: must be a column of numbers; did you mean {}?", request.rank_by,
+                               nearest_name(request.rank_by, names)));
+  plan.layout.rank_by = request.rank_by;
+}
+
+/// A summary of many scenes by the continuous model asks for no more than statistics need, unless it is told: three
+/// digits, and no second run for the growth of errors.
+void spare(const SweepRequest& request, const SceneValues& values, const std::vector<Setting>& settings,
+           std::vector<std::string>& sets) {
+  if (!request.summary || read_model(request, values, settings) == Model::discrete) return;
+  const auto is_given = [&](const char* key) {
+    return values.has(key) || std::ranges::any_of(settings, [&](const Setting& one) { return one.key == key; });
+  };
+  if (!is_given("run.digits") && !is_given("run.tolerance") && !is_given("run.step")) sets.emplace_back("run.digits=3");
+  if (!is_given("run.amplification")) sets.emplace_back("run.amplification=false");
 }
 
 /// The points of flags, else of the scene's file, where rows have columns for them.
@@ -422,7 +450,12 @@ Arguments sweep_arguments(SweepRequest& request) {
            .target = &request.columns,
            .type = "NAME,...",
            .help = "more columns of rows of scenes: QUANTITY_N of impact N, QUANTITY of each, hardest, "
-                   "hardest_QUANTITY"}};
+                   "hardest_QUANTITY"},
+          {.name = "--rank-by",
+           .target = &request.rank_by,
+           .type = "COLUMN",
+           .help = "of --summary: by which attitudes are ranked (the first probe's peak or change of velocity, else "
+                   "force or impulse)"}};
 }
 
 SweepPlan read_sweep_plan(const SweepRequest& request) {
@@ -434,6 +467,7 @@ SweepPlan read_sweep_plan(const SweepRequest& request) {
   if (request.require_digits) sets.emplace_back("run.require_digits=true");
   const Drawing drawing = read_drawing(request);
   if (drawing.scatter) name_own_attitude(request, values, sets);
+  spare(request, values, read_settings(sets, drawing), sets);
   std::vector<Setting> settings = read_settings(sets, drawing);
   read_scene(request, settings, values, plan);
   plan.fixed_words = shell_word(request.file) + " --model " + name_of(plan.layout.model);
@@ -447,6 +481,7 @@ SweepPlan read_sweep_plan(const SweepRequest& request) {
   choose_probes(request, values, plan);
   choose_columns(request, plan);
   require_distinct_columns(plan.layout);
+  choose_ranking(request, plan);
   return plan;
 }
 
@@ -485,6 +520,8 @@ Report SweepPlan::report() const {
   Report report = begun_report(
       "sweep", fmt::format("{} model, one row per {}", name, row_names[static_cast<std::size_t>(layout.rows)]));
   report.head = scene_head(scene, model, {}, unsettled);
+  if (const std::string doubts = probe_doubts(scene, layout.probes); !doubts.empty())
+    report.head.insert(report.head.begin(), doubts);
   report.fields["model"] = name;
   report.fields["scene"] = scene_value(scene);
   forget(unsettled, report.fields["scene"]);

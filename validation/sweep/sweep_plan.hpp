@@ -30,7 +30,10 @@ struct SweepRequest {
   std::string columns;          ///< empty: no more than rows have anyway
   bool no_errors = false;       ///< as --set run.errors=false
   bool require_digits = false;  ///< as --set run.require_digits=true
-  bool summary = false;         ///< of attitudes: the hardest impact's number, impulse and corners without being asked
+  /// Percentiles and extremes in place of rows: of attitudes the hardest impact's number, impulse and corners without
+  /// being asked, and by the continuous model no more than three digits and no growth of errors unless they are.
+  bool summary = false;
+  std::string rank_by;  ///< column by which attitudes are ranked, with `summary`; empty: by what is hard
 };
 
 /// The options that fill it, but for values, points and flags.

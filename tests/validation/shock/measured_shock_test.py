@@ -1,0 +1,162 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""`clatter shock --measured`: records of loggers and drop towers, against closed forms and a digital filter."""
+
+import json
+import math
+import re
+import unittest
+
+import numpy as np
+from run_folder import EmptyFolder, records, run
+
+G = 9.80665
+PEAK, LENGTH, RATE = 1500, 5e-4, 1e6  # of a half sine [g, s], and its samples [Hz]
+PROBE = ("--probe", "camera:0.048,0.016,0.0095")
+
+
+def half_sine(rate=RATE, peak=PEAK, length=LENGTH, before=1e-3, after=2e-3):
+    """Times, and accelerations in g."""
+    times = np.arange(round((before + length + after) * rate)) / rate
+    inside = (times > before) & (times < before + length)
+    return times, np.where(inside, peak * np.sin(np.pi * (times - before) / length), 0)
+
+
+TIMES, PULSE = half_sine()
+
+
+def rows(*columns, form="{:.9g}", separator=","):
+    return "".join(separator.join(form.format(x) for x in row) + "\n" for row in zip(*columns))
+
+
+# Files of one and the same pulse: text, and options that say what it leaves open.
+FILES = {
+    "a header with units": ("time (s),az (g)\n" + rows(TIMES, PULSE), ()),
+    "a line of units, semicolons, decimal commas, a mark": (
+        "\ufeffInstrument;X1\nRange;2000\n\nTime;Ch1\n[ms];[g]\n" + rows(1e3 * TIMES, PULSE, separator=";").replace(".", ","), ()),
+    "a rate above a single column": ("Sample rate: 1 MHz\nacc_g\n" + rows(PULSE), ()),
+    "an interval above a single column": ("# Sample interval = 1 us\nacc [g]\n" + rows(PULSE), ()),
+    "numbers alone": (rows(PULSE), ("--rate", "1e6", "--unit", "g")),
+    "tabs, CR LF and m/s²": ("t\ta\ns\tm/s^2\n".replace("\n", "\r\n") + rows(TIMES, G * PULSE, separator="\t").replace("\n", "\r\n"), ()),
+    "blanks and comments": ("% a tower\nt a\n" + rows(TIMES, PULSE, separator="   ").replace("\n", " \n# a word\n", 3), ("--unit", "g")),
+    "quoted names, a counter and a size beside": (
+        '"n","Time (us)","Acceleration z (mg)","Total (mg)"\n' + rows(np.arange(len(TIMES)), 1e6 * TIMES, 1e3 * PULSE, 1e3 * abs(PULSE)), ()),
+    "texts in other columns": ("t,mark,a\n" + rows(TIMES, PULSE).replace(",", ",,").replace("\n", "\n", 1).replace(",,", ",x,", 5), ("--unit", "g")),
+}
+
+BAD = {
+    "no unit": ("t,a\n" + rows(TIMES, PULSE), (), "column a: its unit is not stated: --unit g or --unit m/s2"),
+    "no time": ("a (g)\n" + rows(PULSE), (), "no column of time among a: --rate HZ"),
+    "time that falls": ("t,a (g)\n0,1\n1,2\n2,3\n1.5,4\n" + "3,4\n" * 9, (), ":5:1: column t = 1.5: must be later"),
+    "four axes": ("t,a (g),b (g),c (g),d (g)\n" + "".join(f"{i},1,2,3,4\n" for i in range(9)), (), "--column must name one to three of t, a"),
+    "no such column": ("t,a (g)\n" + rows(TIMES, PULSE), ("--column", "b"), "--column b: must be of t, a"),
+    "a short row": ("t,a (g)\n0,1\n1,2\n2\n" + "3,4\n" * 9, (), ":4:1: 1 fields: must be 2"),
+    "a word among numbers": ("t,a (g)\n0,1\n1,2\n2,x\n" + "".join(f"{i},4\n" for i in range(3, 12)), (), ":4:1: column a = x: must be a finite number"),
+    "five rows": ("t,a (g)\n" + "".join(f"{i},4\n" for i in range(5)), (), "5 rows: at least 8"),
+    "no numbers": ("a tale\n", (), "no rows of numbers"),
+    "an empty file": ("", (), "no rows of numbers"),
+    "gravity alone": ("t,a (g)\n" + "".join(f"{i},1\n" for i in range(50)), (), "no blow"),
+    "a third axis of one": ("t,a (g)\n" + rows(TIMES, PULSE), ("--axis", "z"), "the record has 1 axes"),
+    "a scene without a probe": ("t,a (g)\n" + rows(TIMES, PULSE), ("--against", "phone-damped"), "0 probes"),
+}
+
+
+def filtered(samples, rate, frequency, quality):
+    """Largest |absolute acceleration| of an oscillator by the ramp-invariant filter of ISO 18431-4 (Smallwood, 1981)."""
+    w, z, t = 2 * math.pi * frequency, 1 / (2 * quality), 1 / rate
+    wd = w * math.sqrt(1 - z * z)
+    e, k = math.exp(-z * w * t), wd * t
+    s = e * math.sin(k) / k
+    b = (1 - s, 2 * (s - e * math.cos(k)), e * e - s)
+    y1 = y2 = x1 = x2 = largest = 0.0
+    for x in np.concatenate([samples, np.zeros(round(rate / frequency))]):
+        y = b[0] * x + b[1] * x1 + b[2] * x2 + 2 * e * math.cos(k) * y1 - e * e * y2
+        x1, x2, y1, y2 = x, x1, y, y1
+        largest = max(largest, abs(y))
+    return largest
+
+
+class Measured(EmptyFolder):
+    def measure(self, text, *options):
+        self.write("a.csv", text)
+        result = run("shock", "--measured", "a.csv", *options, "--format", "json", cwd=self.folder)
+        self.assertEqual((result.returncode, result.stderr), (0, ""))
+        return json.loads(result.stdout)
+
+    def test_every_kind_of_file_gives_the_closed_form_of_a_half_sine(self):
+        width = LENGTH * (1 - 2 / math.pi * math.asin(0.1))
+        for kind, (text, options) in FILES.items():
+            with self.subTest(file=kind):
+                (blow,) = self.measure(text, *options, "--frequencies", "100:1000:2")["impacts"]
+                for name, right in (("delta_v", 2 * PEAK * G * LENGTH / math.pi), ("peak_g", PEAK), ("width", width),
+                                    ("pulse_duration", LENGTH)):
+                    self.assertLess(abs(blow[name] / right - 1), 1e-5, name)
+                for name in ("delta_v", "peak_g", "width"):
+                    self.assertLess(blow["error_estimate"][name], 1e-3 * blow[name], name)
+                self.assertEqual(blow["condition"], "A" if blow["delta_v"] < 3 else "B" if blow["peak_g"] <= PEAK else "G")
+
+    def test_what_a_file_leaves_open_is_asked_for_in_one_line(self):
+        for case, (text, options, words) in BAD.items():
+            with self.subTest(case=case):
+                self.write("a.csv", text)
+                result = run("shock", "--measured", "a.csv", *options, cwd=self.folder)
+                self.assertEqual((result.returncode, result.stdout, result.stderr.count("\n")), (2, "", 1), result.stderr)
+                self.assertIn(words, result.stderr)
+
+    def test_spectra_are_those_of_the_ramp_invariant_filter(self):
+        for rate, times, samples in ((1e5, *half_sine(1e5)), (1e3, np.arange(400) / 1e3, np.concatenate(
+                [np.zeros(100), 30 * np.sin(np.arange(100) / 9) * np.exp(-np.arange(100) / 30), np.zeros(200)]))):
+            points = self.measure("t (s),a (g)\n" + rows(times, samples), "--frequencies", f"{rate / 500}:{rate / 20}:5")["spectra"][-1]["points"]
+            for point in points:
+                right = filtered(G * samples, rate, point["frequency"], 10)
+                self.assertLess(abs(point["acceleration"]["maximax"] / right - 1), 0.02 if point["frequency"] > rate / 50 else 1e-3, point)
+
+    def test_a_simulated_record_of_a_flat_drop_reads_as_the_simulation_says(self):
+        drop = ("--body", "box", "--size", "0.1x0.05x0.02", "--mass", "0.1", "--angle", "0", "--speed", "2", "--stiffness", "1e8",
+                "--damping", "1e7", "--impacts", "1", "--probe", "middle:0,0,0")
+        history = run("shock", *drop, "--rate", "1e6", "--format", "csv", "--bare", cwd=self.folder).stdout.splitlines(True)
+        columns = history[0].rstrip().split(",")
+        cells = [line.split(",") for line in history[1:]]
+        column, mark = columns.index("middle_z"), columns.index("mark")  # a row with a mark is between those of the rate
+        readings = [0.0] * 200 + [float(row[column]) for row in cells if not row[mark]] + [0.0] * 200
+        self.write("a.csv", "".join(f"{reading}\n" for reading in readings))
+        result = run("shock", "--measured", "a.csv", "--rate", "1e6", "--unit", "m/s2", *drop, "--format", "csv", cwd=self.folder)
+        (row,) = records(result.stdout)
+        for name in ("delta_v", "peak_g", "width"):
+            self.assertLess(abs(float(row[name]) / float(row[f"simulated_{name}"]) - 1), 1e-3, row)
+
+    def test_blows_of_three_axes_are_told_apart(self):
+        times = np.arange(5000) / 1e4
+        peaks = ((0.1, (100, 0, 0)), (0.2, (0, 30, 40)), (0.205, (0, 0, 20)))
+        values = sum(np.outer(np.where(abs(times - at) < 1e-3, np.cos((times - at) * math.pi / 2e-3), 0), peak) for at, peak in peaks)
+        blows = self.measure("t,x (g),y (g),z (g)\n" + rows(times, *values.T))["impacts"]
+        self.assertEqual([round(blow["peak_g"], 3) for blow in blows], [100, 50, 20])
+        for blow, (at, peak) in zip(blows, peaks):
+            self.assertLess(abs(blow["time"] + blow["peak_time"] - at), 1e-4)
+            parts = np.array([blow[f"delta_v_{axis}"] for axis in "xyz"])
+            self.assertLess(np.abs(parts - 4e-3 / math.pi * G * np.array(peak)).max(), blow["error_estimate"]["delta_v"])
+
+    def test_clipping_drift_gaps_and_a_slow_clock_are_named(self):
+        times, pulse = half_sine(1e4, 200, 5e-3, 0.05, 0.1)
+        for words, values, unknown in (
+                ("clipped: blow 1 has", np.minimum(pulse, 150), ("peak_g", "delta_v")),
+                ("the zero drifts or is off", pulse + 0.3 * (times > 0.055), ()),
+                ("too slow a clock for blow 1", np.where(abs(times - times[np.argmax(pulse)]) < 1.5e-4, pulse, 0), ("peak_g", "width"))):
+            with self.subTest(words=words):
+                found = self.measure("t,a (g)\n" + rows(times, values))
+                self.assertTrue(any(words in finding for finding in found["record"]["findings"]), found["record"]["findings"])
+                for name in unknown:
+                    self.assertIsNone(found["impacts"][0]["error_estimate"][name])
+        keep = (times < 0.02) | (times > 0.03)
+        self.assertIn("gaps: 1 ", " ".join(self.measure("t,a (g)\n" + rows(times[keep], pulse[keep]))["record"]["findings"]))
+
+    def test_a_table_fits_a_terminal(self):
+        self.write("a.csv", FILES["a header with units"][0])
+        for kind in ("impact", "spectrum", "pulse"):
+            text = run("shock", "--measured", "a.csv", "--rows", kind, "--part", "200:100", cwd=self.folder).stdout
+            self.assertLessEqual(max(map(len, text.splitlines())), 80)
+            self.assertTrue(re.search("1500|impact 1", text))
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,44 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""`clatter sweep --summary`: by what attitudes are ranked, and how much a summary asks of the simulator."""
+
+import json
+import unittest
+
+from run_folder import run
+
+SWEEP = ("sweep", "phone-damped", "--set", "drop.attitude=26", "--random", "26", "--scatter", "3", "--set", "run.impacts=1", "--summary")
+PROBE = ("--probe", "camera:0.048,0.016,0.0095")
+
+
+def summary(*options):
+    return json.loads(run(*SWEEP, *options, "--format", "json").stdout)
+
+
+class Ranking(unittest.TestCase):
+    def test_attitudes_stand_in_the_order_of_the_column_asked_for(self):
+        for options, column in (((*PROBE, "--rank-by", "width_camera"), "width_camera"), (PROBE, "peak_g_camera"),
+                                (("--rank-by", "largest_indentation"), "largest_indentation"), ((), "largest_peak_force")):
+            largest = [attitude[column]["largest"] for attitude in summary("--no-errors", *options)["attitudes"]]
+            self.assertEqual(len(largest), 26)
+            self.assertEqual(largest, sorted(largest, reverse=True), column)
+
+    def test_a_column_that_is_none_is_refused_in_one_line(self):
+        for options, words in (((*SWEEP, "--rank-by", "widht"), "must be a column of numbers"),
+                               ((*SWEEP, "--rank-by", "outcome"), "must be a column of numbers"),
+                               ((*SWEEP[:-1], "--rank-by", "impacts"), "ranks the attitudes of --summary"),
+                               (("sweep", "rod-10", "--set", "drop.angle_deg=1:5:1", "--summary", "--rank-by", "impacts"), "ranks the attitudes")):
+            result = run(*options)
+            self.assertEqual((result.returncode, result.stderr.count("\n")), (2, 1))
+            self.assertIn(words, result.stderr)
+
+    def test_a_summary_asks_for_three_digits_unless_it_is_told(self):
+        few, words = ["set: run.digits = 3", "set: run.amplification = false"], summary()["sweep"]
+        self.assertLessEqual(set(few), set(words))
+        told = summary("--set", "run.digits=5", "--set", "run.amplification=true")["sweep"]
+        self.assertFalse(set(few) & set(told))
+        self.assertFalse(set(few) & set(summary("--model", "discrete")["sweep"]))
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,495 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "validation/shock/measured_shock.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include "validation/output/bad_input.hpp"
+#include "validation/output/number.hpp"
+#include "validation/shock/shock_pulses.hpp"
+
+namespace clatter::validation {
+namespace {
+
+constexpr double part_of_peak = 0.1;
+constexpr double least_level = 1.5 * standard_gravity;  ///< what is below may be gravity, at rest
+constexpr double least_samples = 5;                     ///< in the width of a blow whose peak is known
+constexpr double least_rest = 5;                        ///< widths of the first blow over which the zero is the mean
+constexpr int shown_digits = 4;                         ///< more no logger has
+
+/// Samples begin to end − 1.
+struct Stretch {
+  std::size_t begin, end;
+};
+
+class BlowFinder {
+ public:
+  explicit BlowFinder(const AccelerationRecord& record) : record_(record) {
+    for (const Vector3& value : record.values) sizes_.push_back(value.norm());
+    largest_ = *std::max_element(sizes_.begin(), sizes_.end());
+    if (!(largest_ > 2 * least_level)) {
+      throw BadInput(fmt::format(
+          "{}: no blow: the largest reading is {} g, and what is below {} g is not told from gravity", record.path,
+          significant(largest_ / standard_gravity, 3), significant(2 * least_level / standard_gravity, 3)));
+    }
+  }
+
+  [[nodiscard]] std::vector<MeasuredBlow> find() const {
+    std::vector<Stretch> stretches;
+    const double level = std::max(part_of_peak * largest_, least_level);
+    for (std::size_t i = 0; i < sizes_.size(); ++i) {
+      if (!(sizes_[i] > level)) continue;
+      Stretch next{i, i + 1};
+      while (next.end < sizes_.size() && sizes_[next.end] > level) ++next.end;
+      if (!stretches.empty() && is_one(stretches.back(), next)) stretches.back().end = next.end;
+      else stretches.push_back(next);
+      i = next.end;
+    }
+    std::vector<MeasuredBlow> blows;
+    for (const Stretch& stretch : stretches) blows.push_back(blow_of(stretch));
+    return blows;
+  }
+
+ private:
+  [[nodiscard]] double time(std::size_t i) const { return record_.times[i]; }
+
+  [[nodiscard]] bool is_one(const Stretch& one, const Stretch& next) const {
+    const double gap = time(next.begin) - time(one.end - 1);
+    const double longer = std::max(time(one.end - 1) - time(one.begin), time(next.end - 1) - time(next.begin));
+    return gap < longer / 2;
+  }
+
+  /// Where the size passes a level between two neighbouring samples.
+  [[nodiscard]] double crossing(std::size_t below, std::size_t above, double level) const {
+    return time(below) + (time(above) - time(below)) * (level - sizes_[below]) / (sizes_[above] - sizes_[below]);
+  }
+
+  /// Outward from a sample, by steps of ±1, while the size falls, for at most as long as the blow.
+  [[nodiscard]] std::size_t falling(std::size_t from, int step, double longest) const {
+    std::size_t i = from;
+    while ((step < 0 ? i > 0 : i + 1 < sizes_.size()) && sizes_[i + static_cast<std::size_t>(step)] < sizes_[i] &&
+           std::fabs(time(i) - time(from)) <= longest)
+      i += static_cast<std::size_t>(step);
+    return i;
+  }
+
+  /// The last sample outward, by steps of ±1, that is above the level; where the next blow begins before the reading is
+  /// down there, the least one between the two.
+  [[nodiscard]] std::size_t above(std::size_t from, int step, double level) const {
+    std::size_t i = from, least = from;
+    while (step < 0 ? i > 0 : i + 1 < sizes_.size()) {
+      i += static_cast<std::size_t>(step);
+      if (!(sizes_[i] > level)) return i - static_cast<std::size_t>(step);
+      if (sizes_[i] < sizes_[least]) least = i;
+      if (sizes_[i] > sizes_[least] + level) return least;
+    }
+    return i;
+  }
+
+  [[nodiscard]] MeasuredBlow blow_of(const Stretch& at) const {
+    const auto peak = static_cast<std::size_t>(std::max_element(sizes_.begin() + static_cast<std::ptrdiff_t>(at.begin),
+                                                                sizes_.begin() + static_cast<std::ptrdiff_t>(at.end)) -
+                                               sizes_.begin());
+    const double level = std::max(part_of_peak * sizes_[peak], least_level);
+    const std::size_t begin = above(at.begin, -1, level), end = above(at.end - 1, 1, level);
+    const bool is_low_before = begin > 0 && sizes_[begin - 1] <= level;
+    const bool is_low_after = end + 1 < sizes_.size() && sizes_[end + 1] <= level;
+    MeasuredBlow blow;
+    blow.time = is_low_before ? crossing(begin - 1, begin, level) : time(begin);
+    const double after = is_low_after ? crossing(end + 1, end, level) : time(end);
+    blow.width = after - blow.time;
+    blow.peak_time = time(peak) - blow.time;
+    blow.first = falling(begin, -1, blow.width);
+    blow.last = falling(end, 1, blow.width);
+    blow.peak = record_.values[peak];
+    blow.peak_size = {sizes_[peak], 0};
+    if (!is_low_before || !is_low_after) blow.width_error = unknown_error;
+    return blow;
+  }
+
+  const AccelerationRecord& record_;
+  std::vector<double> sizes_;
+  double largest_ = 0;
+};
+
+Vector3 mean_of(const std::vector<Vector3>& values, std::size_t begin, std::size_t end) {
+  Vector3 sum = Vector3::Zero();
+  for (std::size_t i = begin; i < end; ++i) sum += values[i];
+  return end > begin ? Vector3(sum / static_cast<double>(end - begin)) : sum;
+}
+
+class Measurement {
+ public:
+  Measurement(AccelerationRecord record, const ShockRequest& request) : request_(request) {
+    shock_.record = std::move(record);
+    shock_.blows = BlowFinder(shock_.record).find();
+  }
+
+  MeasuredShock take() {
+    note_rest();
+    for (MeasuredBlow& blow : shock_.blows) integrate(blow);
+    note_clipping();
+    note_narrow();
+    note_gaps();
+    add_spectra();
+    return std::move(shock_);
+  }
+
+ private:
+  [[nodiscard]] const std::vector<Vector3>& values() const { return shock_.record.values; }
+  [[nodiscard]] const std::vector<double>& times() const { return shock_.record.times; }
+
+  [[nodiscard]] Vector3 bend(std::size_t i) const {
+    if (i == 0 || i + 1 >= values().size()) return Vector3::Zero();
+    return values()[i + 1] - 2 * values()[i] + values()[i - 1];
+  }
+
+  void note_rest() {
+    const std::size_t first = shock_.blows.front().first, last = shock_.blows.back().last;
+    // Near the blows: before a fall, or long after it, a logger may have been carried about.
+    const double near = least_rest * std::max(shock_.blows.front().width, shock_.record.step());
+    std::size_t begin = first, end = last + 1;
+    while (begin > 0 && times()[first] - times()[begin - 1] <= near) --begin;
+    while (end < values().size() && times()[end] - times()[last] <= near) ++end;
+    shock_.before = mean_of(values(), begin, first);
+    shock_.after = mean_of(values(), last + 1, end);
+    double sum = 0;
+    std::size_t count = 0;
+    for (std::size_t i = 1; i < values().size(); ++i) {
+      const bool is_quiet = std::none_of(shock_.blows.begin(), shock_.blows.end(), [&](const MeasuredBlow& blow) {
+        return i > blow.first && i <= blow.last + 1;
+      });
+      if (!is_quiet) continue;
+      sum += (values()[i] - values()[i - 1]).squaredNorm() / 2;
+      ++count;
+    }
+    shock_.noise = count > 0 ? std::sqrt(sum / static_cast<double>(count)) : 0;
+    const double before = shock_.before.norm(), after = shock_.after.norm();
+    const std::size_t quiet_after = values().size() - last - 1;
+    if (first > 2 && quiet_after > 2) {
+      shock_.findings.push_back(
+          fmt::format("zero: reads {} g before the first blow and {} g after the last, noise {} g", in_g(before),
+                      in_g(after), in_g(shock_.noise)));
+      // Free fall reads nothing and rest 1 g: what is neither has an offset, which is integrated with the blow.
+      const auto offset = [](double size) { return std::min(size, std::fabs(size - standard_gravity)); };
+      const double least = std::max(0.05 * standard_gravity, 3 * shock_.noise);
+      if (offset(before) > least || offset(after) > least) {
+        shock_.findings.push_back(
+            fmt::format("the zero drifts or is off: free fall reads 0 g, rest 1 g; a velocity by integration drifts by "
+                        "{} m/s in a second",
+                        significant(std::max(offset(before), offset(after)), 2)));
+      }
+    }
+  }
+
+  [[nodiscard]] static std::string in_g(double acceleration) { return significant(acceleration / standard_gravity, 2); }
+
+  void integrate(MeasuredBlow& blow) const {
+    double sag = 0;
+    for (std::size_t i = blow.first; i < blow.last; ++i) {
+      const double step = times()[i + 1] - times()[i];
+      blow.delta_v += step / 2 * (values()[i] + values()[i + 1]);
+      sag += step / 12 * std::max(bend(i).norm(), bend(i + 1).norm());
+    }
+    const double duration = times()[blow.last] - times()[blow.first],
+                 count = static_cast<double>(blow.last - blow.first);
+    const double random = count > 0 ? shock_.noise * duration / std::sqrt(count) : 0;
+    const double zero = std::min(shock_.before.norm(), std::fabs(shock_.before.norm() - standard_gravity));
+    blow.delta_v_size = {blow.delta_v.norm(), sag + random + zero * duration};
+    std::size_t peak = blow.first;
+    while (times()[peak] < blow.time + blow.peak_time) ++peak;
+    double most = 0;
+    for (std::size_t i = peak > 0 ? peak - 1 : 0; i <= peak + 1; ++i) most = std::max(most, bend(i).norm());
+    blow.peak_size.error = most / 8 + shock_.noise;
+    blow.width_error += crossing_error(blow.time) + crossing_error(blow.time + blow.width);
+  }
+
+  /// By how much the instant may be off at which a straight line between two samples passes a level [s].
+  [[nodiscard]] double crossing_error(double time) const {
+    const auto after = std::lower_bound(times().begin(), times().end(), time);
+    const auto i = static_cast<std::size_t>(std::max<std::ptrdiff_t>(after - times().begin(), 1));
+    if (i >= times().size()) return unknown_error;
+    const double step = times()[i] - times()[i - 1], rise = std::fabs(values()[i].norm() - values()[i - 1].norm());
+    const double off = std::max(bend(i).norm(), bend(i - 1).norm()) / 8 + shock_.noise;
+    return off < rise ? step * off / rise : step;
+  }
+
+  /// Three equal readings in a row, the largest or least of their axis, are an end of the logger's range.
+  void note_clipping() {
+    for (int axis = 0; axis < static_cast<int>(shock_.record.axes.size()); ++axis) {
+      double low = 0, high = 0;
+      for (const Vector3& value : values()) {
+        low = std::min(low, value[axis]);
+        high = std::max(high, value[axis]);
+      }
+      for (std::size_t b = 0; b < shock_.blows.size(); ++b) {
+        MeasuredBlow& blow = shock_.blows[b];
+        std::size_t run = 0, longest = 0;
+        double at = 0;
+        for (std::size_t i = blow.first; i <= blow.last; ++i) {
+          const double value = values()[i][axis];
+          const bool is_end = (value == high || value == low) && std::fabs(value) > blow.peak_size.value / 2;
+          run = is_end ? run + 1 : 0;
+          if (run > longest) {
+            longest = run;
+            at = value;
+          }
+        }
+        if (longest < 3) continue;
+        blow.peak_size.error = blow.delta_v_size.error = unknown_error;
+        shock_.findings.push_back(fmt::format(
+            "clipped: blow {} has {} readings in a row of {} g in {}, the end of the logger's range: peak and "
+            "ΔV are larger than shown",
+            b + 1, longest, significant(at / standard_gravity, 4), shock_.record.axes[static_cast<std::size_t>(axis)]));
+      }
+    }
+  }
+
+  void note_narrow() {
+    const double step = shock_.record.step();
+    std::string narrow;
+    for (std::size_t b = 0; b < shock_.blows.size(); ++b) {
+      MeasuredBlow& blow = shock_.blows[b];
+      if (blow.width >= least_samples * step) continue;
+      blow.peak_size.error = blow.width_error = unknown_error;
+      narrow += fmt::format("{}{}", narrow.empty() ? "" : ", ", b + 1);
+    }
+    if (!narrow.empty())
+      shock_.findings.push_back(fmt::format(
+          "too slow a clock for blow {}: narrower than five samples, so that peak and width are not known", narrow));
+  }
+
+  void note_gaps() {
+    const double step = shock_.record.step();
+    std::size_t gaps = 0;
+    double longest = 0;
+    for (std::size_t i = 1; i < times().size(); ++i) {
+      const double here = times()[i] - times()[i - 1];
+      if (here > 2.5 * step) ++gaps;
+      longest = std::max(longest, here);
+    }
+    if (gaps > 0)
+      shock_.findings.push_back(fmt::format("gaps: {} between samples, the longest {} s; straight lines bridge them",
+                                            gaps, significant(longest, 3)));
+  }
+
+  void add_spectra() {
+    int axis = 0;
+    Vector3 largest = Vector3::Zero();
+    for (const MeasuredBlow& blow : shock_.blows) largest = largest.cwiseMax(blow.delta_v.cwiseAbs());
+    largest.maxCoeff(&axis);
+    if (request_.axis) axis = *request_.axis;
+    if (axis >= static_cast<int>(shock_.record.axes.size()))
+      throw BadInput(fmt::format("--axis {}: the record has {} axes", "xyz"[axis], shock_.record.axes.size()));
+    const int all = static_cast<int>(shock_.blows.size());
+    std::vector<int> parts{1};
+    for (const int more : {std::min(request_.first, all), all}) {
+      if (more > parts.back()) parts.push_back(more);
+    }
+    for (const int impacts : parts) {
+      Spectrum spectrum{.axis = axis,
+                        .blows = impacts == 1     ? Blows::impact_1
+                                 : impacts == all ? Blows::all
+                                                  : Blows::first,
+                        .impacts = impacts,
+                        .points = {}};
+      std::vector<BaseSample> samples;
+      const std::size_t end = impacts == all ? times().size() : shock_.blows[static_cast<std::size_t>(impacts)].first;
+      for (std::size_t i = 0; i < end; ++i) samples.push_back({times()[i], values()[i][axis]});
+      bool is_known = true;
+      for (int b = 0; b < impacts; ++b)
+        is_known = is_known && shock_.blows[static_cast<std::size_t>(b)].peak_size.is_known();
+      for (const double frequency : frequencies(request_.low, request_.high, request_.count)) {
+        ResponsePoint point = response(samples, frequency, request_.quality);
+        if (!is_known) point.acceleration_error = point.pseudo_velocity_error = unknown_error;
+        spectrum.points.push_back(point);
+      }
+      shock_.spectra.push_back(std::move(spectrum));
+    }
+  }
+
+  const ShockRequest& request_;
+  MeasuredShock shock_;
+};
+
+/// The file's name without folder and extension: what stands where a probe's name would.
+std::string record_name(const MeasuredShock& shock) { return std::filesystem::path(shock.record.path).stem().string(); }
+
+/// Beside blow n, impact n of the simulated probe.
+const ShockRow* beside(const ShockRun* simulated, std::size_t blow) {
+  if (!simulated) return nullptr;
+  const std::vector<ShockRow>& rows = simulated->rows();
+  return blow < rows.size() ? &rows[blow] : nullptr;
+}
+
+std::vector<Pulse> pulses_of(const MeasuredShock& shock) {
+  std::vector<Pulse> pulses;
+  for (const MeasuredBlow& blow : shock.blows) {
+    pulses.push_back(
+        {record_name(shock), static_cast<int>(pulses.size()) + 1, blow.delta_v_size, blow.peak_size, std::nan("")});
+  }
+  return pulses;
+}
+
+Grid blows_of(const MeasuredShock& shock, const ShockRun* simulated) {
+  Grid grid{measured_shock_columns(), {}, 1};
+  for (Column& column : grid.columns) {
+    if (!simulated && column.name.starts_with("simulated")) column.shown = false;
+  }
+  for (std::size_t i = 0; i < shock.blows.size(); ++i) {
+    const MeasuredBlow& blow = shock.blows[i];
+    const Estimated peak_g = blow.peak_size * (1 / standard_gravity), width{blow.width, blow.width_error};
+    const TestPulse pulse = equivalent_pulse(blow.delta_v_size.value, blow.peak_size.value);
+    Row row{Cell(i + 1), Cell(blow.time - shock.blows.front().time, 6), Cell(blow.time, 6)}, errors;
+    const auto add = [&](const Estimated& number) {
+      row.push_back(known_cell(number, {shown_digits, 0}));
+      errors.emplace_back(error_or_nothing(number));
+    };
+    add(blow.delta_v_size);
+    for (int axis = 0; axis < 3; ++axis) row.emplace_back(blow.delta_v[axis], shown_digits);
+    add(blow.peak_size);
+    add(peak_g);
+    for (int axis = 0; axis < 3; ++axis) row.emplace_back(blow.peak[axis], shown_digits);
+    row.emplace_back(blow.peak_time, shown_digits);
+    add(width);
+    row.emplace_back(pulse.duration, blow.peak_size.is_known() ? shown_digits : 0);
+    row.emplace_back(std::string(1, covering_condition(blow.delta_v_size.value, blow.peak_size.value)));
+    const ShockRow* const other = beside(simulated, i);
+    for (const auto get : {+[](const ShockNumbers& n) { return n.delta_v_size; },
+                           +[](const ShockNumbers& n) { return n.peak_size / standard_gravity; },
+                           +[](const ShockNumbers& n) { return n.width; }}) {
+      const bool is_there = other && get(other->value) > 0;
+      row.push_back(is_there ? known_cell({get(other->value), get(other->error)}, {shown_digits, 0}) : Cell());
+    }
+    row.insert(row.end(), errors.begin(), errors.end());
+    grid.rows.push_back(std::move(row));
+  }
+  return grid;
+}
+
+std::vector<NamedSpectrum> named_spectra(const MeasuredShock& shock, const ShockRun* simulated) {
+  std::vector<NamedSpectrum> all;
+  for (const Spectrum& spectrum : shock.spectra)
+    all.push_back(
+        {record_name(shock), "measured", shock.record.axes[static_cast<std::size_t>(spectrum.axis)], &spectrum});
+  if (!simulated) return all;
+  const bool continuous = simulated->continuous.has_value();
+  for (const Blows blows : {Blows::impact_1, Blows::first, Blows::all}) {
+    const Spectrum* const found = simulated->spectrum(0, continuous, blows);
+    if (found)
+      all.push_back(
+          {record_name(shock), continuous ? "continuous" : "discrete", std::string(1, "xyz"[found->axis]), found});
+  }
+  return all;
+}
+
+Value record_value(const MeasuredShock& shock) {
+  const auto list = [](const Vector3& v) { return std::vector<double>{v.x(), v.y(), v.z()}; };
+  return Value::Fields{{"file", shock.record.path},
+                       {"axes", shock.record.axes},
+                       {"samples", shock.record.times.size()},
+                       {"duration", shock.record.times.back()},
+                       {"step", shock.record.step()},
+                       {"remarks", shock.record.remarks},
+                       {"mean_before", list(shock.before)},
+                       {"mean_after", list(shock.after)},
+                       {"noise", shock.noise},
+                       {"findings", shock.findings}};
+}
+
+PicturePanel record_panel(const MeasuredShock& shock) {
+  const std::vector<double>& times = shock.record.times;
+  PicturePanel panel{.columns = {{"time", "s", "after the first blow began"}}};
+  panel.plot.x_label = "time after the first blow began [s]";
+  panel.plot.y_label = "reading [g]";
+  const double begin = shock.blows.front().time, end = shock.blows.back().time + shock.blows.back().width;
+  const double room = std::max(end - begin, 4 * shock.blows.front().width) / 4;
+  for (std::size_t axis = 0; axis < shock.record.axes.size(); ++axis) {
+    panel.columns.push_back({fmt::format("a{}", axis + 1), "g", shock.record.axes[axis]});
+    panel.plot.curves.push_back({.x = "time", .y = panel.columns.back().name, .legend = shock.record.axes[axis]});
+  }
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    if (times[i] < begin - room || times[i] > end + room) continue;
+    std::vector<double>& row = panel.rows.emplace_back(1, times[i] - begin);
+    for (std::size_t axis = 0; axis < shock.record.axes.size(); ++axis)
+      row.push_back(shock.record.values[i][static_cast<int>(axis)] / standard_gravity);
+  }
+  return panel;
+}
+
+}  // namespace
+
+MeasuredShock measure_shock(AccelerationRecord record, const ShockRequest& request) {
+  return Measurement(std::move(record), request).take();
+}
+
+std::vector<Column> measured_shock_columns() {
+  std::vector<Column> columns{
+      {"n", "n", "", "number of the blow, from 1"},
+      {"start", "t", "s", "when the reading first exceeds a tenth of the peak, after that of blow 1"},
+      {"time", "", "s", "the same in the record", false},
+      {"delta_v", "|ΔV|", "m/s", "size of the reading's integral over the blow"},
+      {"delta_v_x", "", "m/s", "its part along the first axis of the record", false},
+      {"delta_v_y", "", "m/s", "its part along the second axis", false},
+      {"delta_v_z", "", "m/s", "its part along the third axis", false},
+      {"peak", "", "m/s²", "largest size of the reading", false},
+      {"peak_g", "peak", "g", "the same in units of 9.80665 m/s²"},
+      {"peak_x", "", "m/s²", "the reading along the first axis when its size is largest", false},
+      {"peak_y", "", "m/s²", "along the second axis", false},
+      {"peak_z", "", "m/s²", "along the third axis", false},
+      {"peak_time", "", "s", "when, after the start", false},
+      {"width", "width", "s", "of the blow at a tenth of its peak"},
+      {"pulse_duration", "T", "s", "of the half sine with this change of velocity and peak: π |ΔV|/(2 peak)"},
+      word_column("condition", "B110", "mildest service condition of JESD22-B110B that covers both; or -"),
+      {"simulated_delta_v", "simulated", "m/s", "|ΔV| of the simulated probe in the impact of this number"},
+      {"simulated_peak_g", "simulated", "g", "its largest specific force"},
+      {"simulated_width", "simulated", "s", "its width at a tenth of the peak"}};
+  for (const std::size_t of : {3U, 7U, 8U, 13U}) columns.push_back(error_column(columns[of]));
+  return columns;
+}
+
+Report measured_shock_report(const MeasuredShock& shock, const ShockRequest& request, const ShockView& view,
+                             const ShockRun* simulated) {
+  Report report = begun_report("shock", "blows in a record of accelerations");
+  const AccelerationRecord& record = shock.record;
+  report.head.push_back(fmt::format("{}: {} samples in {} s; {}", record.path, record.times.size(),
+                                    significant(record.times.back(), 4), fmt::join(record.remarks, "; ")));
+  const std::vector<NamedSpectrum> spectra = named_spectra(shock, simulated);
+  const std::vector<Pulse> pulses = pulses_of(shock);
+  const Grid blows = blows_of(shock, simulated), pulse_rows = pulse_grid(pulses, shown_digits, view.part);
+  report.grid = view.rows == ShockRows::pulses ? pulse_rows : blows;
+  if (view.rows == ShockRows::spectra) {
+    report.grid = spectrum_grid(spectra, shown_digits);
+    report.digest = spectrum_digest({spectra}, shown_digits);
+  }
+  if (view.rows == ShockRows::pulses || view.part) report.notes = pulse_notes(view.part);
+  report.notes.insert(report.notes.end(), shock.findings.begin(), shock.findings.end());
+  report.notes.emplace_back(
+      "ΔV is the integral of the reading along the sensor's axes; gravity and turning while the blow lasts are in it");
+  report.fields["model"] = "measured";
+  report.fields["record"] = record_value(shock);
+  report.fields["impacts"] = row_objects(blows);
+  report.fields["spectra"] = spectrum_values(spectra, request.quality);
+  report.fields["pulses"] = pulse_fields(pulse_rows, view.part);
+  report.fields["simulated"] = simulated ? shock_report(*simulated, view).fields : Value();
+  return report;
+}
+
+Picture measured_shock_picture(const MeasuredShock& shock, const ShockRequest& request, const ShockView& view,
+                               const ShockRun* simulated) {
+  Picture picture{.what = fmt::format("A record and its response spectra, {}", quality_words(request.quality)),
+                  .scene = {shock.record.path},
+                  .panels = {record_panel(shock)}};
+  for (PicturePanel& panel : spectrum_panels(named_spectra(shock, simulated), view.severity))
+    picture.panels.push_back(std::move(panel));
+  if (view.part) {
+    if (auto panel = boundary_panel(pulses_of(shock), *view.part)) picture.panels.push_back(std::move(*panel));
+  }
+  return picture;
+}
+
+}  // namespace clatter::validation

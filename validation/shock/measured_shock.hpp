@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The blows in a record of accelerations, and their response spectra: `clatter shock --measured`.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "validation/output/picture.hpp"
+#include "validation/output/report.hpp"
+#include "validation/shock/acceleration_record.hpp"
+#include "validation/shock/shock_report.hpp"
+#include "validation/shock/shock_run.hpp"
+
+namespace clatter::validation {
+
+/// One blow of a record, along its axes.  Errors are not finite where the samples do not tell.
+struct MeasuredBlow {
+  std::size_t first = 0, last = 0;  ///< samples over which ΔV is the integral
+  double time = 0;                  ///< in the record, when the size first exceeds a tenth of the peak [s]
+  double peak_time = 0;             ///< after that [s]
+  double width = 0;                 ///< until it last exceeds a tenth of the peak [s]
+  Vector3 delta_v = Vector3::Zero();
+  Estimated delta_v_size;  ///< |∫a dt| [m/s]
+  Vector3 peak = Vector3::Zero();
+  Estimated peak_size;  ///< of the largest sample [m/s²]
+  double width_error = 0;
+};
+
+struct MeasuredShock {
+  AccelerationRecord record;
+  std::vector<MeasuredBlow> blows;
+  std::vector<Spectrum> spectra;  ///< from the beginning until the second blow, the one after the first ones, the end
+  Vector3 before = Vector3::Zero();   ///< mean reading just before the first blow [m/s²]
+  Vector3 after = Vector3::Zero();    ///< and just after the last
+  double noise = 0;                   ///< standard deviation of a reading between the blows, by neighbours [m/s²]
+  std::vector<std::string> findings;  ///< clipping, drift, gaps, blows of too few samples
+};
+
+/// A blow is where the size of the acceleration exceeds a tenth of the record's largest, and 1.5 g; parts nearer to one
+/// another than half the longer one's width are one blow.  ΔV is the integral of the reading, by trapezia, out to where
+/// the size no longer falls. Errors: of ΔV those of the trapezia by second differences, noise, the zero before the
+/// first blow and the pull of gravity, over the blow; of the peak a curve's sag between samples, by second differences,
+/// and noise.  A blow that is clipped or narrower than five samples has no known peak.
+/// @throws BadInput if no blow stands out.
+[[nodiscard]] MeasuredShock measure_shock(AccelerationRecord record, const ShockRequest& request);
+
+[[nodiscard]] std::vector<Column> measured_shock_columns();
+/// @param simulated  the drop beside it, of one probe; null: none
+[[nodiscard]] Report measured_shock_report(const MeasuredShock& shock, const ShockRequest& request,
+                                           const ShockView& view, const ShockRun* simulated);
+/// The record, its spectra and the damage boundary.
+[[nodiscard]] Picture measured_shock_picture(const MeasuredShock& shock, const ShockRequest& request,
+                                             const ShockView& view, const ShockRun* simulated);
+
+}  // namespace clatter::validation
