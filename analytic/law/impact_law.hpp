@@ -15,6 +15,13 @@ enum class RestitutionLaw {
   viscoelastic,
 };
 
+/// Whether an impact ends by the work of the normal force, along the path.
+[[nodiscard]] constexpr bool is_energetic(RestitutionLaw law) {
+  return law == RestitutionLaw::stronge || law == RestitutionLaw::viscoelastic;
+}
+/// Whether an impact with friction can leave more energy than it found.
+[[nodiscard]] constexpr bool may_gain_energy(RestitutionLaw law) { return law == RestitutionLaw::newton; }
+
 enum class FrictionKind {
   none,
   impulse_ratio,  ///< P_t = μ_i P_n with μ_i as given: Eq. 8 as it stands, admissible or not

@@ -217,7 +217,7 @@ std::optional<Impact> strike_flat(const PlanarBody& body, const PlanarVelocity& 
   if (!(-before.normal > 0)) return {};
   const double e = restitution_at(law, pressure_centre_speed(-before.normal, before.angular, body.gyration_square));
   auto impact = landed_flat(body, before, first, second, law, e);
-  if (!impact || !law.rubs() || law.law == RestitutionLaw::newton) return impact;
+  if (!impact || !law.rubs() || may_gain_energy(law.law)) return impact;
   const double least = restitution_without_gain(e, energy_of_motion(body, before), [&](double some) {
     const auto landed = landed_flat(body, before, first, second, law, some);
     return landed ? landed->energy_loss : energy_of_motion(body, before);

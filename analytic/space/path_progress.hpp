@@ -80,7 +80,7 @@ class PathProgress {
     return -normal_velocity / (1 - rule_.damping * normal_velocity);
   }
   /// Whether E is needed at all.
-  [[nodiscard]] bool is_energetic() const { return rule_.law >= RestitutionLaw::stronge; }
+  [[nodiscard]] bool is_energetic() const { return analytic::is_energetic(rule_.law); }
   [[nodiscard]] double damping() const { return rule_.damping; }
   /// A strongly damped ground gives its last energy back while u is 1/τ to rounding, which is that of p and of 1.
   [[nodiscard]] bool is_at_limit_speed() const {

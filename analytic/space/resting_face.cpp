@@ -189,7 +189,7 @@ std::optional<Rest> trapped(const Drop& drop, const State& now) {
   if (!face) return {};
   const double above =
       body.mass * (moving / 2 + drop.gravity * (now.position.z() - face->depth)) + w.dot(body.inertia * w) / 2;
-  const double margin = rubs && law.law == RestitutionLaw::newton ? 4 : 1 + 1e-9;
+  const double margin = rubs && may_gain_energy(law.law) ? 4 : 1 + 1e-9;
   if (!(margin * above < body.mass * drop.gravity * (rolling.barrier(*face) - face->depth))) return {};
   return Rest{.corners = face->corners, .latest = infinite};
 }

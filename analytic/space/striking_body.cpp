@@ -127,7 +127,7 @@ std::optional<FaceRebound> StrikingBody::face_rebound(double depth, const Contac
   if (!(state_.velocity.z() < 0)) return {};
   const double e = face_restitution();
   auto rebound = face_rebound_by(e, depth, area);
-  if (!rebound || !law_.law.rubs() || law_.law.law == RestitutionLaw::newton) return rebound;
+  if (!rebound || !law_.law.rubs() || may_gain_energy(law_.law.law)) return rebound;
   const Vector3 own = axes_.transpose() * state_.angular_velocity;
   const double energy = (body_.mass * state_.velocity.squaredNorm() + own.dot(body_.inertia * own)) / 2;
   const double least = restitution_without_gain(e, energy, [&](double some) {
