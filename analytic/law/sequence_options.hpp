@@ -13,7 +13,7 @@ struct SequenceOptions {
   /// of tail and total.
   bool amplification = true;
   /// The end is asked for and no number of rows: bouncing in closed form is summed up at once.  In space: goes on after
-  /// corners have stayed on the ground while the body turns (space/sustained_contact.hpp), and ends where the body has
+  /// corners have stayed on the ground while the body turns (space/sequence/sustained_contact.hpp), and ends where the body has
   /// to settle on one face and no impact can be predicted any more.
   bool until_rest = false;
 

@@ -12,10 +12,10 @@
 #include "analytic/batch/lane_kernels.hpp"
 #include "analytic/plane/contact_angles.hpp"
 #include "analytic/plane/sequence.hpp"
-#include "analytic/space/body.hpp"
-#include "analytic/space/sequence.hpp"
-#include "analytic/space/tilted_outcomes.hpp"
-#include "tests/analytic/space/random_contact.hpp"
+#include "analytic/space/flight/body.hpp"
+#include "analytic/space/sequence/sequence.hpp"
+#include "analytic/space/landing/tilted_outcomes.hpp"
+#include "tests/analytic/space/impulse/random_contact.hpp"
 
 namespace {
 

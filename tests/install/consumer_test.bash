@@ -37,7 +37,7 @@ with_one_folder() {
   [[ $shown == clatter ]] || { printf 'the include path shows %s\n' "$shown" >&2; return 1; }
   shown=$(cd -- "$folder/clatter" && echo *)
   [[ $shown == 'analytic analytic.hpp numeric numeric.hpp' ]] || { printf 'clatter/ holds %s\n' "$shown" >&2; return 1; }
-  [[ ! -e $folder/clatter/analytic/plane/first_root.cpp && ! -e $folder/clatter/analytic/space/level_rim.hpp ]]
+  [[ ! -e $folder/clatter/analytic/plane/first_root.cpp && ! -e $folder/clatter/analytic/space/landing/level_rim.hpp ]]
 }
 
 # A component that is not there ends the configuration with a line that names it.

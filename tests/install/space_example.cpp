@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A phone on its corner: the impact sequence of the discrete model in space, with friction.
-#include <clatter/analytic/space/body.hpp>
-#include <clatter/analytic/space/sequence.hpp>
+#include <clatter/analytic/space/flight/body.hpp>
+#include <clatter/analytic/space/sequence/sequence.hpp>
 #include <cmath>
 #include <cstdio>
 

@@ -2,7 +2,7 @@
 // Reports of `clatter benchmark list`, `show` and `truth`.
 #pragma once
 
-#include "analytic/space/body.hpp"
+#include "analytic/space/flight/body.hpp"
 #include "validation/benchmark/reference.hpp"
 #include "validation/output/report.hpp"
 

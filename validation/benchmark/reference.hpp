@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "analytic/space/free_flight.hpp"
-#include "analytic/space/impact.hpp"
+#include "analytic/space/flight/free_flight.hpp"
+#include "analytic/space/impulse/impact.hpp"
 #include "validation/run/discrete_scene.hpp"
 #include "validation/scene/scene.hpp"
 

@@ -10,7 +10,7 @@
 #include "analytic/near_flat/two_contacts.hpp"
 #include "analytic/plane/contact_angles.hpp"
 #include "analytic/plane/sequence.hpp"
-#include "analytic/space/sequence.hpp"
+#include "analytic/space/sequence/sequence.hpp"
 #include "numeric/contact/contact_load.hpp"
 #include "numeric/mesh/generators.hpp"
 #include "numeric/motion/free_rotation.hpp"

@@ -4,7 +4,7 @@
 #include <numbers>
 
 #include "analytic/base/errors.hpp"
-#include "analytic/space/sequence.hpp"
+#include "analytic/space/sequence/sequence.hpp"
 #include "validation/evidence/extreme_cases.hpp"
 #include "validation/oracles/free_top.hpp"
 #include "validation/scene/names.hpp"

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "analytic/space/body.hpp"
+#include "analytic/space/flight/body.hpp"
 #include "validation/compare/random_scenes.hpp"
 #include "validation/evidence/check.hpp"
 #include "validation/oracles/reference_scene.hpp"

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "analytic/plane/sequence.hpp"
-#include "analytic/space/sequence.hpp"
+#include "analytic/space/sequence/sequence.hpp"
 #include "validation/explain/formula.hpp"
 #include "validation/scene/scene.hpp"
 

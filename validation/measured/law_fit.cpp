@@ -13,7 +13,7 @@
 #include <memory>
 
 #include "analytic/base/errors.hpp"
-#include "analytic/space/impact.hpp"
+#include "analytic/space/impulse/impact.hpp"
 
 namespace clatter::validation {
 namespace {

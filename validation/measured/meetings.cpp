@@ -8,7 +8,7 @@
 #include <limits>
 
 #include "analytic/base/errors.hpp"
-#include "analytic/space/first_contact.hpp"
+#include "analytic/space/flight/first_contact.hpp"
 
 namespace clatter::validation {
 namespace {

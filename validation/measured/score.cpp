@@ -11,8 +11,8 @@
 #include <sstream>
 
 #include "analytic/base/errors.hpp"
-#include "analytic/space/first_contact.hpp"
-#include "analytic/space/sequence.hpp"
+#include "analytic/space/flight/first_contact.hpp"
+#include "analytic/space/sequence/sequence.hpp"
 #include "validation/measured/track.hpp"
 #include "validation/output/bad_input.hpp"
 #include "validation/output/number.hpp"

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "analytic/space/body.hpp"
+#include "analytic/space/flight/body.hpp"
 
 namespace clatter::validation {
 

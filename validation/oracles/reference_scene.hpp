@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "analytic/space/body.hpp"
-#include "analytic/space/sequence.hpp"
+#include "analytic/space/flight/body.hpp"
+#include "analytic/space/sequence/sequence.hpp"
 #include "validation/oracles/reference_table.hpp"
 
 namespace clatter::oracle {

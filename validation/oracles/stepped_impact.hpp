@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // One impact of a corner with Coulomb friction by stepping its equation of motion, in long double or in many digits.
 //
-// Equation (2) of analytic/space/impact.hpp with dp = σ dτ, so that steps in p shrink with slip σ = |v_t|:
+// Equation (2) of analytic/space/impulse/impact.hpp with dp = σ dτ, so that steps in p shrink with slip σ = |v_t|:
 //     dv/dτ = W (σ n − μ v_t),   dp/dτ = σ,   dP_t/dτ = −μ v_t,   dE/dτ = −u σ/(1 − τ_d u),
 // by Taylor series of v, P, E in τ, whose coefficients follow one from another by Cauchy products (σ² = v_t·v_t).
 // Knows nothing of angles, invariant directions and principal axes.
@@ -12,7 +12,7 @@
 #include <limits>
 #include <stdexcept>
 
-#include "analytic/space/impulse_path.hpp"
+#include "analytic/space/impulse/impulse_path.hpp"
 
 namespace clatter::oracle {
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "analytic/plane/sequence.hpp"
-#include "analytic/space/sequence.hpp"
+#include "analytic/space/sequence/sequence.hpp"
 #include "numeric/body.hpp"
 #include "numeric/motion/motion_state.hpp"
 #include "validation/run/motion_numbers.hpp"

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "analytic/plane/sequence.hpp"
-#include "analytic/space/sequence.hpp"
+#include "analytic/space/sequence/sequence.hpp"
 #include "numeric/simulate.hpp"
 #include "validation/output/estimated.hpp"
 

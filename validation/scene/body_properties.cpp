@@ -9,7 +9,7 @@
 #include <optional>
 #include <tuple>
 
-#include "analytic/space/body.hpp"
+#include "analytic/space/flight/body.hpp"
 #include "numeric/files/import.hpp"
 #include "numeric/mesh/generators.hpp"
 #include "validation/output/bad_input.hpp"

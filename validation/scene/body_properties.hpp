@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "analytic/space/body.hpp"
+#include "analytic/space/flight/body.hpp"
 #include "numeric/body/mass_properties.hpp"
 #include "numeric/surface/smooth_shape.hpp"
 #include "validation/output/value.hpp"

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "analytic/plane/sequence.hpp"
-#include "analytic/space/impact.hpp"
+#include "analytic/space/impulse/impact.hpp"
 #include "numeric/drop/impact_record.hpp"
 
 namespace clatter::validation {

@@ -13,9 +13,9 @@
 #include <string>
 #include <vector>
 
-#include "analytic/space/free_flight.hpp"
-#include "analytic/space/impact_rows.hpp"
-#include "analytic/space/tilted_outcomes.hpp"
+#include "analytic/space/flight/free_flight.hpp"
+#include "analytic/space/sequence/impact_rows.hpp"
+#include "analytic/space/landing/tilted_outcomes.hpp"
 #include "validation/output/number.hpp"
 #include "validation/run/discrete_scene.hpp"
 

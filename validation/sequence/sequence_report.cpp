@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "analytic/base/errors.hpp"
-#include "analytic/space/sustained_contact.hpp"
+#include "analytic/space/sequence/sustained_contact.hpp"
 #include "validation/output/number.hpp"
 #include "validation/run/impact_rows.hpp"
 #include "validation/run/run.hpp"

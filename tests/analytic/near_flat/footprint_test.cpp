@@ -9,8 +9,8 @@
 #include <stdexcept>
 
 #include "analytic/near_flat/two_contacts.hpp"
-#include "analytic/space/sequence.hpp"
-#include "tests/analytic/space/flat_landing.hpp"
+#include "analytic/space/sequence/sequence.hpp"
+#include "tests/analytic/space/landing/flat_landing.hpp"
 
 namespace {
 

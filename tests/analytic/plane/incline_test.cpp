@@ -9,8 +9,8 @@
 
 #include "analytic/plane/gradient.hpp"
 #include "analytic/plane/sequence.hpp"
-#include "analytic/space/body.hpp"
-#include "analytic/space/sequence.hpp"
+#include "analytic/space/flight/body.hpp"
+#include "analytic/space/sequence/sequence.hpp"
 
 namespace {
 

@@ -9,7 +9,7 @@
 #include <functional>
 
 #include "analytic/plane/sequence.hpp"
-#include "analytic/space/sequence.hpp"
+#include "analytic/space/sequence/sequence.hpp"
 #include "numeric/simulate.hpp"
 #include "validation/benchmark/reference.hpp"
 #include "validation/run/discrete_scene.hpp"

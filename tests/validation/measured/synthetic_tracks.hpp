@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "analytic/space/free_flight.hpp"
-#include "analytic/space/sequence.hpp"
+#include "analytic/space/flight/free_flight.hpp"
+#include "analytic/space/sequence/sequence.hpp"
 #include "validation/measured/score.hpp"
 #include "validation/sweep/counter_random.hpp"
 

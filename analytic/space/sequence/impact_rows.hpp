@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A drop in space, the rows of its impact sequence, and the units in which that is computed.
+#pragma once
+
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "analytic/plane/impact_rows.hpp"
+#include "analytic/space/flight/first_contact.hpp"
+#include "analytic/space/impulse/impact.hpp"
+#include "analytic/space/landing/simultaneous.hpp"
+
+namespace clatter::analytic::space {
+
+/// The body as it touches the ground for the first time; its lowest vertex or rim is put on z = 0, its centre of mass
+/// on x = y = 0.
+struct Drop {
+  Body body;
+  Quaternion attitude = Quaternion::Identity();  ///< body to world
+  Vector3 velocity = Vector3::Zero();            ///< of the centre of mass, world frame, before the first impact [m/s]
+  Vector3 angular_velocity = Vector3::Zero();    ///< world frame [rad/s]
+  double gravity = 0;                            ///< towards the ground, >= 0 [m/s²]
+  double gravity_along = 0;                      ///< along x, where the ground slopes [m/s²]
+  Law law;
+
+  /// @throws std::domain_error naming the field, its value and what is allowed.
+  void validate() const;
+};
+
+/// Translational, rotational and potential energy, zero at the ground below the first touch's centre of mass [J].
+[[nodiscard]] double mechanical_energy(const Drop& drop, const State& state);
+
+/// Bounds on the errors of an impact's numbers, each in the unit of its number (of a vector: on the length of its
+/// error); infinite in a row that cannot be predicted.
+struct RowErrors {
+  bool predictable = false;  ///< errors have not grown so far that another sequence may follow
+  double start = 0;          ///< [s]
+  double attitude = 0;       ///< angle of the rotation between the attitude and the true one [rad]
+  double approach_speed = 0;
+  double impulse = 0;                 ///< [N·s]
+  double velocity_after = 0;          ///< [m/s]
+  double angular_velocity_after = 0;  ///< [rad/s]
+  double energy_before = 0;           ///< [J]
+  double energy_after = 0;            ///< [J]
+
+  [[nodiscard]] static RowErrors unknown();
+};
+
+/// One impact.
+struct ImpactRow {
+  double start = 0;             ///< time since the first impact [s]
+  std::vector<Corner> corners;  ///< that arrived, then those held; the first is the one that `impact` is of
+  State before;                 ///< height of the centre of mass in position.z
+  /// Impact of the corner, or of several corners or a level rim together: then the contact velocities are those of the
+  /// first corner, path and energy those of the group, p_c and what describes slip are not known (NaN).
+  Impact impact;
+  std::optional<GroupImpact> group;  ///< if several corners arrived, or all of a rim that lies level
+  std::size_t held = 0;              ///< how many of the corners, the last ones, were on the ground already
+  double approach_speed = 0;         ///< of the corner; largest of the group [m/s]
+  double energy_before = 0;          ///< translational + rotational + potential (z = 0 at the ground) [J]
+  double energy_after = 0;
+  /// Relative change of this row's quantities (attitude in radians, time, impulse) per relative change of the drop's
+  /// velocities or change of its attitude: the largest.  NaN if the row cannot be predicted.
+  double amplification = 0;
+  RowErrors error;      ///< all unknown without SequenceOptions::amplification
+  FirstContact flight;  ///< that led here; empty for the first row
+};
+
+[[nodiscard]] State state_after(const ImpactRow& row);
+
+/// The remaining impacts after the last row: infinitely many in a finite time.
+struct Tail {
+  double end_time = 0;        ///< time since the first impact [s]
+  double end_time_error = 0;  ///< with that of the last row; infinite where the end cannot be predicted [s]
+  double normal_impulse = 0;  ///< sum over the remaining impacts [N·s]
+  double normal_impulse_error = 0;
+  Vector2 tangential_impulse = Vector2::Zero();  ///< likewise, world frame [N·s]
+  double tangential_impulse_error = 0;           ///< of vectors: bounds on the length of the error
+  std::vector<int> corners;                      ///< that strike in turn and stay on the ground (Corner::index)
+  bool closed_form = false;
+  double energy_loss = 0;                    ///< [J]
+  Vector3 velocity_after = Vector3::Zero();  ///< of the centre of mass at the end [m/s]
+  double velocity_error = 0;
+  Vector3 angular_velocity_after = Vector3::Zero();  ///< [rad/s]
+  double angular_velocity_error = 0;
+
+  /// Nothing is known of the errors.
+  void forget();
+};
+
+/// Bounds on the errors of a state and its time; infinite where not known.
+struct StateErrors {
+  double time = std::numeric_limits<double>::infinity();              ///< [s]
+  double attitude = std::numeric_limits<double>::infinity();          ///< [rad]
+  double velocity = std::numeric_limits<double>::infinity();          ///< [m/s]
+  double angular_velocity = std::numeric_limits<double>::infinity();  ///< [rad/s]
+
+  /// Errors of the time, and of the others in each direction: attitude, velocity, angular velocity.
+  [[nodiscard]] Eigen::Matrix<double, 10, 1> in_each_direction() const;
+};
+
+/// A body with corners at rest on the ground, but for slip, that turns on them.
+struct Standing {
+  double time = 0;  ///< since the first impact [s]
+  State state;
+  StateErrors error;
+  std::vector<int> corners;  ///< Corner::index
+};
+
+enum class ContactEnd {
+  arrival,   ///< other corners come down: the next impact
+  lift_off,  ///< the ground no longer pushes: a flight begins
+  joining,   ///< another corner has come down without speed, and stays
+  open,      ///< the law leaves open how it goes on, or friction no longer holds a corner that stuck
+};
+
+/// The motion of a body one or two corners of which stay on the ground (sustained_contact.hpp).
+struct SustainedContact {
+  std::size_t rows = 0;      ///< that come before
+  double begin = 0;          ///< time since the first impact [s]
+  double duration = 0;       ///< [s]
+  std::optional<Tail> tail;  ///< hops that end in it, if the sequence goes on after it
+  std::vector<int> corners;  ///< that stay at its beginning (Corner::index)
+  std::vector<int> pivots;   ///< that still do at its end
+  bool slips = false;        ///< with friction, at times
+  bool sticks = false;       ///< at times
+  ContactEnd end = ContactEnd::open;
+  std::string reason;         ///< why the law leaves it open
+  std::vector<int> arriving;  ///< that come down at the end
+  double approach_speed = 0;  ///< of the fastest of these [m/s]
+  State after;                ///< at the end
+  StateErrors error;          ///< of `after`, and of its time
+  double normal_impulse = 0;  ///< of the ground meanwhile [N·s]
+  double normal_impulse_error = std::numeric_limits<double>::infinity();
+  double energy_loss = 0;  ///< by friction, and of what normal velocity and slip hops have left [J]
+};
+
+/// The face on which a body comes to rest, still sliding and turning about the vertical there unless friction stops it.
+struct Rest {
+  std::vector<int> corners;  ///< of the face, in order around it, the last vertex first (Corner::index)
+  /// By when nothing of the body bounces or rocks any more, since the first impact; infinite where not known [s].
+  double latest = 0;
+};
+
+struct Sequence {
+  std::vector<ImpactRow> rows;
+  Outcome outcome = Outcome::no_further_impact;
+  std::string message;                ///< why it ended, one sentence
+  std::vector<std::string> warnings;  ///< such as energy created by Newton's law with friction
+  std::optional<Tail> tail;
+  std::vector<SustainedContact> contacts;  ///< that the sequence went through, with SequenceOptions::until_rest
+  std::optional<Standing> standing;        ///< if sustained_contact: on which corners
+  std::optional<Rest> rest;                ///< if what is left of the motion can end on one face only
+  double energy_at_end =
+      0;               ///< after the last of rows, tail and contacts; energy_before of the first less all losses [J]
+  NearMiss near_miss;  ///< of the last flight, if no_further_impact
+  /// h″ of the corner that stays on the ground, if sustained_contact without a tail [m/s²].
+  double end_acceleration = 0;
+  double total_normal_impulse = 0;  ///< rows and tail [N·s]
+  /// Whether the outcome is certain, and not only that of one of the sequences that the errors leave open.
+  bool end_predictable = false;
+  int evaluations = 0;  ///< of the rotation, over all flights
+};
+
+/// Exact to and fro: every scale is a power of two.
+class SequenceUnits {
+ public:
+  explicit SequenceUnits(const Drop& drop);
+  [[nodiscard]] Drop to_internal(const Drop& drop) const;
+  void to_si(Sequence& sequence) const;
+  [[nodiscard]] double energy(double internal) const;
+
+ private:
+  void to_si(State& state) const;
+  void to_si(Impact& impact) const;
+  void to_si(GroupImpact& group) const;
+  void to_si(FirstContact& flight) const;
+  void to_si(NearMiss& miss) const;
+  void to_si(ImpactRow& row) const;
+  void to_si(Tail& tail) const;
+  void to_si(StateErrors& error) const;
+  void to_si(SustainedContact& contact) const;
+
+  int length_ = 0, speed_ = 0, mass_ = 0;
+};
+
+/// @throws NumericalError for numbers that leave the doubles on the way back to SI units.
+void require_representable(const Sequence& sequence);
+
+}  // namespace clatter::analytic::space
