@@ -45,9 +45,11 @@ struct HalfSpacePressure {
 /// the energy of a half-space of modulus E* is
 ///     U = E*/√π · S₂^(3/2)/S₁ · κ(q),
 /// exact for flat ends that are circles, and for flat ellipses; of a sphere 2 % above Hertz's, of a cone 4.5 % below
-/// Sneddon's (tests/numeric/contact/half_space_test.cpp has more).  One patch: of several that are far apart each is
-/// taken for softer than it is.  The integrals are exact; Σ keeps its digits in patches much longer than wide, to eps
-/// times the aspect, since it is formed along their axes.
+/// Sneddon's (tests/numeric/contact/half_space_test.cpp has more).  Where a wide part begins to touch round a deep
+/// narrow one S₁ grows and U would fall: there, which is never of a convex body, U = 0.78 E* √(S₄/π) κ with S₄ = ∫δ⁴
+/// dA, which does not, is more and counts.  One patch: of several that are far apart each is taken for softer than it
+/// is.  The integrals are exact; Σ keeps its digits in patches much longer than wide, to eps times the aspect, since it
+/// is formed along their axes.
 class Footprint {
  public:
   void begin(const GroundView& view);
@@ -68,11 +70,18 @@ class Footprint {
     double area;
   };
   struct Moments;
+  struct Rest;
+  struct Bend {
+    double xx, xy, yy;
+  };
   [[nodiscard]] Place place_of(const Vector3& origin, const Vector3& place, double depth);
   void turn(double x, double y, double angle);
   template <class Triangle, class Point>
   void visit(Triangle&& triangle, Point&& point) const;
   [[nodiscard]] Moments moments() const;
+  [[nodiscard]] Moments centred();
+  [[nodiscard]] Rest rest_by_shape(const Bend& bend, double constant) const;
+  [[nodiscard]] Rest cubes() const;
 
   const GroundView* view_ = nullptr;
   Vector3 up_ = Vector3::UnitZ(), x_axis_ = Vector3::UnitX(), y_axis_ = Vector3::UnitY();

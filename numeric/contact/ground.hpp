@@ -56,8 +56,15 @@ struct Ground {
 
   /// @throws std::domain_error naming field, value and what is allowed.
   void validate() const;
+  /// As hard, by a factor: k_G and c_G, or E*, are multiplied by it, and what restitution follows from stays.
+  void stiffen(double factor) {
+    stiffness *= factor;
+    damping *= factor;
+    modulus *= factor;
+  }
   /// c_G/k_G, or the half-space's dissipation [s/m]: what restitution at a speed follows from.
   [[nodiscard]] double damping_per_stiffness() const { return modulus > 0 ? dissipation : damping / stiffness; }
+  [[nodiscard]] bool is_damped() const { return modulus > 0 ? dissipation > 0 : damping > 0; }
   [[nodiscard]] bool has_friction() const { return static_friction > 0 || sliding_friction > 0; }
 };
 

@@ -196,6 +196,33 @@ BOOST_AUTO_TEST_CASE(corners_and_edges_are_softer_than_they_are_by_a_third_at_mo
   }
 }
 
+/// Once the plate has gone down by a seventieth of the depth of the foot, the force is no less than nine tenths of the
+/// foot's alone, and what is stored grows.
+BOOST_AUTO_TEST_CASE(a_wide_part_round_a_narrow_one_does_not_take_its_force_away) {
+  const Body body = plate_on_foot();
+  const double foot = 2 * 0.06 / std::sqrt(pi);
+  double stored = 0;
+  for (const double part : {0.0, 0.015, 0.02, 0.05, 0.1, 0.2, 0.3, 0.4, 0.5, 0.7}) {
+    const double depth = 0.01 / (1 - part);
+    const ContactLoad load = load_of(body, half_space(1), pressed(body, Vector3::UnitZ(), depth));
+    BOOST_TEST(load.force >= 0.9 * foot * depth);
+    BOOST_TEST(load.energy > (part > 0 ? 1 : 0.999) * stored);
+    stored = part > 0 ? load.energy : 0;
+  }
+}
+
+/// A circle that turns about its diameter: of (2/3) E* a³ θ² the patch has 3/8 E* a³ θ².
+BOOST_AUTO_TEST_CASE(a_flat_end_turns_more_easily_than_it_does) {
+  const double radius = 0.03, tilt = 1e-6, depth = 1e-5;
+  const Body rod = Body(rod_mesh({.length = 0.2, .radius = radius, .mass = 1, .sectors = 60, .layers = 1}));
+  GroundView view = pressed(rod, Vector3::UnitX(), depth);
+  const double level = load_of(rod, half_space(1), view).energy;
+  view.turn = Vector3(std::cos(tilt), 0, std::sin(tilt)) - Vector3::UnitX();
+  view.sink += 0.1 * (1 - std::cos(tilt));
+  const double turned = load_of(rod, half_space(1), view).energy;
+  BOOST_TEST((turned - level) / (radius * radius * radius * tilt * tilt) == 0.375, boost::test_tools::tolerance(0.02));
+}
+
 /// A strip 1e5 times as long as wide, turned in the ground's plane by anything: κ to its digits.
 BOOST_AUTO_TEST_CASE(long_patches_keep_their_digits) {
   Uniform random(4);
