@@ -5,6 +5,8 @@
 #include <cassert>
 #include <cmath>
 
+#include "numeric/contact/footprint.hpp"
+
 namespace clatter::numeric {
 namespace {
 
@@ -98,7 +100,8 @@ struct ContactLoader::FacetView {
   double weight_rate;
 };
 
-ContactLoader::ContactLoader(const Body& body, const Ground& ground) : body_(body), ground_(ground) {
+ContactLoader::ContactLoader(const Body& body, const Ground& ground, Footprint* footprint)
+    : body_(body), ground_(ground), footprint_(footprint) {
   std::size_t longest = 0;
   for (const Loop& loop : body.facets().loops) {
     longest = std::max(longest, static_cast<std::size_t>(loop.end - loop.begin));
@@ -126,7 +129,11 @@ ContactLoad ContactLoader::load(const GroundView& view, LoadRates* rates, std::v
     add_facet(body_.facets().facets[static_cast<std::size_t>(facet)], sums);
   });
   take_ground(ground_, sums.pressing, sums.load);
-  if (rates) rates->load = sums.pressing;
+  if (rates) {
+    rates->stiffness = ground_.stiffness;
+    rates->damping = ground_.damping;
+    rates->load = sums.pressing;
+  }
   return sums.load;
 }
 
@@ -163,6 +170,7 @@ void ContactLoader::add_loop(const FacetView& facet, const Loop& loop, Sums& sum
 void ContactLoader::add_below(const ContactPolygon& below, const FacetView& facet, Sums& sums) {
   assert(std::none_of(below.corners, below.corners + below.count,
                       [&](const ContactCorner& corner) { return corner.depth < -clip_rounding * sums.load.deepest; }));
+  if (footprint_) footprint_->add(below);
   const double k = ground_.stiffness, c = ground_.damping;
   const auto pressure = [&](const ContactCorner& corner) { return k + c * corner.rate; };
   const auto presses = [&](const ContactCorner& corner) { return pressure(corner) > 0; };

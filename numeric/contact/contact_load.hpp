@@ -13,6 +13,8 @@
 
 namespace clatter::numeric {
 
+class Footprint;
+
 /// How the body lies over the ground and moves, seen from the body frame.  Height above the ground of the body's
 /// point u: (reference.normal·u + reference.offset) + (turn·u + sink); the second part is the small change since
 /// touch-down, kept apart so that depths far below the body's size keep their digits.
@@ -82,11 +84,15 @@ void take_ground(const Ground& ground, const LoadIntegrals& pressing, ContactLoa
 
 /// What the rates of change of F_n and ∫f_n u are made of, over the pressing part and weighted by the area measure.
 struct LoadRates {
+  double stiffness = 0, damping = 0;  ///< k and c that act at the instant
   LoadIntegrals load;
   RateIntegrals rates;
   /// Rates through the change of the areas' vertical components (projected measure), depths held.
   double force_by_area = 0;
   Vector3 first_moment_by_area = Vector3::Zero();
+  /// What a force of the springs brings besides, of force and moment per force: of a half-space.
+  double rest = 0;
+  Vector3 rest_moment = Vector3::Zero();
 };
 
 /// Friction's part of a load, Eq. 6 of Shan et al. (2005) for μ_k = 1.
@@ -125,7 +131,8 @@ struct BodySlip {
 /// slip fields needs no other clipping.
 class ContactLoader final : public ContactSurface {
  public:
-  ContactLoader(const Body& body, const Ground& ground);
+  /// @param footprint  gets all that lies below the ground, if not null.
+  ContactLoader(const Body& body, const Ground& ground, Footprint* footprint = nullptr);
 
   using ContactSurface::load;
   [[nodiscard]] ContactLoad load(const GroundView& view, LoadRates* rates, std::vector<int>* submerged) override;
@@ -166,6 +173,7 @@ class ContactLoader final : public ContactSurface {
 
   const Body& body_;
   const Ground& ground_;
+  Footprint* footprint_;
   std::vector<ContactCorner> whole_, below_, part_;
   std::vector<ContactCorner> side_;   ///< part of a polygon that slips one way
   std::vector<ContactCorner> above_;  ///< an overhang's part

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "numeric/contact/smooth_contact.hpp"
+#include "numeric/contact/half_space.hpp"
 #include "numeric/motion/equations_of_motion.hpp"
 
 namespace clatter::numeric {
@@ -28,22 +28,25 @@ struct ContactSystem::Instant {
     Vector3 first_moment;
   };
   /// Rates of F_n and ∫f_n u for an angular acceleration, by δ̈ = −(V̇_z + h·u).
-  [[nodiscard]] Changes changes(const Ground& ground, const Vector3& acceleration) const {
+  [[nodiscard]] Changes changes(const Vector3& acceleration) const {
     const Vector3& omega = view.angular_velocity;
     const Vector3 h = normal.cross(acceleration) + normal.dot(omega) * omega - omega.squaredNorm() * normal;
-    const double k = ground.stiffness, c = ground.damping;
+    const double k = rates.stiffness, c = rates.damping;
     const LoadIntegrals& l = rates.load;
     const RateIntegrals& r = rates.rates;
-    return {k * r.rate + c * (r.rate_squared - rise * l.depth - h.dot(l.depth_position)) + rates.force_by_area,
-            k * r.rate_position +
-                c * (r.rate_squared_position - rise * l.depth_position - r.depth_position_squared * h) +
-                rates.first_moment_by_area};
+    const Changes by_springs = with_rest(
+        {k * r.rate + c * (r.rate_squared - rise * l.depth - h.dot(l.depth_position)),
+         k * r.rate_position + c * (r.rate_squared_position - rise * l.depth_position - r.depth_position_squared * h)});
+    return {by_springs.force + rates.force_by_area, by_springs.first_moment + rates.first_moment_by_area};
   }
   /// What an angular acceleration adds to them, by the dampers alone.
-  [[nodiscard]] Changes response(const Ground& ground, const Vector3& acceleration) const {
+  [[nodiscard]] Changes response(const Vector3& acceleration) const {
     const Vector3 h = normal.cross(acceleration);
-    return {-ground.damping * h.dot(rates.load.depth_position),
-            -ground.damping * (rates.rates.depth_position_squared * h)};
+    return with_rest(
+        {-rates.damping * h.dot(rates.load.depth_position), -rates.damping * (rates.rates.depth_position_squared * h)});
+  }
+  [[nodiscard]] Changes with_rest(const Changes& by_springs) const {
+    return {by_springs.force * (1 + rates.rest), by_springs.first_moment + rates.rest_moment * by_springs.force};
   }
   /// F_n ċ, ċ being the velocity at which the pressure centre runs over the body: finite where F_n fades.
   [[nodiscard]] Vector3 wander(const Changes& change) const { return change.first_moment - centre * change.force; }
@@ -137,7 +140,7 @@ double AlongGround::norm() const { return std::hypot(east, north); }
 
 ContactSystem::ContactSystem(const Body& body, const Ground& ground, const Gravity& gravity, bool planar)
     : body_(body), ground_(ground), gravity_(gravity), planar_(planar), equations_(body.mass(), body.inertia()),
-      loader_(contact_surface(body, ground)) {}
+      loader_(contact_on(body, ground)) {}
 
 void ContactSystem::begin(const MotionState& touch) {
   assert(std::fabs(touch.attitude.squaredNorm() - 1) <= unit_rounding);
@@ -235,7 +238,7 @@ void ContactSystem::evaluate(const ContactState& y, const FrictionPhase& phase, 
   works(rate) << load.damping_power, load.release_power, friction.power;
   if (!diagnosis) return;
   *diagnosis = {load,
-                at.changes(ground_, alpha).force,
+                at.changes(alpha).force,
                 friction.force,
                 friction.hold,
                 at.centre,
@@ -407,13 +410,13 @@ ContactSystem::Hold ContactSystem::stick(const Instant& at) const {
     return AlongGround{view.east.dot(point) + normal * rest.east, view.north.dot(point) + normal * rest.north};
   };
   const auto turned = [&](const Vector3& alpha, const AlongGround& rest) {
-    const Vector3 wander = at.wander(at.response(ground_, alpha));
+    const Vector3 wander = at.wander(at.response(alpha));
     return along_ground(normal * alpha.cross(at.centre) + omega.cross(wander), rest);
   };
   const auto turning_by = [&](const AlongGround& force) { return response(at.centre.cross(along(view, force))); };
   const auto per_force = [&](const AlongGround& unit) { return turned(turning_by(unit), unit * (1 / body_.mass())); };
   const Vector3 alpha = angular_acceleration(at.moment, omega);
-  const Vector3 wander = at.wander(at.changes(ground_, alpha));
+  const Vector3 wander = at.wander(at.changes(alpha));
   const Vector3 turning = alpha.cross(at.centre) + omega.cross(omega.cross(at.centre));
   const AlongGround free =
       along_ground(normal * turning + omega.cross(wander),

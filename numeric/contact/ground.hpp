@@ -39,10 +39,15 @@ enum class FrictionLaw {
 };
 
 /// The load of Eq. 4 of Shan et al. (2005): f_n = (k_G + c_G δ̇) δ per unit area where the surface lies δ > 0 below z =
-/// 0, clamped at zero: the ground never pulls.
+/// 0, clamped at zero: the ground never pulls.  With `modulus` the ground is an elastic half-space in place of a bed of
+/// springs, and stiffness and damping do not count (HalfSpaceContact).
 struct Ground {
-  double stiffness = 1e9;       ///< k_G [N/m³], > 0
-  double damping = 0;           ///< c_G [N·s/m⁴], >= 0
+  double stiffness = 1e9;  ///< k_G [N/m³], > 0
+  double damping = 0;      ///< c_G [N·s/m⁴], >= 0
+  /// E* of an elastic half-space [Pa], >= 0; 0: none.  1/E* = (1 − ν₁²)/E₁ + (1 − ν₂²)/E₂ of ground and body.  Its area
+  /// is `projected`.
+  double modulus = 0;
+  double dissipation = 0;  ///< τ of Hunt and Crossley's factor 1 + τ δ̇ on the half-space's pressure [s/m], >= 0
   double static_friction = 0;   ///< μ_s, >= sliding_friction
   double sliding_friction = 0;  ///< μ_k, >= 0
   AreaMeasure area = AreaMeasure::surface;
@@ -51,6 +56,15 @@ struct Ground {
 
   /// @throws std::domain_error naming field, value and what is allowed.
   void validate() const;
+  /// As hard, by a factor: k_G and c_G, or E*, are multiplied by it, and what restitution follows from stays.
+  void stiffen(double factor) {
+    stiffness *= factor;
+    damping *= factor;
+    modulus *= factor;
+  }
+  /// c_G/k_G, or the half-space's dissipation [s/m]: what restitution at a speed follows from.
+  [[nodiscard]] double damping_per_stiffness() const { return modulus > 0 ? dissipation : damping / stiffness; }
+  [[nodiscard]] bool is_damped() const { return modulus > 0 ? dissipation > 0 : damping > 0; }
   [[nodiscard]] bool has_friction() const { return static_friction > 0 || sliding_friction > 0; }
 };
 

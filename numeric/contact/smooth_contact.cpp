@@ -9,6 +9,8 @@
 #include <numbers>
 #include <span>
 
+#include "numeric/contact/footprint.hpp"
+
 namespace clatter::numeric {
 namespace {
 
@@ -89,13 +91,13 @@ struct SmoothContact::Sums {
   LoadRates* rates;
 };
 
-std::unique_ptr<ContactSurface> contact_surface(const Body& body, const Ground& ground) {
-  if (body.smooth()) return std::make_unique<SmoothContact>(body, ground);
-  return std::make_unique<ContactLoader>(body, ground);
+std::unique_ptr<ContactSurface> contact_surface(const Body& body, const Ground& ground, Footprint* footprint) {
+  if (body.smooth()) return std::make_unique<SmoothContact>(body, ground, footprint);
+  return std::make_unique<ContactLoader>(body, ground, footprint);
 }
 
-SmoothContact::SmoothContact(const Body& body, const Ground& ground)
-    : body_(body), ground_(ground), shape_(*body.smooth()),
+SmoothContact::SmoothContact(const Body& body, const Ground& ground, Footprint* footprint)
+    : body_(body), ground_(ground), footprint_(footprint), shape_(*body.smooth()),
       slimness_(shape_.semiaxes.minCoeff() / shape_.semiaxes.maxCoeff()) {}
 
 ContactLoad SmoothContact::load(const GroundView& view, LoadRates* rates, std::vector<int>* submerged) {
@@ -124,7 +126,11 @@ ContactLoad SmoothContact::load(const GroundView& view, LoadRates* rates, std::v
   }
   if (shape_.straight > 0 && sums.load.deepest > 0) add_mantle(depths, shared, sums);
   take_ground(ground_, sums.pressing, sums.load);
-  if (rates) rates->load = sums.pressing;
+  if (rates) {
+    rates->stiffness = ground_.stiffness;
+    rates->damping = ground_.damping;
+    rates->load = sums.pressing;
+  }
   return sums.load;
 }
 
@@ -264,6 +270,11 @@ void SmoothContact::add_piece(Piece& piece, Sums& sums) {
     const double height = piece.is_mantle ? 2 : piece.height;
     reach = std::hypot(pressure.slope.x(), pressure.slope.y()) * rho + std::fabs(pressure.slope.x()) * length +
             std::fabs(pressure.slope.z()) * height;
+  }
+  if (footprint_) {
+    over(piece, piece.parts, [&](const Vector3& p, double area) {
+      footprint_->add(piece.origin, piece.axes * p, piece.depth.at(p), area * piece.weight.at(p));
+    });
   }
   LocalSums local;
   const bool all_presses = pressure.value > reach;

@@ -34,7 +34,8 @@ struct DirectionSums {
 class SmoothContact final : public ContactSurface {
  public:
   /// `body` has a smooth shape.
-  SmoothContact(const Body& body, const Ground& ground);
+  /// @param footprint  gets all that lies below the ground, if not null.
+  SmoothContact(const Body& body, const Ground& ground, Footprint* footprint = nullptr);
 
   [[nodiscard]] ContactLoad load(const GroundView& view, LoadRates* rates, std::vector<int>* submerged) override;
   /// About the place where nothing slips, or the two, if near the patch: there the direction of the slip varies around
@@ -80,6 +81,7 @@ class SmoothContact final : public ContactSurface {
 
   const Body& body_;
   const Ground& ground_;
+  Footprint* footprint_;
   SmoothShape shape_;
   double slimness_ = 1;          ///< least over largest semiaxis
   std::array<Piece, 3> pieces_;  ///< that press, of the last load
@@ -87,6 +89,8 @@ class SmoothContact final : public ContactSurface {
 };
 
 /// The surface of a body: smooth where its shape is, else its facets.
-[[nodiscard]] std::unique_ptr<ContactSurface> contact_surface(const Body& body, const Ground& ground);
+/// @param footprint  gets all that lies below the ground, if not null.
+[[nodiscard]] std::unique_ptr<ContactSurface> contact_surface(const Body& body, const Ground& ground,
+                                                              Footprint* footprint = nullptr);
 
 }  // namespace clatter::numeric

@@ -26,12 +26,13 @@ double effective_mass(const Body& body, const MotionState& touch, const Vector3&
 /// `system` has begun with `touch`.  Not finite if there is no such depth.
 ContactScales contact_scales(ContactSystem& system, const MotionState& touch, const Vector3& point) {
   const Body& body = system.body();
-  const Ground& ground = system.ground();
   const double g = system.gravity();
   const double fall = -(touch.velocity + touch.attitude * touch.angular_velocity.cross(point)).z();
   const double speed = std::max(fall, 0.0);
   const double kinetic = 0.5 * effective_mass(body, touch, point) * speed * speed;
-  const double stiffening = 1 + ground.damping * speed / ground.stiffness;
+  const Ground& ground = system.ground();
+  const double stiffening =
+      1 + (ground.modulus > 0 ? ground.dissipation * speed : ground.damping * speed / ground.stiffness);
   const auto takes_it_up = [&](double depth) {
     return stiffening * system.pressed(depth).energy >= kinetic + body.mass() * g * depth;
   };

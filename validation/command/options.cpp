@@ -103,6 +103,12 @@ PreparedScene read_discrete_flags(const SceneFlags& given) {
 
 bool is_given(const SceneFlags& given, const std::string& name) { return !given.texts.at(name).empty(); }
 
+bool names_ground(const SceneFlags& given) {
+  const SceneValues values = scene_values(given.source);
+  return std::ranges::any_of(std::array{"ground.stiffness", "ground.modulus"},
+                             [&](const char* key) { return values.has(key) || is_given(given, key_named(key).flag); });
+}
+
 namespace {
 
 using std::filesystem::path;

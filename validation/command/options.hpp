@@ -62,6 +62,8 @@ void add_scene_flags(Command& command, SceneFlags& flags, Model model = Model::c
 [[nodiscard]] PreparedScene read_discrete_flags(const SceneFlags& flags);
 /// Whether the flag ("--history") was typed.
 [[nodiscard]] bool is_given(const SceneFlags& flags, const std::string& name);
+/// Whether file or flags have a ground: then the scene can be one of the continuous model.
+[[nodiscard]] bool names_ground(const SceneFlags& flags);
 
 // --plot and --plot-script of the commands that draw what they have computed.
 

@@ -140,10 +140,12 @@ std::string cause_words(const Comparison& comparison) {
 std::string limit_words(const Comparison& comparison) {
   const StiffLimit& limit = comparison.limit;
   if (limit.rows.empty()) return "No limit: the impacts do not come apart on stiffer ground either.";
+  const char* const name = limit.by_modulus ? "E*" : "k";
+  const char* const unit = limit.by_modulus ? "Pa" : "N/m³";
   return fmt::format(
-      "limit off: by how much the limit k → ∞ is off the discrete value, ± its error bar; from {} runs up to k = {} "
-      "N/m³, over the contact time, which falls like k^{}",
-      limit.runs, significant(limit.stiffness, 2), significant(-limit.power, 3));
+      "limit off: by how much the limit {0} → ∞ is off the discrete value, ± its error bar; from {1} runs up to {0} = "
+      "{2} {3}, over the contact time, which falls like {0}^{4}",
+      name, limit.runs, significant(limit.stiffness, 2), unit, significant(-limit.power, 3));
 }
 
 std::string verdict_words(const Comparison& comparison) {

@@ -129,7 +129,7 @@ ContactSizes ContactSizes::of(const Scene& scene, const numeric::Body& body, boo
           .feature = feature_of(scene, body),
           .gravity = scene.world.gravity,
           .planar = planar,
-          .damping_per_stiffness = scene.world.ground.damping / scene.world.ground.stiffness};
+          .damping_per_stiffness = scene.world.ground.damping_per_stiffness()};
 }
 
 CommonRows common_rows(const std::vector<Simulation>& ladder, const ContactSizes& sizes) {
@@ -293,7 +293,7 @@ class StifferRuns {
  public:
   StifferRuns(const Scene& scene, const numeric::Body& body, const LimitRequest& request)
       : body_(body), world_(scene.world), accuracy_(scene.accuracy), start_(scene.start(body)),
-        damping_per_stiffness_(world_.ground.damping / world_.ground.stiffness) {
+        damping_per_stiffness_(world_.ground.damping_per_stiffness()) {
     world_.planar = request.planar;
     world_.point_friction = !request.planar && !request.whole_patch;
     accuracy_.method = numeric::Method::automatic;
@@ -303,8 +303,12 @@ class StifferRuns {
         request.planar ? std::min(accuracy_.evaluation_limit, evaluations_in_plane) : evaluations_in_space;
   }
   [[nodiscard]] Simulation at(double stiffness, const numeric::Request& wanted) {
-    world_.ground.stiffness = stiffness;
-    world_.ground.damping = damping_per_stiffness_ * stiffness;
+    if (world_.ground.modulus > 0) {
+      world_.ground.modulus = stiffness;
+    } else {
+      world_.ground.stiffness = stiffness;
+      world_.ground.damping = damping_per_stiffness_ * stiffness;
+    }
     return numeric::simulate(body_, world_, start_, wanted, accuracy_);
   }
 
@@ -322,12 +326,13 @@ StiffLimit stiff_limit(const Scene& scene, const numeric::Body& body, const Limi
   StifferRuns runs(scene, body, request);
   numeric::Request wanted{.impacts = request.impacts, .error_estimates = false, .amplification = false};
   const ContactSizes sizes = ContactSizes::of(scene, body, request.planar);
-  StiffLimit limit{.rows = {}, .ended = "the runs end before a limit shows"};
+  StiffLimit limit{
+      .rows = {}, .by_modulus = scene.world.ground.modulus > 0, .ended = "the runs end before a limit shows"};
   const auto run_at = [&](double stiffness) {
     ++limit.runs;
     return runs.at(stiffness, wanted);
   };
-  double stiffness = scene.world.ground.stiffness;
+  double stiffness = scene.world.ground.modulus > 0 ? scene.world.ground.modulus : scene.world.ground.stiffness;
   std::vector<Simulation> ladder;
   // The runs' contacts must all be short enough, and the limit must have settled: climb until they are and it has.
   while (limit.runs < most_runs) {

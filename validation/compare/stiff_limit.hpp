@@ -51,7 +51,8 @@ struct LimitRow {
 
 struct StiffLimit {
   std::vector<LimitRow> rows;  ///< those impacts that the stiffest runs have apart from each other
-  double stiffness = 0;        ///< of the stiffest run [N/m³]
+  double stiffness = 0;        ///< of the stiffest run [N/m³], or its modulus [Pa]
+  bool by_modulus = false;     ///< whether the ground is a half-space
   double power = 0;            ///< −d ln T/d ln k_G of the first contact's duration: 1/(p+1) for a force ∝ δ^p
   int runs = 0;
   std::string ended;  ///< why the next impact has no limit, one clause; empty if all asked for have theirs

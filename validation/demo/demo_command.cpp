@@ -35,7 +35,7 @@ std::string text_of(const Value& value) {
 /// A file without a ground, like flags without one, is a drop of the discrete model; the page then has its own ground.
 Scene scene_of(const SceneFlags& given) {
   const SceneValues values = scene_values(given.source);
-  const bool has_ground = values.has("ground.stiffness") || is_given(given, "--stiffness");
+  const bool has_ground = names_ground(given);
   const std::vector<SceneOverride> overrides = overrides_of(given);
   return has_ground ? read_scene(values, overrides, given.model) : read_discrete_scene(values, overrides).scene;
 }

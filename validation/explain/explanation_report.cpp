@@ -108,6 +108,8 @@ void write_law(StepWriter& writer, const Scene& scene, const analytic::ImpactLaw
       const Quantity k = writer.given(number("k_G", stiffness, "N/m³"), {"stiffness of the ground"});
       const Quantity c = writer.given(number("c_G", damping, "N·s/m⁴"), {"its damping"});
       given.damping_time = writer.found(tau, c / k, {"from which the restitution follows at each speed"});
+    } else if (scene.world.ground.modulus > 0) {
+      given.damping_time = writer.given(tau, {"dissipation of the ground, an elastic half-space"});
     } else {
       given.damping_time = writer.given(tau, {"damping over stiffness of the ground, c_G/k_G"});
     }

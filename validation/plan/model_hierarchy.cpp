@@ -234,7 +234,7 @@ const char* part_name(Part part) {
 bool has_part(const Scene& scene, Part part) {
   switch (part) {
     case Part::friction: return scene.world.ground.has_friction();
-    case Part::damping: return scene.world.ground.damping > 0;
+    case Part::damping: return scene.world.ground.is_damped();
     case Part::gravity_in_contact: return scene.world.gravity > 0 && scene.world.gravity_in_contact;
     case Part::unmerged_faces: return !scene.body.merge;
   }
@@ -244,7 +244,7 @@ bool has_part(const Scene& scene, Part part) {
 Scene without(Scene scene, Part part) {
   switch (part) {
     case Part::friction: scene.world.ground.static_friction = scene.world.ground.sliding_friction = 0; break;
-    case Part::damping: scene.world.ground.damping = 0; break;
+    case Part::damping: scene.world.ground.damping = scene.world.ground.dissipation = 0; break;
     case Part::gravity_in_contact: scene.world.gravity_in_contact = false; break;
     case Part::unmerged_faces: scene.body.merge = true; break;
   }
@@ -290,7 +290,7 @@ std::string ModelHierarchy::find_closed_form() {
   if (scene_.world.ground.has_friction()) return "it has no friction";
   analytic::Drop thin = *drop_;
   thin.body = analytic::make_rod({.mass = scene_.body.mass, .length = scene_.body.length, .radius = 0});
-  if (scene_.world.ground.damping == 0) thin.law = {};
+  if (!scene_.world.ground.is_damped()) thin.law = {};
   const std::string reason = reason_against_closed_form(thin);
   if (reason.empty()) thin_rod_ = thin;
   return reason;

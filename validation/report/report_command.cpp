@@ -286,7 +286,12 @@ std::string shock_html(const ShockRun& run, ShockView view) {
 std::vector<std::string> assumptions(const Scene& scene, Model model) {
   std::vector<std::string> items = scene_head(scene, model);
   items.emplace_back("the body is rigid, the ground level; air is left out");
-  if (model == Model::continuous) {
+  if (model == Model::continuous && scene.world.ground.modulus > 0) {
+    items.emplace_back(
+        "the ground is an elastic half-space under one patch, whose pressure has the energy of the patch's volume and "
+        "shape: faces, edges and corners are told apart, waves in ground and body are not; peaks depend on its "
+        "modulus");
+  } else if (model == Model::continuous) {
     items.emplace_back(
         "the ground is a bed of springs and dampers, each on its own: k_G and c_G are numbers of the floor "
         "(clatter ground finds them), and peaks depend on them");

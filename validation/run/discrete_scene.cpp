@@ -268,7 +268,7 @@ DiscreteLaw discrete_law(const Scene& scene) {
   if (impact.restitution || impact.law) found.restitution_from = LawSource::impact;
   if (law.law == RestitutionLaw::viscoelastic) {
     found.restitution_from = LawSource::ground;
-    law.damping_per_stiffness = ground.damping / ground.stiffness;
+    law.damping_per_stiffness = ground.damping_per_stiffness();
   }
   if (impact.impulse_ratio || impact.friction) {
     found.friction_from = LawSource::impact;
@@ -289,7 +289,7 @@ DiscreteLaw discrete_law(const Scene& scene) {
 std::string other_law_words(const Scene& scene, double approach) {
   const DiscreteImpact& impact = scene.impact;
   const numeric::Ground& ground = scene.world.ground;
-  const double e = analytic::restitution_of_damping(ground.damping / ground.stiffness * approach);
+  const double e = analytic::restitution_of_damping(ground.damping_per_stiffness() * approach);
   std::string words;
   if (impact.restitution && *impact.restitution != e) {
     words = fmt::format("e = {} where the ground has {} at {} m/s", shortest(*impact.restitution), significant(e, 3),
@@ -474,7 +474,7 @@ std::string law_words(const Scene& scene, std::optional<double> approach, const 
   const DiscreteLaw law = discrete_law(scene);
   const bool of_ground = law.restitution_from == LawSource::ground;
   std::string words;
-  if (is_settled({"impact.restitution", "ground.damping", "ground.stiffness"}))
+  if (is_settled({"impact.restitution", "ground.damping", "ground.stiffness", "ground.dissipation"}))
     words = restitution_words(law, approach);
   if (is_settled({"impact.friction", "impact.impulse_ratio", "ground.static_friction", "ground.sliding_friction"}))
     words += (words.empty() ? "" : of_ground ? "; " : ", ") + law_friction_words(scene, law);

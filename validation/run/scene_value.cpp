@@ -195,10 +195,15 @@ std::vector<std::string> Scene::summary(Model model, const KeyNames& unsettled) 
   Phrases drop(unsettled), springs(unsettled), contact(unsettled);
   add_gravity(*this, drop.add(drop_words(unsettled)));
   drop.add(world.planar ? "kept in its plane" : "");
-  springs.add(fmt::format("k = {} N/m³", in_powers(ground.stiffness)), {"ground.stiffness"});
-  springs.add(fmt::format("c = {} N·s/m⁴", in_powers(ground.damping)), {"ground.damping"});
-  contact.add(
-      after(springs.text(), fmt::format("over the {} area", area_names()[static_cast<std::size_t>(ground.area)])));
+  if (ground.modulus > 0) {
+    contact.add(fmt::format("elastic half-space of E* = {} Pa", in_powers(ground.modulus)), {"ground.modulus"});
+    contact.add(fmt::format("dissipation {} s/m", in_powers(ground.dissipation)), {"ground.dissipation"});
+  } else {
+    springs.add(fmt::format("k = {} N/m³", in_powers(ground.stiffness)), {"ground.stiffness"});
+    springs.add(fmt::format("c = {} N·s/m⁴", in_powers(ground.damping)), {"ground.damping"});
+    contact.add(
+        after(springs.text(), fmt::format("over the {} area", area_names()[static_cast<std::size_t>(ground.area)])));
+  }
   contact.add(sweeps_friction ? fmt::format("friction μ = {} to {}", shortest(sweep->from), shortest(sweep->to))
                               : friction_words(ground),
               {"ground.static_friction", "ground.sliding_friction", "ground.regularisation_speed"});

@@ -44,6 +44,8 @@ constexpr std::array turns{"drop.angle_deg", "drop.tilt_deg"};
 constexpr std::array ways_to_turn{"drop.angle_deg", "drop.tilt_deg", "drop.attitude"};
 constexpr std::array all_of_motion{"drop.speed",    "drop.height", "drop.clearance",       "drop.tangential_velocity",
                                    "drop.velocity", "drop.spin",   "drop.angular_velocity"};
+constexpr std::array springs{"ground.stiffness", "ground.damping"};
+constexpr std::array springs_and_area{"ground.stiffness", "ground.damping", "ground.area"};
 constexpr std::array turn_of_plane{"drop.spin"};
 constexpr std::array parts_of_velocity{"drop.speed", "drop.height", "drop.clearance", "drop.tangential_velocity"};
 
@@ -69,6 +71,10 @@ bool has_impulse_ratio(const Scene& scene) {
 }
 /// The discrete model has no use for keys of a ground that is not there.
 Echo of_ground(const Scene& scene, Model model) { return only_if(model == Model::continuous || scene.has_ground()); }
+Echo of_half_space(const Scene& scene, Model) { return only_if(scene.world.ground.modulus > 0); }
+Echo of_springs(const Scene& scene, Model model) {
+  return scene.world.ground.modulus > 0 ? Echo::absent : of_ground(scene, model);
+}
 
 template <class Enum>
 std::size_t index_of(Enum value) {
@@ -263,15 +269,27 @@ void append_ground(std::vector<Key>& keys) {
       keys.end(),
       {
           {"ground.stiffness", Use::both, "--stiffness", "N/M3", "N/m³",
-           "k_G, pressure of the ground for each metre of depth; clatter ground finds it",
+           "k_G, pressure of the ground for each metre of depth; clatter ground finds it; or ground.modulus",
            NumberValue{[](Scene& s) -> double& { return s.world.ground.stiffness; }, positive_number},
            [](const Scene& s, Model model) {
+             if (s.world.ground.modulus > 0) return Echo::absent;
              return s.has_ground() ? Echo::value : model == Model::continuous ? Echo::null : Echo::absent;
            },
            true},
           {"ground.damping", Use::both, "--damping", "N.S/M4", "N·s/m⁴",
            "c_G, the same for each m/s at which the depth grows",
-           NumberValue{[](Scene& s) -> double& { return s.world.ground.damping; }, not_negative_number}, of_ground},
+           NumberValue{[](Scene& s) -> double& { return s.world.ground.damping; }, not_negative_number}, of_springs},
+          {"ground.modulus", Use::both, "--ground-modulus", "PA", "Pa",
+           "E* of an elastic half-space, 1/E* = (1 - nu1^2)/E1 + (1 - nu2^2)/E2 of ground and body: it is harder under "
+           "small patches than under large ones",
+           NumberValue{[](Scene& s) -> double& { return s.world.ground.modulus; }, positive_number}, of_half_space,
+           false, springs_and_area},
+          {"ground.dissipation", Use::both, "--dissipation", "S/M", "s/m",
+           "of the half-space: Hunt and Crossley's factor on its pressure, 1 + dissipation times the speed at which "
+           "the "
+           "depth grows",
+           NumberValue{[](Scene& s) -> double& { return s.world.ground.dissipation; }, not_negative_number},
+           of_half_space, false, springs},
           {"ground.static_friction", Use::both, "--static-friction", "MU", "",
            "of the ground; without it sliding_friction",
            NumberValue{[](Scene& s) -> double& { return s.world.ground.static_friction; }, not_negative_number},
@@ -283,7 +301,7 @@ void append_ground(std::vector<Key>& keys) {
           {"ground.area", Use::both, "--area", "", "", "area over which the load is integrated",
            NameValue{&area_names(), [](const Scene& s) { return index_of(s.world.ground.area); },
                      [](Scene& s, std::size_t i) { s.world.ground.area = static_cast<numeric::AreaMeasure>(i); }},
-           of_ground},
+           of_springs},
           {"ground.friction_law", Use::both, "", "NAME", "", "what friction does where the face slips unevenly",
            NameValue{&friction_law_names(), [](const Scene& s) { return index_of(s.world.ground.friction); },
                      [](Scene& s, std::size_t i) { s.world.ground.friction = static_cast<numeric::FrictionLaw>(i); }},

@@ -183,12 +183,16 @@ void check_body(const SceneValues& values, BodyScene& body) {
 }
 
 void check_ground(const SceneValues& values, numeric::Ground& ground, Model model) {
-  if (model == Model::continuous)
-    values.require("ground.stiffness", "k_G in N/m3, such as 1e11; clatter ground finds that of a floor");
-  if (!values.has("ground.stiffness")) {
+  const bool is_half_space = values.has("ground.modulus");
+  if (model == Model::continuous && !is_half_space)
+    values.require("ground.stiffness",
+                   "k_G in N/m3, such as 1e11, which clatter ground finds; or ground.modulus of an elastic half-space");
+  if (!values.has("ground.stiffness") && !is_half_space) {
     only_for(values, {"ground.damping", "ground.static_friction", "ground.sliding_friction"},
              "a ground with a stiffness");
   }
+  if (is_half_space) ground.area = numeric::AreaMeasure::projected;
+  else only_for(values, {"ground.dissipation"}, "a ground with a modulus");
   // One coefficient given is both.
   if (!values.has("ground.sliding_friction")) ground.sliding_friction = ground.static_friction;
   if (!values.has("ground.static_friction")) ground.static_friction = ground.sliding_friction;

@@ -139,7 +139,7 @@ struct Scene {
   std::string history;          ///< file for the time history; empty: none
   std::optional<SceneSweep> sweep;
 
-  [[nodiscard]] bool has_ground() const { return world.ground.stiffness > 0; }
+  [[nodiscard]] bool has_ground() const { return world.ground.stiffness > 0 || world.ground.modulus > 0; }
   /// Most impacts of the discrete model.
   [[nodiscard]] int most_impacts() const;
   /// Whether the body falls from rest, from a height or clearance.

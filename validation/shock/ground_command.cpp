@@ -208,7 +208,7 @@ Report material_report_of(const GroundInput& input, const std::optional<Material
 /// The scene takes any stiffness: that is sought.
 Scene scene_of(const GroundInput& input) {
   SceneFlags flags = input.scene;
-  for (const char* const flag : {"--stiffness", "--damping"}) {
+  for (const char* const flag : {"--stiffness", "--damping", "--ground-modulus", "--dissipation"}) {
     if (is_given(flags, flag)) throw BadInput(fmt::format("{}: must be left out: it is what is sought", flag));
   }
   flags.texts.at("--stiffness") = "1e9";

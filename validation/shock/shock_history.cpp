@@ -27,8 +27,10 @@ struct HistoryInstant {
   Vector3 angular_acceleration = Vector3::Zero();  ///< [rad/s²]
   /// Where the line of action of the force meets the ground [m]; NaN without a normal force.
   double action_x = 0, action_y = 0;
-  double indentation = 0;                ///< of the deepest point, < 0 above the ground [m]
-  double pressure = 0;                   ///< largest, (k_G + c_G δ̇) δ, of the body's points below the ground [Pa]
+  double indentation = 0;  ///< of the deepest point, < 0 above the ground [m]
+  /// Largest, (k_G + c_G δ̇) δ, of the body's points below the ground; NaN on a half-space, where edges have no bound
+  /// [Pa]
+  double pressure = 0;
   std::vector<Vector3> specific_forces;  ///< of each probe, body axes [m/s²]
 };
 
@@ -116,7 +118,7 @@ HistoryInstant instant_of(const numeric::PieceSample& sample, const MotionPiece&
   const Vector3& omega = state.angular_velocity;
   at.force = sample.force;
   at.torque = state.attitude * (body.inertia() * sample.angular_acceleration + omega.cross(body.inertia() * omega));
-  at.pressure = largest_pressure(body, state, ground);
+  at.pressure = ground.modulus > 0 ? nan : largest_pressure(body, state, ground);
   if (!(at.force.z() > 0)) return at;
   // τ = r × F with r_z = −z_c.
   at.action_x = state.centre.x() + (-state.centre.z() * at.force.x() - at.torque.y()) / at.force.z();
@@ -225,7 +227,7 @@ std::vector<Column> shock_history_columns(const std::vector<std::string>& probes
   add("torque", "", "N·m", "of the contact force about the centre of mass, world", false);
   add("angular_acceleration", "", "rad/s²", "of the body, world", false);
   columns.push_back({"indentation", "δ", "m", "of the deepest point; negative above the ground"});
-  columns.push_back({"pressure", "p", "Pa", "largest, (k_G + c_G δ̇) δ"});
+  columns.push_back({"pressure", "p", "Pa", "largest, (k_G + c_G δ̇) δ; empty on a half-space"});
   for (const std::string& probe : probes) {
     add(probe, "a", "m/s²", "specific force at the probe, body axes", false);
     columns.push_back({probe, probe, "m/s²", "its size"});

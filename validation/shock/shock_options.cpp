@@ -45,9 +45,7 @@ std::array<double, 2> read_part(const std::string& option, const std::string& te
 
 Model model_of(const ShockInput& input) {
   if (input.model) return *input.model;
-  const bool has_ground =
-      is_given(input.scene, "--stiffness") || scene_values(input.scene.source).has("ground.stiffness");
-  return has_ground ? Model::continuous : Model::discrete;
+  return names_ground(input.scene) ? Model::continuous : Model::discrete;
 }
 
 Scene shock_scene(const ShockInput& input) {

@@ -329,8 +329,10 @@ std::vector<std::string> notes_of(const ShockRun& run, const ShockView& view) {
   std::vector<std::string> notes;
   if (view.rows == ShockRows::pulses || view.part) notes = pulse_notes(view.part);
   if (run.continuous) {
-    notes.emplace_back(
-        "peaks are properties of the floor: ∂ ln(peak)/∂ ln k_G, c_G/k_G held, stands beside them; |ΔV| hardly is");
+    const bool by_modulus = run.scene.world.ground.modulus > 0;
+    notes.push_back(
+        fmt::format("peaks are properties of the floor: ∂ ln(peak)/∂ ln {} held, stands beside them; |ΔV| hardly is",
+                    by_modulus ? "E*, dissipation" : "k_G, c_G/k_G"));
   }
   for (std::size_t probe = 0; probe < run.probes.size(); ++probe) {
     if (view.rows == ShockRows::impacts) add_spectrum_notes(run, probe, notes);
@@ -426,7 +428,9 @@ std::vector<Column> shock_columns() {
   };
   for (const ShockQuantity& quantity : quantities) add(column_of(quantity, false));
   add({"sensitivity", "∂", "",
-       "∂ ln(peak)/∂ ln k_G with c_G/k_G held: 1/2 for a face, 1/3 for an edge, 1/4 for a corner that lands alone"});
+       "∂ ln(peak)/∂ ln k_G with c_G/k_G held: 1/2 for a face, 1/3 for an edge, 1/4 for a corner that lands alone; of "
+       "a "
+       "half-space ∂/∂ ln E*: 1/2 for a face, 2/5 for a ball, 1/3 for a corner"});
   add({"indentation", "depth", "m", "greatest depth of a point of the body below the ground"});
   for (const ShockQuantity& quantity : quantities) {
     if (quantity.in_discrete) add(column_of(quantity, true));

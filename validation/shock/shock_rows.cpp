@@ -220,8 +220,7 @@ std::vector<double> trust_of(const numeric::Simulation& run) {
 std::vector<double> shifted_peaks(const Scene& scene, const numeric::Body& body, const std::vector<Vector3>& places,
                                   const ContinuousShock& shock, double shift, const numeric::Observer& observer) {
   Scene other = scene;
-  other.world.ground.stiffness *= std::exp(shift);
-  other.world.ground.damping *= std::exp(shift);
+  other.world.ground.stiffen(std::exp(shift));
   const std::vector<numeric::ImpactRecord>& impacts = shock.planned.run.impacts;
   MotionRecorder motion;
   const numeric::Simulation run =
