@@ -122,14 +122,16 @@ class SameAsTheOtherCommands(Folder):
         for row in scenes:
             own = [impact for impact in impacts if impact["index"] == row["index"]]
             peaks = [float(impact["peak_force"]) for impact in own]
-            self.assertEqual(int(row["impacts"]), len(own))
-            self.assertEqual(row["outcome"], own[0]["outcome"])
-            self.assertEqual(float(row["first_peak_force"]), peaks[0])
-            self.assertEqual(float(row["largest_peak_force"]), max(peaks))
+            self.assertEqual((int(row["impacts"]), row["outcome"]), (len(own), own[0]["outcome"]))
+            self.assertEqual((float(row["first_peak_force"]), float(row["largest_peak_force"])), (peaks[0], max(peaks)))
+            for total, part in (("first_peak_force", own[0]["peak_force_error"]), ("last_start", own[-1]["start_error"])):
+                self.assertEqual(row[total + "_error"], part)
             self.assertEqual(row["last_start"], own[-1]["start"])
             # Sums of two doubles: one rounding.
             for total, part in (("total_normal_impulse", "impulse_normal"), ("energy_loss", "energy_loss")):
                 self.assertAlmostEqual(float(row[total]), sum(float(impact[part]) for impact in own), delta=1e-15)
+                errors = sum(float(impact[part + "_error"]) for impact in own)  # in two digits, rounded up
+                self.assertAlmostEqual(float(row[total + "_error"]), errors, delta=0.1 * errors)
 
     def test_what_a_point_goes_through_is_that_of_shock_in_the_plane_in_space_and_on_a_ground(self):
         flags = ["--probe", "camera:0.048,0.016,0.0095", "--probe", "back.left-1:-0.05,0.02,0"]
@@ -213,22 +215,18 @@ class Scenes(Folder):
     def test_scenes_without_numbers_are_rows_with_their_outcome(self):
         # Spin lifts end a; an impulse ratio jams.
         spun = records(self.sweep(self.scene, "--set", "drop.spin=0:20:10", "--set", "drop.angle_deg=30"))
-        self.assertEqual([row["outcome"] for row in spun][1:], ["refused", "refused"])
-        self.assertEqual([row["impacts"] for row in spun][1:], ["", ""])
+        self.assertEqual([(row["outcome"], row["impacts"]) for row in spun][1:], [("refused", "")] * 2)
         self.assertEqual(spun[1]["total_normal_impulse"], "")
-        jammed = records(self.sweep(self.scene, "--set", "impact.impulse_ratio=0:1.5:1.5",
-                                    "--set", "drop.angle_deg=63.4"))
+        jammed = records(self.sweep(self.scene, "--set", "impact.impulse_ratio=0:1.5:1.5", "--set", "drop.angle_deg=63.4"))
         self.assertEqual([row["outcome"] for row in jammed], ["impact-limit", "outside-model"])
-        rows = records(self.sweep(self.scene, "--set", "impact.impulse_ratio=0:1.5:1.5", "--set", "drop.angle_deg=63.4", "--rows",
-                                  "impact"))
+        rows = records(self.sweep(self.scene, "--set", "impact.impulse_ratio=0:1.5:1.5", "--set", "drop.angle_deg=63.4", "--rows", "impact"))
         self.assertEqual((rows[-1]["outcome"], rows[-1]["n"], rows[-1]["energy_loss"]), ("outside-model", "", ""))
         low = records(self.sweep(PHONE, "--set", "drop.height=0.001:1.001:1", *QUICK))
         self.assertEqual([row["outcome"] for row in low], ["refused", "impact-limit"])
         self.assertEqual(low[0]["first_peak_force"], "")
         limited = run("sweep", PHONE, "--set", "run.evaluation_limit=20:20020:20000", *QUICK)
         self.assertEqual(limited.returncode, 3)
-        ended = records(limited.stdout)
-        self.assertEqual([(row["impacts"], row["outcome"]) for row in ended],
+        self.assertEqual([(row["impacts"], row["outcome"]) for row in records(limited.stdout)],
                          [("0", "evaluation-limit"), ("2", "impact-limit")])
 
     def test_what_settings_and_options_cannot_be_is_one_line(self):
@@ -360,8 +358,7 @@ class RowsTogether(Folder):
         self.assertEqual(summary["texts"]["outcome"], outcomes)
 
     def test_a_summary_of_attitudes_names_the_worst_of_them_and_its_blow(self):
-        arguments = ["phone-corner", "--model", "discrete", "--set", "drop.attitude=26", "--random", "104",
-                     "--scatter", "4"]
+        arguments = ["phone-corner", "--model", "discrete", "--set", "drop.attitude=26", "--random", "104", "--scatter", "4"]
         rows = records(self.sweep(*arguments, "--columns", "hardest,hardest_impulse_normal,hardest_corners"))
         summary = self.summary(*arguments)
         self.assertEqual(len(summary["attitudes"]), 26)
@@ -382,9 +379,16 @@ class RowsTogether(Folder):
         again = self.numbers(self.sweep(*shlex.split(worst["largest_command"])[2:]), "impulse_normal")
         self.assertEqual(max(again), worst["largest"])
 
+    def test_without_attitudes_a_scatter_is_about_the_scenes_own(self):
+        rows = records(self.sweep(self.scene, "--set", "drop.angle_deg=12", "--random", "400", "--scatter", "3"))
+        cosines = [abs(math.cos(math.radians(6)) * float(row["drop.attitude_q0"]) - math.sin(math.radians(6)) * float(row["drop.attitude_q2"]))
+                   for row in rows]
+        # Three turns of variance 9: the mean square is 27, known to sqrt(2/3/400) = 4 per cent.
+        mean = sum((2 * math.degrees(math.acos(min(1, cosine)))) ** 2 for cosine in cosines) / len(rows)
+        self.assertAlmostEqual(mean, 27, delta=27 * 0.2)
+
     def test_the_commands_below_a_summary_can_be_pasted_into_a_shell(self):
-        summary = self.sweep("phone-corner", "--model", "discrete", "--set", "drop.attitude=26", "--random", "26",
-                             "--scatter", "4", "--summary")
+        summary = self.sweep("phone-corner", "--model", "discrete", "--set", "drop.attitude=26", "--random", "26", "--scatter", "4", "--summary")
         pasted = summary[summary.index("largest impacts:"):]
         for line in pasted.splitlines():
             self.assertTrue(len(line) < 80 or len(line.split()) <= 2, line)  # an attitude is one long word
