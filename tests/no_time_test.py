@@ -10,8 +10,7 @@ from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
 # These measure times or start others' tests, and judge none by a time.
-LEFT_OUT = {"waiting.py", "no_time_test.py", "seeded_faults", "speed_benchmark.py", "numeric_benchmark.cpp",
-            "mesh_campaign.cpp", "page_benchmark.mjs"}
+LEFT_OUT = {"waiting.py", "no_time_test.py", "seeded_faults", "speed_benchmark.py", "numeric_benchmark.cpp", "page_benchmark.mjs"}
 WAITS = {"launcher_test.bash": ['until "$@"; do sleep 0.02; done', " readlink rm sleep tail touch"],
          "page_test.mjs": ["window.setTimeout = (act) => later.push(act);"],
          "page_browsers_test.mjs": ["const { setTimeout, clearTimeout } = window;", "window.setTimeout = (act, ...rest) => {",

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Speed of the discrete model, and of the textbook's way to β for comparison.  Not a test.
+// Speed of the discrete model.  Not a test.
 #include <benchmark/benchmark.h>
-#include <gsl/gsl_errno.h>
-#include <gsl/gsl_roots.h>
 
 #include <algorithm>
 #include <cmath>
@@ -40,63 +38,17 @@ void second_contact_angle(benchmark::State& state) {
 }
 BENCHMARK(second_contact_angle);
 
-struct Textbook {
-  double theta, sine, k;
-};
-
-double equation_12(double beta, void* parameters) {
-  const auto* p = static_cast<const Textbook*>(parameters);
-  return p->sine + p->k * (p->theta + beta) - std::sin(beta);
-}
-
-/// β by GSL's Brent method on [0°, 90°]; NaN where the bracket holds no change of sign.
-double textbook_beta(gsl_root_fsolver* solver, double theta) {
-  const double c = std::cos(theta);
-  Textbook parameters{theta, std::sin(theta), (1 - 3 * c * c) / (6 * c)};
-  gsl_function f{&equation_12, &parameters};
-  if (gsl_root_fsolver_set(solver, &f, 0, pi / 2) != GSL_SUCCESS) return NAN;
-  for (int i = 0; i < 100; ++i) {
-    gsl_root_fsolver_iterate(solver);
-    if (gsl_root_test_interval(gsl_root_fsolver_x_lower(solver), gsl_root_fsolver_x_upper(solver), 0, 4e-16) ==
-        GSL_SUCCESS)
-      break;
-  }
-  return gsl_root_fsolver_root(solver);
-}
-
-void textbook_brent(benchmark::State& state) {
-  gsl_set_error_handler_off();
-  gsl_root_fsolver* solver = gsl_root_fsolver_alloc(gsl_root_fsolver_brent);
-  const double fold = regime_boundary(ImpactNumber::second, {}).theta;
-  int failures = 0;
-  for (int i = 1; i <= 100000; ++i) failures += std::isnan(textbook_beta(solver, fold * i / 100000.5)) ? 1 : 0;
-  const auto angles = angles_up_to(58.4);
-  std::size_t i = 0;
-  for (auto _ : state) benchmark::DoNotOptimize(textbook_beta(solver, angles[i++ % angles.size()].radians));
-  state.counters["missed_of_100000_roots"] = failures;
-  gsl_root_fsolver_free(solver);
-}
-BENCHMARK(textbook_brent);
-
+/// Argument: whether errors are followed.
 void three_impact_sequence(benchmark::State& state) {
   const Drop drop{.body = make_rod({}),
                   .inclination = Angle::from_degrees(10),
                   .velocity = {.normal = -1},
                   .gravity = 0,
                   .law = {}};
-  for (auto _ : state) benchmark::DoNotOptimize(impact_sequence(drop, {.impacts = 3, .amplification = false}));
+  const SequenceOptions options{.impacts = 3, .amplification = state.range(0) != 0};
+  for (auto _ : state) benchmark::DoNotOptimize(impact_sequence(drop, options));
 }
-BENCHMARK(three_impact_sequence);
-
-void three_impact_sequence_with_error_bars(benchmark::State& state) {
-  const Drop drop{.body = make_rod({}),
-                  .inclination = Angle::from_degrees(10),
-                  .velocity = {.normal = -1},
-                  .gravity = 0,
-                  .law = {}};
-  for (auto _ : state) benchmark::DoNotOptimize(impact_sequence(drop, {.impacts = 3}));
-}
-BENCHMARK(three_impact_sequence_with_error_bars);
+BENCHMARK(three_impact_sequence)->Arg(0)->Arg(1);
 
 void three_impact_box_with_gravity_and_friction(benchmark::State& state) {
   const Drop drop{.body = make_box({.mass = 0.088, .length = 0.106, .width = 0.044, .thickness = 0.019}),

@@ -2,9 +2,11 @@
 // Bodies that several tests drop.
 #pragma once
 
+#include <cmath>
 #include <numbers>
 
 #include "numeric/body.hpp"
+#include "numeric/contact/contact_load.hpp"
 #include "numeric/mesh/generators.hpp"
 #include "numeric/simulate.hpp"
 
@@ -25,6 +27,42 @@ inline Body phone(int nx = 1, int ny = 1, int nz = 1, bool merge = true) {
 
 /// The paper's rod.
 inline Body rod() { return Body(rod_mesh({})); }
+
+/// A body of this shape, its facets few, with the mass properties given.
+inline Body round_body(const SmoothShape& shape, double mass, const Matrix3& inertia) {
+  const Mesh mesh = round_mesh({.semiaxes = shape.semiaxes, .straight = shape.straight, .sectors = 8, .rings = 2});
+  return {{.mass = mass, .centre = -shape.centre, .inertia = inertia},
+          boundary_surface(mesh),
+          true,
+          SmoothShape{shape.semiaxes, shape.straight, Vector3::Zero()}};
+}
+
+/// The ground as a body at rest sees it that was pushed `depth` below the attitude at which it touches.
+inline GroundView pressed(const MotionState& touch, double depth) {
+  const Eigen::Quaterniond back = touch.attitude.conjugate();
+  GroundView view;
+  view.reference = {back * Vector3::UnitZ(), touch.centre.z()};
+  view.sink = -depth;
+  view.east = back * Vector3::UnitX();
+  view.north = back * Vector3::UnitY();
+  return view;
+}
+
+/// Whether all its numbers are finite; several touches may leave restitution without a meaning.
+inline bool is_number(const ImpactRecord& row) {
+  const ImpactNumbers& n = row.value;
+  const double sum = n.start + n.duration + n.inclination + n.contact_angle + n.approach_speed + n.impulse.sum() +
+                     n.peak_force + n.peak_time + n.velocity_after.sum() + n.angular_velocity_after.sum() +
+                     n.energy_before + n.energy_after + n.energy_loss + n.work_damping + n.work_friction +
+                     n.work_released;
+  return std::isfinite(sum) && (std::isfinite(n.restitution) || row.touches > 1);
+}
+
+/// The same friction whether it sticks or slides.
+inline Ground with_friction(Ground ground, double friction) {
+  ground.static_friction = ground.sliding_friction = friction;
+  return ground;
+}
 
 /// One impact without estimates, so that the work is one run's.
 inline constexpr Request plain{.impacts = 1, .error_estimates = false, .amplification = false};

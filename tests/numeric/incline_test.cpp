@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Contacts on sloping ground: balances of momentum and energy, and how they end.
-#include <boost/test/unit_test.hpp>
-#include <cmath>
-
 #include "tests/numeric/bodies.hpp"
+#include "tests/numeric/support.hpp"
 
 namespace {
 
@@ -15,11 +13,7 @@ constexpr double slope = 20, promised = 1e-8;
 Body brick() { return box_body({0.3, 0.2, 0.1}, 2); }
 
 World hillside(double friction, double damping = 0) {
-  return {.ground = {.stiffness = 1e6,
-                     .damping = damping,
-                     .static_friction = friction,
-                     .sliding_friction = friction,
-                     .area = AreaMeasure::projected},
+  return {.ground = with_friction({.stiffness = 1e6, .damping = damping, .area = AreaMeasure::projected}, friction),
           .incline_deg = slope,
           .planar = true};
 }
@@ -66,6 +60,7 @@ BOOST_AUTO_TEST_CASE(a_box_on_a_slope_rests_where_friction_is_above_tan_of_the_s
   constexpr double damping = 1e8;  // so that the contact does not end
   const Simulation held = landed(hillside(0.45, damping), 0.1, 100), slides = landed(hillside(0.3, damping), 1, 100);
   BOOST_TEST((held.outcome == Outcome::at_rest), held.message);
+  BOOST_TEST(held.impacts.back().energy_stored > 0);  // the ground bears the weight
   BOOST_TEST(held.final_state.velocity.norm() <= 1e-5);
   BOOST_TEST((slides.outcome == Outcome::sustained_contact), slides.message);
   // All that was left to it: gravity along the slope, less friction of the normal impulse.

@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Contacts with closed forms: flat and upright landings, and what no landing may lose.
-#include <boost/math/special_functions/lambert_w.hpp>
-#include <boost/multiprecision/cpp_dec_float.hpp>
-#include <boost/test/unit_test.hpp>
-
-#include <cmath>
-
 #include "tests/numeric/bodies.hpp"
+#include "tests/numeric/support.hpp"
+#include "validation/oracles/digits.hpp"
+#include "validation/oracles/impulse_path.hpp"
 
 namespace {
 
@@ -17,28 +14,14 @@ constexpr double promised = 1e-9;
 
 /// A spring k_G A under the mass m: half a sine.
 void check_half_sine(const Simulation& run, double mass, double area, double stiffness, double speed) {
-  BOOST_REQUIRE(run.impacts.size() == 1);
-  const ImpactNumbers& n = run.impacts[0].value;
+  const ImpactNumbers& n = run.impacts.at(0).value;
   const double frequency = std::sqrt(stiffness * area / mass);
   BOOST_TEST(n.duration == std::numbers::pi / frequency, boost::test_tools::tolerance(promised));
   BOOST_TEST(n.peak_force == speed * std::sqrt(stiffness * area * mass), boost::test_tools::tolerance(promised));
   BOOST_TEST(n.peak_time == n.duration / 2, boost::test_tools::tolerance(1e-5));  // flat top: √ of the force's digits
   BOOST_TEST(n.impulse.z() == 2 * mass * speed, boost::test_tools::tolerance(promised));
   BOOST_TEST(n.restitution == 1, boost::test_tools::tolerance(promised));
-  BOOST_TEST(run.impacts[0].touches == 1);
-}
-
-/// The root e of ln[(1+s)/(1−se)] = s(1+e), by bisection in 50 digits because it cancels for small s.
-double restitution(double speed_number) {
-  using Wide = boost::multiprecision::cpp_dec_float_50;
-  const Wide s = speed_number;
-  Wide low = 0, high = s > 1 ? Wide(1) / s : Wide(1);
-  for (int i = 0; i < 100; ++i) {
-    const Wide e = (low + high) / 2;
-    const Wide excess = log1p(s) - log1p(-s * e) - s * (1 + e);
-    (excess < 0 ? low : high) = e;
-  }
-  return static_cast<double>(low);
+  BOOST_TEST(run.impacts.at(0).touches == 1);
 }
 
 }  // namespace
@@ -48,7 +31,7 @@ BOOST_AUTO_TEST_CASE(a_flat_landing_is_half_a_sine) {
   const Ground ground{.stiffness = stiffness, .area = AreaMeasure::projected};
   const Simulation run = dropped(box_body({0.3, 0.2, 0.1}, 2), weightless(ground), 0, speed);
   check_half_sine(run, 2, 0.06, stiffness, speed);
-  BOOST_TEST((run.impacts[0].end == ContactEnd::both));
+  BOOST_TEST((run.impacts.at(0).end == ContactEnd::both));
 }
 
 /// With gravity δ = (v/ω) sin ωt + (g/ω²)(1 − cos ωt) until t = (2/ω)(π − atan(vω/g)); P = 2mv + mgt; the largest force
@@ -57,8 +40,7 @@ BOOST_AUTO_TEST_CASE(a_flat_landing_under_gravity_has_its_closed_form) {
   const double stiffness = 1e5, speed = 0.3, mass = 2, area = 0.06, g = 9.81;
   const World world{.ground = {.stiffness = stiffness, .area = AreaMeasure::projected}, .gravity = g};
   const Simulation run = dropped(box_body({0.3, 0.2, 0.1}, mass), world, 0, speed);
-  BOOST_REQUIRE(run.impacts.size() == 1);
-  const ImpactNumbers& n = run.impacts[0].value;
+  const ImpactNumbers& n = run.impacts.at(0).value;
   const double frequency = std::sqrt(stiffness * area / mass);
   const double duration = 2 / frequency * (std::numbers::pi - std::atan(speed * frequency / g));
   BOOST_TEST(n.duration == duration, boost::test_tools::tolerance(promised));
@@ -73,7 +55,7 @@ BOOST_AUTO_TEST_CASE(an_upright_landing_is_half_a_sine) {
   const Ground ground{.stiffness = stiffness, .area = AreaMeasure::projected};
   const Simulation run = dropped(rod(), weightless(ground), 90 * degree, 1);
   check_half_sine(run, 1, 8 * r * r * std::sin(std::numbers::pi / 8), stiffness, 1);
-  BOOST_TEST((run.impacts[0].end == ContactEnd::a));
+  BOOST_TEST((run.impacts.at(0).end == ContactEnd::a));
 }
 
 /// Ω > 0 is clockwise: it lifts the rim of end a, which lies L/2 cos α − R sin α to the left of the centre.
@@ -83,25 +65,17 @@ BOOST_AUTO_TEST_CASE(a_clockwise_spin_lifts_the_lower_end) {
   const MotionState start = touching_state(body, {.inclination = angle, .velocity = {0, 0, -1}, .spin = spin});
   const Simulation run = simulate(body, weightless({.stiffness = 1e11}), start, plain);
   const double lift = spin * (0.5 * std::cos(angle) - 0.01 * std::sin(angle));
-  BOOST_TEST(run.impacts[0].value.approach_speed == 1 - lift, boost::test_tools::tolerance(1e-13));  // rounding
+  BOOST_TEST(run.impacts.at(0).value.approach_speed == 1 - lift, boost::test_tools::tolerance(1e-13));  // rounding
 }
 
-/// e = [1 + W₀(−(1+s) e^{−(1+s)})]/s.
-BOOST_AUTO_TEST_CASE(the_root_of_the_restitution_is_lamberts_function) {
-  for (const double s : {0.5, 1.0, 3.0, 10.0}) {
-    const double e = (1 + boost::math::lambert_w0(-(1 + s) * std::exp(-(1 + s)))) / s;
-    BOOST_TEST(restitution(s) == e, boost::test_tools::tolerance(1e-13));
-  }
-}
-
-BOOST_AUTO_TEST_CASE(a_damped_flat_landing_has_the_restitution_of_lamberts_function) {
-  const Body body = box_body({0.3, 0.2, 0.1}, 2);
+BOOST_AUTO_TEST_CASE(a_damped_flat_landing_has_the_restitution_of_the_exact_map) {
+  using Exact = clatter::oracle::Decimal<50>;
   const double stiffness = 1e8, speed = 2;
   for (const double s : {1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 0.1, 0.3, 1.0, 3.0, 10.0}) {
     const Ground ground{.stiffness = stiffness, .damping = s * stiffness / speed, .area = AreaMeasure::projected};
-    const Simulation run = dropped(body, weightless(ground), 0, speed);
-    BOOST_REQUIRE(run.impacts.size() == 1);
-    BOOST_TEST(run.impacts[0].value.restitution == restitution(s), boost::test_tools::tolerance(promised));
+    const Simulation run = dropped(box_body({0.3, 0.2, 0.1}, 2), weightless(ground), 0, speed);
+    const double exact = static_cast<double>(clatter::oracle::exact_restitution(Exact(s)));
+    BOOST_TEST(run.impacts.at(0).value.restitution == exact, boost::test_tools::tolerance(promised));
   }
 }
 
@@ -110,8 +84,7 @@ BOOST_AUTO_TEST_CASE(a_flat_drop_of_any_mesh_starts_no_spin) {
   for (const bool merge : {true, false}) {
     for (const Body& body : {phone(1, 1, 1, merge), phone(7, 5, 3, merge), Body(rod_mesh({.sectors = 12}), merge)}) {
       const Simulation run = dropped(body, weightless({.stiffness = 1e8, .damping = 1e6}), 0, 4);
-      BOOST_REQUIRE(run.impacts.size() == 1);
-      BOOST_TEST(run.impacts[0].value.angular_velocity_after.norm() <= 1e-12 * 4 / body.radius());
+      BOOST_TEST(run.impacts.at(0).value.angular_velocity_after.norm() <= 1e-12 * 4 / body.radius());
     }
   }
 }
@@ -137,8 +110,7 @@ BOOST_AUTO_TEST_CASE(elastic_frictionless_impacts_lose_no_energy) {
                                                           .out_of_plane_tilt = c.tilt * degree});
         const Simulation run =
             simulate(c.body, weightless({.stiffness = c.stiffness, .area = area}), start, plain, {.digits = digits});
-        BOOST_REQUIRE(run.impacts.size() == 1);
-        BOOST_TEST(std::fabs(run.impacts[0].value.energy_loss) <= bound * run.energy_start);
+        BOOST_TEST(std::fabs(run.impacts.at(0).value.energy_loss) <= bound * run.energy_start);
       }
     }
   }
@@ -151,7 +123,6 @@ BOOST_AUTO_TEST_CASE(a_frictionless_contact_keeps_the_vertical_angular_momentum)
         touching_state(body, {.inclination = 0.5, .velocity = {0.4, -0.2, -3}, .out_of_plane_tilt = 0.3});
     start.angular_velocity = Vector3(20, -30, 40);
     const Simulation run = simulate(body, weightless({.stiffness = 1e8, .damping = 1e6}), start, plain);
-    BOOST_REQUIRE(run.impacts.size() == 1);
     const auto vertical = [&](const MotionState& state) {
       return (state.attitude * (body.inertia() * state.angular_velocity)).z();
     };
@@ -163,29 +134,26 @@ BOOST_AUTO_TEST_CASE(a_frictionless_contact_keeps_the_vertical_angular_momentum)
 
 /// What was there before = what is left + dampers + friction + released by the clamp.
 BOOST_AUTO_TEST_CASE(the_ledger_of_energy_closes) {
-  constexpr int impacts = CLATTER_TEST_SLOW_BUILD ? 1 : 4;
   double released = 0;
   for (const FrictionLaw law : {FrictionLaw::coulomb, FrictionLaw::regularised}) {
     for (const AreaMeasure area : {AreaMeasure::surface, AreaMeasure::projected}) {
-      for (const double damping : {0.0, 1e6, 1e7, 1e8}) {
-        for (const double friction : {0.0, 0.1, 0.9}) {
-          const Body body = phone();
-          const Ground ground{.stiffness = 1e8,
-                              .damping = damping,
-                              .static_friction = 1.2 * friction,
-                              .sliding_friction = friction,
-                              .area = area,
-                              .friction = law};
-          const MotionState start = touching_state(
-              body, {.inclination = 0.3, .velocity = {0.5, 0.1, -3}, .spin = -20, .out_of_plane_tilt = 0.1});
-          const Simulation run = simulate(body, {.ground = ground}, start, plain_impacts(impacts));
-          BOOST_REQUIRE(!run.impacts.empty());
-          for (const ImpactRecord& row : run.impacts) {
-            BOOST_TEST(std::fabs(row.ledger_gap) <= promised);
-            BOOST_TEST(row.value.work_damping >= 0);
-            BOOST_TEST(row.value.work_released >= 0);
-            released += row.value.work_released;
-          }
+      for (const auto& [damping, friction] : {std::pair{0.0, 0.9}, {1e6, 0.0}, {1e7, 0.1}, {1e8, 0.9}}) {
+        const Body body = phone();
+        const Ground ground{.stiffness = 1e8,
+                            .damping = damping,
+                            .static_friction = 1.2 * friction,
+                            .sliding_friction = friction,
+                            .area = area,
+                            .friction = law};
+        const MotionState start = touching_state(
+            body, {.inclination = 0.3, .velocity = {0.5, 0.1, -3}, .spin = -20, .out_of_plane_tilt = 0.1});
+        const Simulation run =
+            simulate(body, {.ground = ground}, start, plain_impacts(CLATTER_TEST_SLOW_BUILD ? 1 : 3));
+        BOOST_REQUIRE(!run.impacts.empty());
+        for (const ImpactRecord& row : run.impacts) {
+          BOOST_TEST(std::fabs(row.ledger_gap) <= promised);
+          BOOST_TEST((row.value.work_damping >= 0 && row.value.work_released >= 0));
+          released += row.value.work_released;
         }
       }
     }

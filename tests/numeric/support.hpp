@@ -2,21 +2,14 @@
 // Meshes and checks that the tests of the numeric module share.
 #pragma once
 
-#include <cmath>
-#include <functional>
-#include <random>
-#include <string>
-
-#include "numeric/mesh/mesh.hpp"
+#include "numeric/errors.hpp"
+#include "numeric/mesh/generators.hpp"
+#include "numeric/surface/surface.hpp"
+#include "tests/support.hpp"
 
 namespace clatter::numeric::test {
 
-inline constexpr double eps = 2.220446049250313e-16;
-
-/// For BOOST_CHECK_EXCEPTION: the message contains the text.
-inline auto mentions(const std::string& text) {
-  return [text](const std::exception& error) { return std::string(error.what()).find(text) != std::string::npos; };
-}
+using namespace clatter::test;
 
 /// A rotation about an axis off every coordinate plane.
 inline Matrix3 rotation() { return Eigen::AngleAxisd(0.7, Vector3(1, -2, 3).normalized()).toRotationMatrix(); }
@@ -62,6 +55,20 @@ inline Mesh without(Mesh mesh, const std::function<bool(const Vector3&)>& remove
     return removed(sum / count);
   });
   return mesh;
+}
+
+/// Enclosed volume by the divergence theorem, ∮ x·n dA / 3, which no inner face enters.  A quadrilateral is the mean of
+/// its two triangulations: exact for a bilinear patch.
+inline double enclosed(const Surface& surface) {
+  double sum = 0;
+  for (const SurfaceElement& element : surface.elements) {
+    const auto det = [&](int i, int j, int k) {
+      return surface.nodes[element.nodes[i]].dot(
+          surface.nodes[element.nodes[j]].cross(surface.nodes[element.nodes[k]]));
+    };
+    sum += element.nodes[3] < 0 ? det(0, 1, 2) / 6 : (det(0, 1, 2) + det(0, 2, 3) + det(1, 2, 3) + det(1, 3, 0)) / 12;
+  }
+  return sum;
 }
 
 inline std::vector<Vector3> unit_cube() {

@@ -3,21 +3,18 @@
 // from every instruction set.
 #include "analytic/batch/batch.hpp"
 
-#include <boost/test/unit_test.hpp>
-
-#include <cmath>
 #include <cstring>
-#include <random>
-#include <vector>
 
 #include "analytic/base/angle.hpp"
 #include "analytic/batch/lane_kernels.hpp"
 #include "analytic/batch/rod_batch.hpp"
 #include "analytic/plane/contact_angles.hpp"
 #include "analytic/plane/sequence.hpp"
+#include "tests/support.hpp"
 
 using namespace clatter::analytic;
 using namespace clatter::analytic::batch;
+using clatter::test::Random;
 
 namespace {
 
@@ -42,20 +39,18 @@ const std::vector<Kind> kinds{
     {"box with all", make_box({.mass = 0.3, .length = 0.15, .thickness = 0.03}), 4, 0.1, 20, 0.3, 5},
 };
 
-/// Random drops of a kind, with the arrays that they are in.
 struct RandomDrops {
   std::vector<double> angle, restitution, gravity, ratio, spin, fall{-1}, still{0};
   BatchDrops drops;
 
   RandomDrops(const Kind& kind, std::size_t count) {
-    std::mt19937_64 random(11);
-    std::uniform_real_distribution<double> part(0, 1);
+    Random random(11);
     for (std::size_t i = 0; i < count; ++i) {
-      angle.push_back((2 * part(random) - 1) * pi / 2);
-      restitution.push_back(kind.most_restitution - (kind.most_restitution - kind.least_restitution) * part(random));
-      gravity.push_back(kind.most_gravity * part(random));
-      ratio.push_back(kind.most_ratio * (2 * part(random) - 1));
-      spin.push_back(kind.most_spin * (2 * part(random) - 1));
+      angle.push_back((2 * random(0, 1) - 1) * pi / 2);
+      restitution.push_back(kind.most_restitution - (kind.most_restitution - kind.least_restitution) * random(0, 1));
+      gravity.push_back(kind.most_gravity * random(0, 1));
+      ratio.push_back(kind.most_ratio * (2 * random(0, 1) - 1));
+      spin.push_back(kind.most_spin * (2 * random(0, 1) - 1));
     }
     drops = {kind.body, angle, fall, still, spin, gravity, restitution, ratio};
   }
@@ -80,8 +75,10 @@ bool agrees(const BatchOutcome& outcome, const Sequence& sequence) {
     loss_error += row.error.energy_loss;
     largest = std::fmax(largest, row.impact.normal_impulse);
   }
+  const double hardest = sequence.rows.at(static_cast<std::size_t>(outcome.hardest - 1)).impact.normal_impulse;
   return is_within(outcome.energy_loss, loss, loss_error) &&
          is_within(outcome.largest, largest, sequence.total_normal_impulse_error) &&
+         is_within(hardest, largest, sequence.total_normal_impulse_error) &&
          is_within(outcome.total, sequence.total_normal_impulse, sequence.total_normal_impulse_error);
 }
 
@@ -149,9 +146,8 @@ BOOST_AUTO_TEST_CASE(every_instruction_set_gives_the_same_bits) {
         BOOST_TEST_REQUIRE(other[i].is_scalar == widest[i].is_scalar, kernel.name);
         BOOST_TEST_REQUIRE(same_bits(other[i].total, widest[i].total), kernel.name);
         BOOST_TEST_REQUIRE(same_bits(other[i].energy_loss, widest[i].energy_loss), kernel.name);
-        for (std::size_t n = 0; n < 3; ++n) {
+        for (std::size_t n = 0; n < 3; ++n)
           BOOST_TEST_REQUIRE(same_bits(other[i].contact_angle[n], widest[i].contact_angle[n]), kernel.name);
-        }
       }
     }
   }
@@ -163,64 +159,6 @@ BOOST_AUTO_TEST_CASE(a_part_of_a_batch_is_that_part_of_the_whole) {
   run_batch(random.drops, {.limit = 4}, 0, whole);
   run_batch(random.drops, {.limit = 4}, 41, part);
   for (std::size_t i = 0; i < part.size(); ++i) BOOST_TEST(same_bits(part[i].total, whole[41 + i].total));
-}
-
-BOOST_AUTO_TEST_CASE(second_contact_angles_solve_equation_12_in_longer_arithmetic) {
-  const RandomDrops random(kinds[0], drop_count);
-  std::vector<BatchOutcome> outcomes(drop_count);
-  run_batch(random.drops, {.limit = 6}, 0, outcomes);
-  std::size_t solved = 0;
-  for (std::size_t i = 0; i < drop_count; ++i) {
-    if (outcomes[i].impacts < 2) continue;
-    const long double theta = std::fabs(random.angle[i]), s = sinl(theta), c = cosl(theta);
-    const long double k = (1 - 3 * c * c) / (6 * c), turned = theta + outcomes[i].contact_angle[1];
-    const long double residual = s + k * turned - sinl(turned - theta), slope = k - cosl(turned - theta);
-    // The angle turned is a sum of terms of order 1 over this slope.
-    const long double ulps = 16 * 0x1p-53L * (1 + 1 / fabsl(slope));
-    BOOST_TEST(fabsl(residual / slope) <= ulps * turned);
-    ++solved;
-  }
-  // The second impact ends at 58.488442288312 degrees.
-  const double expected = 58.488442288312 / 90 * static_cast<double>(drop_count);
-  BOOST_TEST(std::fabs(static_cast<double>(solved) - expected) <= 4 * std::sqrt(static_cast<double>(drop_count)) / 2);
-}
-
-BOOST_AUTO_TEST_CASE(the_elastic_rod_has_equal_blows_where_its_centre_stops) {
-  const std::vector<double> theta{std::acos(1 / std::sqrt(3.0))}, fall{-1}, none{0}, one{1};
-  const BatchDrops drops{make_rod({}), theta, fall, none, none, none, one, none};
-  std::vector<BatchOutcome> outcome(1);
-  run_batch(drops, {.limit = 6}, 0, outcome);
-  BOOST_TEST(!outcome[0].is_scalar);
-  for (const int n : {0, 1}) {
-    BOOST_TEST(std::fabs(outcome[0].impulse[static_cast<std::size_t>(n)] - 1) <= 1e-15);
-    BOOST_TEST(std::fabs(outcome[0].contact_angle[static_cast<std::size_t>(n)] - theta[0]) <= 1e-15);
-  }
-  BOOST_TEST(outcome[0].hardest >= 1);
-}
-
-BOOST_AUTO_TEST_CASE(contacts_of_many_rods_are_those_of_each_with_the_velocities_after_them) {
-  const RodParameters rods[]{{}, {.gravity_number = 0.4}, {.restitution = 0.7, .impulse_ratio = 0.2}};
-  std::vector<double> theta;
-  for (int i = 1; i < 400; ++i) theta.push_back(0.2 * i);
-  for (const RodParameters& rod : rods) {
-    std::vector<RodContacts> rows(theta.size());
-    batch_contact_angles(theta, rod, rows);
-    std::size_t by_batch = 0;
-    for (std::size_t i = 0; i < theta.size(); ++i) {
-      const ContactAngles expected = contact_angles(Angle::from_degrees(theta[i]), rod);
-      BOOST_TEST_REQUIRE(rows[i].impacts == expected.impacts());
-      by_batch += rows[i].is_scalar ? 0 : 1;
-      // Condition numbers of these rods stay below a thousand but next to a fold.
-      constexpr double close = 1e-12;
-      for (std::size_t n = 0; n < static_cast<std::size_t>(rows[i].impacts); ++n) {
-        BOOST_TEST(std::fabs(rows[i].impulse[n] - expected.impulse[n]) <= close);
-        BOOST_TEST(std::fabs(rows[i].velocity[n] - expected.velocity[n]) <= close);
-        BOOST_TEST(std::fabs(rows[i].angular[n] - expected.angular[n]) <= 10 * close);
-      }
-      if (rows[i].impacts < 3) BOOST_TEST(std::isnan(rows[i].velocity[2]));
-    }
-    BOOST_TEST(by_batch >= theta.size() / 2);
-  }
 }
 
 BOOST_AUTO_TEST_CASE(a_fold_is_the_scalar_codes) {
@@ -271,16 +209,6 @@ BOOST_AUTO_TEST_CASE(infinitely_many_impacts_are_proven_where_the_scalar_code_su
   }
 }
 
-BOOST_AUTO_TEST_CASE(close_to_flat_the_rod_strikes_infinitely_often_up_to_e_of_seven_less_four_roots_of_three) {
-  const double limit = 7 - 4 * std::sqrt(3.0);
-  const std::vector<double> theta{1e-5}, fall{-1}, none{0}, e{limit * (1 - 1e-6), limit * (1 + 1e-6)};
-  const BatchDrops drops{make_rod({}), theta, fall, none, none, none, e, none};
-  std::vector<BatchOutcome> outcomes(2);
-  run_lanes(drops, {.limit = 100, .only_counts = true}, 0, outcomes);
-  BOOST_TEST(static_cast<int>(outcomes[0].end) == static_cast<int>(BatchEnd::infinite));
-  BOOST_TEST(static_cast<int>(outcomes[1].end) != static_cast<int>(BatchEnd::infinite));
-}
-
 BOOST_AUTO_TEST_CASE(what_the_kernels_are_not_for_has_an_end_of_its_own) {
   const std::vector<double> theta{0, pi / 2, 0.3, 0.3, 1.1, 0.3}, fall{-1, -1, -1, 1, -1, -1}, none{0};
   const std::vector<double> gravity{0, 0, 9.81, 0, 0, 9.81}, e{1, 1, 0.2, 1, 1, 0}, ratio{0, 0, 0, 0, 5, 0};
@@ -306,7 +234,8 @@ BOOST_AUTO_TEST_CASE(arrays_of_two_lengths_and_a_limit_below_one_are_refused) {
   BOOST_CHECK_THROW(run_batch(drops, {.limit = 0}, 0, outcomes), std::invalid_argument);
 }
 
-BOOST_AUTO_TEST_CASE(contact_angles_of_many_rods_are_those_of_each) {
+BOOST_AUTO_TEST_CASE(contacts_of_many_rods_are_those_of_each_with_the_velocities_after_them) {
+  constexpr double close = 1e-12;  // condition numbers stay below a thousand but next to a fold
   const std::vector<RodParameters> rods{{}, {0.7, 1, 0}, {0, 0.4, 0}, {0, 1, 0.3}, {0, 1, -1.2}, {0.5, 0.8, 1.1}};
   std::vector<double> theta;
   for (std::size_t i = 0; i < drop_count; ++i) theta.push_back(90. * static_cast<double>(i) / drop_count);
@@ -320,18 +249,24 @@ BOOST_AUTO_TEST_CASE(contact_angles_of_many_rods_are_those_of_each) {
       BOOST_TEST_REQUIRE(std::isnan(rows[i].angle[0]) == (one.impacts() < 2));
       if (one.impacts() > 1) BOOST_TEST_REQUIRE(is_within(rows[i].angle[0], one.beta.angle, 1e-8));  // near a fold
       scalar += rows[i].is_scalar ? 1 : 0;
+      if (rows[i].impacts < 3) BOOST_TEST_REQUIRE(std::isnan(rows[i].velocity[2]));
+      if (i % 9 != 0 || std::fabs(rod.impulse_ratio) > 1) continue;
+      for (std::size_t n = 0; n < static_cast<std::size_t>(rows[i].impacts); ++n) {
+        BOOST_TEST(is_within(rows[i].impulse[n], one.impulse[n], close));
+        BOOST_TEST(is_within(rows[i].velocity[n], one.velocity[n], close));
+        BOOST_TEST(is_within(rows[i].angular[n], one.angular[n], 10 * close));
+      }
     }
     BOOST_TEST(static_cast<double>(scalar) <= few * static_cast<double>(drop_count));
   }
-  BOOST_CHECK_THROW(batch_contact_angles(theta, {}, std::span(rows).first(1)), std::invalid_argument);
+  CHECK_REFUSED(batch_contact_angles(theta, {}, std::span(rows).first(1)), std::invalid_argument);
 }
 
 BOOST_AUTO_TEST_CASE(sines_and_cosines_are_good_to_one_and_a_half_ulp) {
-  std::mt19937_64 random(5);
-  std::uniform_real_distribution<double> part(-100, 100);
+  Random random(5);
   double worst = 0;
   for (std::size_t i = 0; i < 50 * drop_count; ++i) {
-    const double x = i % 2 ? part(random) : part(random) / 64;
+    const double x = random(-100, 100) / (i % 2 ? 1 : 64);
     const SineCosine found = sine_cosine(Vector{x, -x});
     const long double s = sinl(x), c = cosl(x);
     for (const auto& [value, exact] : {std::pair(found.sine[0], s), std::pair(-found.sine[1], s),

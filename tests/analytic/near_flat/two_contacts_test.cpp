@@ -1,19 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analytic/near_flat/two_contacts.hpp"
 
-#include <boost/test/unit_test.hpp>
-#include <cmath>
-#include <random>
-#include <stdexcept>
-
-#include "analytic/plane/sequence.hpp"
+#include "tests/support.hpp"
 
 namespace {
 
 using namespace clatter::analytic::near_flat;
-namespace plane = clatter::analytic;
-
-constexpr double eps = 0x1p-52;
+using clatter::test::eps, clatter::test::Random;
 
 /// Impulses/(m|v|) by nothing but Newton's law, z and φ: u = V − Ω d, P = −(1 + e) u/(1 + d²/κ²).
 std::vector<long double> struck_by_hand(const TwoContacts& body, double e, End first, int most) {
@@ -33,17 +26,6 @@ std::vector<long double> struck_by_hand(const TwoContacts& body, double e, End f
 
 TwoContacts with_ratio(double square) { return {.arm_a = 1, .arm_b = 1, .gyration = 1 / std::sqrt(square)}; }
 
-BOOST_AUTO_TEST_CASE(the_uniform_rod_has_impulses_one_half_one_one_half_and_ends_that_change_velocity_1_2_1) {
-  const auto found = strikes(with_ratio(3), 1, End::a, 10);
-  BOOST_REQUIRE_EQUAL(found.size(), 3u);
-  const double impulses[3] = {0.5, 1, 0.5}, approaches[3] = {1, 2, 1};
-  for (std::size_t i = 0; i < 3; ++i) {
-    BOOST_CHECK_LE(std::fabs(found[i].impulse - impulses[i]), 8 * eps);
-    BOOST_CHECK_LE(std::fabs(found[i].approach - approaches[i]), 16 * eps);
-    BOOST_CHECK(found[i].end == (i == 1 ? End::b : End::a));
-  }
-}
-
 BOOST_AUTO_TEST_CASE(strikes_count_the_digits_of_half_pi) {
   // π/ψ + 1/2 with ψ = 2 arctan(10^-k): π/2 10^k + 1/2 less a part of 10^-k.
   const long long counts[] = {2, 16, 157, 1571, 15708, 157080, 1570796};
@@ -56,12 +38,11 @@ BOOST_AUTO_TEST_CASE(strikes_count_the_digits_of_half_pi) {
 }
 
 BOOST_AUTO_TEST_CASE(strikes_of_unequal_arms_and_any_restitution_are_those_struck_one_by_one) {
-  std::mt19937 random(5);
-  std::uniform_real_distribution<double> any(0, 1);
+  Random random(5);
   int finite = 0;
   for (int i = 0; i < 2000; ++i) {
-    const TwoContacts body{0.2 + any(random), i % 7 == 0 ? -0.1 : 0.05 + any(random), 0.02 + any(random)};
-    const double e = i % 3 == 0 ? 1 : any(random);
+    const TwoContacts body{random(0.2, 1.2), i % 7 == 0 ? -0.1 : random(0.05, 1.05), random(0.02, 1.02)};
+    const double e = i % 3 == 0 ? 1 : random(0, 1);
     const End first = i % 2 == 0 ? End::a : End::b;
     const auto by_hand = struck_by_hand(body, e, first, 300);
     const auto found = strikes(body, e, first, 300);
@@ -69,9 +50,8 @@ BOOST_AUTO_TEST_CASE(strikes_of_unequal_arms_and_any_restitution_are_those_struc
     finite += by_hand.size() < 300 ? 1 : 0;
     double most = 0;
     for (const auto p : by_hand) most = std::fmax(most, static_cast<double>(p));
-    for (std::size_t j = 0; j < found.size(); ++j) {
+    for (std::size_t j = 0; j < found.size(); ++j)
       BOOST_REQUIRE_LE(std::fabs(found[j].impulse - static_cast<double>(by_hand[j])), 16 * eps * most);
-    }
   }
   BOOST_CHECK_GT(finite, 1000);
 }
@@ -96,34 +76,10 @@ BOOST_AUTO_TEST_CASE(infinitely_many_strikes_up_to_the_critical_restitution_brin
   BOOST_CHECK_EQUAL(strike_count({1, 1, 1.5}, 0, End::a).value(), 2);
 }
 
-/// Largest error of the impulses of the full model of the plane, elastic, a thick rod with its centre off the middle.
-double error_of_limit(double inclination) {
-  plane::PlanarBody body{.mass = 2, .gyration_square = 0.09, .vertex_count = 2, .vertices = {}};
-  body.vertices[0] = {-0.3, -0.1};
-  body.vertices[1] = {0.7, -0.1};
-  const plane::Drop drop{
-      .body = body, .inclination = plane::Angle::from_radians(inclination), .velocity = {.normal = -3}, .law = {}};
-  const auto limit = strikes({0.3, 0.7, 0.3}, 1, End::a, 9);
-  const auto full = plane::impact_sequence(drop, {.impacts = 9, .amplification = false});
-  BOOST_REQUIRE_EQUAL(full.rows.size(), limit.size());
-  double error = 0;
-  for (std::size_t i = 0; i < limit.size(); ++i) {
-    error = std::fmax(error, std::fabs(full.rows[i].impact.normal_impulse / 6 - limit[i].impulse));
-  }
-  return error;
-}
-
-BOOST_AUTO_TEST_CASE(the_full_model_tends_to_the_limit_with_the_first_power_of_the_inclination) {
-  const double coarse = error_of_limit(1e-3), fine = error_of_limit(5e-4);
-  BOOST_CHECK_LE(std::fabs(coarse / fine - 2), 0.02);
-  BOOST_CHECK_LE(error_of_limit(1e-13), 1e-12);
-}
-
 BOOST_AUTO_TEST_CASE(what_is_no_body_or_no_restitution_is_refused) {
-  BOOST_CHECK_THROW(static_cast<void>(wedge_angle({1, -1, 1})), std::domain_error);
-  BOOST_CHECK_THROW(static_cast<void>(wedge_angle({1, 1, 0})), std::domain_error);
-  BOOST_CHECK_THROW(static_cast<void>(wedge_angle({std::nan(""), 1, 1})), std::domain_error);
-  BOOST_CHECK_THROW(static_cast<void>(strike_count({1, 1, 1}, 1.1, End::a)), std::domain_error);
+  for (const TwoContacts& body : {TwoContacts{1, -1, 1}, {1, 1, 0}, {std::nan(""), 1, 1}})
+    CHECK_REFUSED(wedge_angle(body), std::domain_error);
+  CHECK_REFUSED(strike_count({1, 1, 1}, 1.1, End::a), std::domain_error);
 }
 
 }  // namespace

@@ -1,13 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "numeric/contact/overhangs.hpp"
 
-#include <boost/test/unit_test.hpp>
-#include <cmath>
-#include <random>
-#include <vector>
-
 #include "numeric/contact/contact_load.hpp"
 #include "tests/numeric/bodies.hpp"
+#include "tests/numeric/support.hpp"
 
 namespace {
 
@@ -17,62 +13,42 @@ using namespace clatter::numeric::test;
 constexpr double relative = 1e-12;   ///< integrals are right to 1e-13 of the normal force
 constexpr double of_columns = 3e-3;  ///< 500 × 500 columns, of which those at edges count in full or not at all
 
-class Random {
- public:
-  explicit Random(unsigned seed) : random_(seed) {}
-  double operator()(double low, double high) { return std::uniform_real_distribution(low, high)(random_); }
-  Vector3 vector() { return {(*this)(-1, 1), (*this)(-1, 1), (*this)(-1, 1)}; }
-
- private:
-  std::mt19937 random_;
-};
-
 Mesh tetrahedron(Random& random) {
-  Mesh mesh;
-  Element element{.shape = ElementShape::tetrahedron};
+  std::vector<Vector3> nodes;
   double volume = 0;
   while (!(std::fabs(volume) > 0.1)) {
-    mesh.nodes = {random.vector(), random.vector(), random.vector(), random.vector()};
-    const Vector3& origin = mesh.nodes[0];
-    volume = (mesh.nodes[1] - origin).cross(mesh.nodes[2] - origin).dot(mesh.nodes[3] - origin);
+    nodes = {random.vector(), random.vector(), random.vector(), random.vector()};
+    volume = (nodes[1] - nodes[0]).cross(nodes[2] - nodes[0]).dot(nodes[3] - nodes[0]);
   }
-  element.nodes = {0, 1, 2, 3, -1, -1, -1, -1};
-  if (volume < 0) std::swap(element.nodes[1], element.nodes[2]);
-  mesh.elements = {element};
-  return mesh;
+  if (volume < 0) std::swap(nodes[1], nodes[2]);
+  return single(ElementShape::tetrahedron, nodes, Element{}.density);
 }
 
 GroundView view_of(const Body& body, const Eigen::Quaterniond& attitude, double depth, const Vector3& velocity,
                    const Vector3& rotation) {
   MotionState state;
   state.attitude = attitude;
-  state = on_ground(body, state);
-  const Eigen::Quaterniond back = attitude.conjugate();
-  GroundView view;
-  view.reference = {back * Vector3::UnitZ(), state.centre.z()};
-  view.sink = -depth;
+  GroundView view = pressed(on_ground(body, state), depth);
   view.vertical_speed = velocity.z();
-  view.angular_velocity = back * rotation;
-  view.east = back * Vector3::UnitX();
-  view.north = back * Vector3::UnitY();
+  view.angular_velocity = attitude.conjugate() * rotation;
   view.east_speed = velocity.x();
   view.north_speed = velocity.y();
   return view;
 }
 
-/// A body of one element that goes into the ground by a corner.
 struct Corner {
   Body body;
   GroundView view;
   Ground ground;
 };
 
+/// With friction 1.
 Corner random_corner(Random& random) {
   Body body(tetrahedron(random));
-  const Vector3 axis = random.vector();
-  const Eigen::Quaterniond attitude(Eigen::AngleAxisd(random(0, 3), axis.normalized()));
-  const GroundView view = view_of(body, attitude, random(0.01, 0.5), random.vector(), 3 * random.vector());
-  return {std::move(body), view, {.stiffness = 1, .damping = random(0, 0.5), .area = AreaMeasure::projected}};
+  const Eigen::Quaterniond attitude(Eigen::AngleAxisd(random(0, 3), random.direction()));
+  const GroundView view = view_of(body, attitude, random(0.01, 0.5), random.vector(), random.vector(3));
+  return {std::move(body), view,
+          with_friction({.stiffness = 1, .damping = random(0, 0.5), .area = AreaMeasure::projected}, 1)};
 }
 
 Vector3 force_of(const GroundView& view, const SlipLoad& load) {
@@ -98,8 +74,7 @@ Vector3 friction_of_columns(const Corner& corner) {
       const Vector3 foot = ((i + 0.5) * side - size) * view.east + ((j + 0.5) * side - size) * view.north;
       double low = -1e9, high = 1e9;  // heights along `up` from the foot, within all faces
       for (const Facet& facet : facets.facets) {
-        const Vector3& u = facets.vertices[static_cast<std::size_t>(
-            facets.corners[static_cast<std::size_t>(facets.loops[static_cast<std::size_t>(facet.begin)].begin)])];
+        const Vector3& u = facets.vertices[facets.corners[facets.loops[facet.begin].begin]];
         const double slope = facet.normal.dot(up), at = facet.normal.dot(u - foot) / slope;
         (slope < 0 ? low : high) = slope < 0 ? std::max(low, at) : std::min(high, at);
       }
@@ -120,21 +95,13 @@ Vector3 friction_of_columns(const Corner& corner) {
 
 /// Boxes of 1 × 1 × 0.1, each at its place in a grid.
 Mesh blocks(const std::vector<std::array<int, 3>>& cells) {
-  Mesh mesh;
-  constexpr int side = 4;  // nodes along each axis
-  for (int z = 0; z < side; ++z) {
-    for (int y = 0; y < side; ++y) {
-      for (int x = 0; x < side; ++x) mesh.nodes.emplace_back(x, y, 0.1 * z);
-    }
-  }
-  for (const auto& [x, y, z] : cells) {
-    const int base = x + side * (y + side * z), over = side * side;
-    Element element{.shape = ElementShape::hexahedron};
-    element.nodes = {base,        base + 1,        base + side + 1,        base + side,
-                     base + over, base + over + 1, base + over + side + 1, base + over + side};
-    mesh.elements.push_back(element);
-  }
-  return mesh;
+  const Mesh grid =
+      moved(box_mesh({.size = {3, 3, 0.3}, .nx = 3, .ny = 3, .nz = 3}), Matrix3::Identity(), {1.5, 1.5, 0.15});
+  return without(grid, [&](const Vector3& centre) {
+    const std::array<int, 3> cell{static_cast<int>(centre.x()), static_cast<int>(centre.y()),
+                                  static_cast<int>(10 * centre.z())};
+    return std::find(cells.begin(), cells.end(), cell) == cells.end();
+  });
 }
 
 }  // namespace
@@ -143,8 +110,7 @@ BOOST_AUTO_TEST_CASE(friction_of_faces_that_look_up_is_bounded_by_the_normal_for
   Random random(7);
   int looking_up = 0;
   for (int i = 0; i < 90; ++i) {
-    Corner corner = random_corner(random);
-    corner.ground.sliding_friction = corner.ground.static_friction = 1;
+    const Corner corner = random_corner(random);
     ContactLoader loader(corner.body, corner.ground);
     const ContactLoad load = loader.load(corner.view);
     if (!(load.force > 0)) continue;
@@ -166,8 +132,7 @@ BOOST_AUTO_TEST_CASE(friction_of_faces_that_look_up_is_bounded_by_the_normal_for
 BOOST_AUTO_TEST_CASE(friction_is_that_of_columns_each_pressed_by_the_difference_of_its_ends) {
   Random random(11);
   for (int seen = 0; seen < 5;) {
-    Corner corner = random_corner(random);
-    corner.ground.sliding_friction = corner.ground.static_friction = 1;
+    const Corner corner = random_corner(random);
     ContactLoader loader(corner.body, corner.ground);
     const ContactLoad load = loader.load(corner.view);
     if (!(load.force > 0.02)) continue;  // a patch of many columns
@@ -186,7 +151,7 @@ BOOST_AUTO_TEST_CASE(walls_that_are_all_but_upright_change_no_friction) {
       const GroundView view =
           view_of(box, Eigen::Quaterniond(Eigen::AngleAxisd(tilt, axis)), depth, {0, -1e-7, -1}, {0, 0, 20});
       const auto friction_by = [&](AreaMeasure area) -> Vector3 {
-        const Ground ground{.stiffness = 1, .static_friction = 1, .sliding_friction = 1, .area = area};
+        const Ground ground = with_friction({.stiffness = 1, .area = area}, 1);
         ContactLoader loader(box, ground);
         const double force = loader.load(view).force;
         return force_of(view, loader.slip_load(view, {})) / force;
@@ -203,8 +168,7 @@ BOOST_AUTO_TEST_CASE(a_face_that_looks_up_leans_on_the_next_face_below_it) {
   std::vector<std::array<int, 3>> all = wall;
   all.insert(all.end(), low.begin(), low.end());
   all.insert(all.end(), high.begin(), high.end());
-  const Ground ground{
-      .stiffness = 1, .damping = 0.01, .static_friction = 1, .sliding_friction = 1, .area = AreaMeasure::projected};
+  const Ground ground = with_friction({.stiffness = 1, .damping = 0.01, .area = AreaMeasure::projected}, 1);
   const Vector3 velocity(0.3, -0.2, -0.1), rotation(2, 3, 0.5), centre(1.5, 0.5, 0.15);
   const auto friction_of = [&](const std::vector<std::array<int, 3>>& cells) {
     Mesh mesh = blocks(cells);

@@ -1,47 +1,21 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "numeric/contact/smooth_contact.hpp"
 
-#include <boost/test/unit_test.hpp>
-
-#include <cmath>
-#include <numbers>
-#include <random>
-
 #include "numeric/contact/gauss_rules.hpp"
 #include "tests/numeric/bodies.hpp"
+#include "tests/numeric/support.hpp"
 
 namespace {
 
 using namespace clatter::numeric;
 using namespace clatter::numeric::test;
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
+
 constexpr double relative = 1e-12;
 
-class Uniform {
- public:
-  explicit Uniform(unsigned seed) : random_(seed) {}
-  double operator()(double low, double high) { return std::uniform_real_distribution<double>(low, high)(random_); }
-  Vector3 vector(double size) { return {(*this)(-size, size), (*this)(-size, size), (*this)(-size, size)}; }
-  Vector3 direction() {
-    for (;;) {
-      const Vector3 v = vector(1);
-      if (v.norm() > 0.1 && v.norm() < 1) return v.normalized();
-    }
-  }
-
- private:
-  std::mt19937 random_;
-};
-
 /// A body of this shape, whose mass properties play no part.
-Body body_of(const SmoothShape& shape) {
-  const Mesh mesh = round_mesh({.semiaxes = shape.semiaxes, .straight = shape.straight, .sectors = 8, .rings = 2});
-  return {{.mass = 1, .centre = -shape.centre, .inertia = Matrix3::Identity()},
-          boundary_surface(mesh),
-          true,
-          SmoothShape{shape.semiaxes, shape.straight, Vector3::Zero()}};
-}
+Body body_of(const SmoothShape& shape) { return round_body(shape, 1, Matrix3::Identity()); }
 
 /// At rest `depth` below the touch, the ground's normal given in the body frame.
 GroundView pressed(const SmoothShape& shape, const Vector3& normal, double depth) {
@@ -67,9 +41,9 @@ void check_close(double value, double expected, double bound) { BOOST_TEST(std::
 }  // namespace
 
 BOOST_AUTO_TEST_CASE(a_ball_presses_with_the_volume_of_its_cap_or_the_depth_over_its_surface) {
-  Uniform random(1);
+  Random random(1);
   for (int i = 0; i < 300; ++i) {
-    const double radius = std::pow(10, random(-3, 1)), depth = radius * std::pow(10, random(-9, 0.29));
+    const double radius = random.decades(-3, 1), depth = radius * random.decades(-9, 0.29);
     const SmoothShape ball{Vector3::Constant(radius), 0, random.vector(radius / 2)};
     const GroundView view = pressed(ball, random.direction(), depth);
     // The depth itself is known to the rounding of the body's size.
@@ -90,12 +64,12 @@ BOOST_AUTO_TEST_CASE(a_ball_presses_with_the_volume_of_its_cap_or_the_depth_over
 }
 
 BOOST_AUTO_TEST_CASE(an_ellipsoid_presses_with_the_volume_that_is_cut_off) {
-  Uniform random(2);
+  Random random(2);
   for (int i = 0; i < 300; ++i) {
     const SmoothShape shape{{random(0.2, 1), random(0.2, 1), random(0.2, 1)}, 0, random.vector(0.2)};
     const Vector3 normal = random.direction();
     const double stretch = shape.semiaxes.cwiseProduct(normal).norm();
-    const double depth = stretch * std::pow(10, random(-6, 0.29)), part = depth / stretch;
+    const double depth = stretch * random.decades(-6, 0.29), part = depth / stretch;
     const double volume = pi * shape.semiaxes.prod() * part * part * (1 - part / 3);
     const ContactLoad load =
         load_of(shape, {.stiffness = 2, .area = AreaMeasure::projected}, pressed(shape, normal, depth));
@@ -144,15 +118,14 @@ BOOST_AUTO_TEST_CASE(a_capsule_presses_with_its_cap_its_strip_or_both) {
                 (known + cut) * volume);
     check_close(load_of(shape, {.stiffness = 1, .area = AreaMeasure::surface}, level).force, surface,
                 (known + cut) * surface);
-    if (part <= 1) {
+    if (part <= 1)
       check_close(load_of(shape, {.stiffness = 1, .area = AreaMeasure::projected}, upright).force, cap, known * cap);
-    }
   }
 }
 
 /// Against the facets of a fine mesh, which come to the shape with the second order.
 BOOST_AUTO_TEST_CASE(load_rates_and_friction_are_those_of_ever_finer_facets) {
-  Uniform random(3);
+  Random random(3);
   for (int i = 0; i < 24; ++i) {
     const bool is_capsule = i % 3 == 2;
     const SmoothShape shape{is_capsule ? Vector3(Vector3::Constant(0.5)) : Vector3(random(0.4, 1), random(0.4, 1), 0.7),
@@ -164,11 +137,10 @@ BOOST_AUTO_TEST_CASE(load_rates_and_friction_are_those_of_ever_finer_facets) {
     view.east_speed = random(-1, 1);
     view.north_speed = random(-1, 1);
     // Some of the patches let go in a part.
-    const Ground ground{.stiffness = 1,
-                        .damping = i % 2 == 0 ? 0.2 : 1.5,
-                        .static_friction = 1,
-                        .sliding_friction = 1,
-                        .area = i % 4 < 2 ? AreaMeasure::projected : AreaMeasure::surface};
+    const Ground ground = with_friction({.stiffness = 1,
+                                         .damping = i % 2 == 0 ? 0.2 : 1.5,
+                                         .area = i % 4 < 2 ? AreaMeasure::projected : AreaMeasure::surface},
+                                        1);
     const SlipField fields[] = {
         {.kind = SlipField::Kind::points},
         {.kind = SlipField::Kind::points, .regularisation = 0.1},
@@ -246,23 +218,20 @@ SlipLoad summed(const SmoothShape& shape, const Ground& ground, const GroundView
 
 BOOST_AUTO_TEST_CASE(a_cap_that_spins_rubs_as_the_sum_over_its_surface_wherever_nothing_slips) {
   constexpr double tolerance = 1e-10, spin = 10;
-  Uniform random(4);
+  Random random(4);
   for (const Vector3& semiaxes : {Vector3(1, 1, 1), Vector3(0.5, 0.8, 1)}) {
     const SmoothShape shape{semiaxes, 0, Vector3::Zero()};
     for (const double part : {0.0, 0.4, 0.75, 0.97, 1.0, 1.03, 2.0}) {
       const Vector3 normal = random.direction();
-      const double depth = std::pow(10, random(-4, -1)), width = std::sqrt(2 * depth);
+      const double depth = random.decades(-4, -1), width = std::sqrt(2 * depth);
       GroundView view = pressed(shape, normal, depth);
       view.vertical_speed = -0.3;
       view.angular_velocity = spin * normal + random.vector(1);
       const Vector3 lowest = view.angular_velocity.cross(shape.lowest(0, normal));
       view.east_speed = 0.6 * spin * part * width - lowest.dot(view.east);
       view.north_speed = 0.8 * spin * part * width - lowest.dot(view.north);
-      const Ground ground{.stiffness = 1,
-                          .damping = 0.1,
-                          .static_friction = 1,
-                          .sliding_friction = 1,
-                          .area = part < 1 ? AreaMeasure::projected : AreaMeasure::surface};
+      const AreaMeasure area = part < 1 ? AreaMeasure::projected : AreaMeasure::surface;
+      const Ground ground = with_friction({.stiffness = 1, .damping = 0.1, .area = area}, 1);
       const SlipField field{.kind = SlipField::Kind::points, .digits = 11, .regularisation = 0.03 * spin * width};
       const auto surface = contact_surface(body_of(shape), ground);
       const double force = surface->load(view).force;

@@ -1,24 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "numeric/motion/free_rotation.hpp"
 
-#include <algorithm>
 #include <boost/multiprecision/cpp_bin_float.hpp>
-#include <boost/test/unit_test.hpp>
-#include <cmath>
-#include <numbers>
-#include <random>
-#include <stdexcept>
-#include <string>
 
+#include "tests/support.hpp"
 #include "validation/oracles/free_top.hpp"
 
 namespace {
 
 using namespace clatter::numeric;
 using clatter::oracle::Top;
+using clatter::test::eps, clatter::test::Random;
 using Exact = boost::multiprecision::cpp_bin_float_50;
 
-constexpr double eps = 2.2e-16;
 constexpr double turn = 2 * std::numbers::pi;
 
 struct Body {
@@ -81,9 +75,9 @@ Vector3 world_momentum(const Matrix3& inertia, const Rotation& r) {
 
 }  // namespace
 
-BOOST_AUTO_TEST_CASE(free_rotation_solves_euler_s_equations_over_1000_turns) {
-  constexpr double turns = CLATTER_TEST_SLOW_BUILD ? 50 : 1000;
-  constexpr double tolerance = 1e-11;  // 7 eps for each of the 6283 radians
+BOOST_AUTO_TEST_CASE(free_rotation_solves_euler_s_equations_over_200_turns) {
+  constexpr double turns = CLATTER_TEST_SLOW_BUILD ? 20 : 200;
+  constexpr double tolerance = 2e-12;  // 7 eps for each of the 1257 radians
   const Body bodies[] = {
       {"phone about its long axis", phone, {20, 0.5, -0.3}},
       {"phone about its middle axis", phone, {1, 20, 3}},
@@ -125,99 +119,38 @@ BOOST_AUTO_TEST_CASE(a_body_leaves_its_intermediate_axis_when_a_cross_component_
   };
   for (const Body& body : bodies) {
     BOOST_TEST_CONTEXT(body.name) {
-      const double worst = worst_distance<Exact, 60>(body, 25);
+      const double worst = worst_distance<Exact, 60>(body, 18);
       BOOST_TEST(worst <= tolerance);
     }
   }
 }
 
-BOOST_AUTO_TEST_CASE(energy_and_angular_momentum_stay_to_a_few_eps_over_a_million_turns) {
-  constexpr double tolerance = 20 * eps;
-  const Matrix3 turned = Eigen::Quaterniond(1, 2, -1, 3).normalized().toRotationMatrix();
-  for (const Vector3& moments : {phone, Vector3(1, 2, 3), Vector3(1e-9, 1, 1 + 4e-10), Vector3(1, 1, 2)}) {
-    for (const Matrix3& axes : {Matrix3(Matrix3::Identity()), turned}) {
-      if (axes(0, 0) != 1 && moments.minCoeff() < 1e-6 * moments.maxCoeff()) continue;
-      const Matrix3 inertia = axes * diagonal(moments) * axes.transpose();
-      const Rotation start{Eigen::Quaterniond(1, -2, 1, 0.3).normalized(), {7, -9, 4}};
-      const FreeRotation rotation(inertia, start);
-      const Vector3 momentum = world_momentum(inertia, start);
-      const double energy = start.angular_velocity.dot(inertia * start.angular_velocity);
-      for (double turns = 0; turns <= 1e6; turns += 997.3) {
-        const Rotation r = rotation.at(turns * turn / start.angular_velocity.norm());
-        const double e = r.angular_velocity.dot(inertia * r.angular_velocity);
-        BOOST_REQUIRE(std::fabs(r.attitude.norm() - 1) <= 2 * eps);
-        BOOST_REQUIRE(std::fabs(e - energy) <= tolerance * energy);
-        BOOST_REQUIRE((world_momentum(inertia, r) - momentum).norm() <= tolerance * momentum.norm());
-      }
-    }
-  }
-}
-
+/// At rest, too.
 BOOST_AUTO_TEST_CASE(rotation_about_a_principal_axis_is_a_uniform_turn) {
   for (int axis = 0; axis < 3; ++axis) {
-    const Vector3 omega = -3 * Vector3::Unit(axis);
-    const FreeRotation rotation(diagonal(phone), {.angular_velocity = omega});
-    for (const double time : {0.0, 0.3, -1.7, 2000.0}) {
-      const Rotation r = rotation.at(time);
-      BOOST_CHECK(r.angular_velocity == omega);
-      Eigen::Vector4d expected = Eigen::Vector4d::Zero();
-      expected[axis] = std::sin(-1.5 * time);
-      expected[3] = std::cos(-1.5 * time);
-      BOOST_TEST((r.attitude.coeffs() - expected).norm() <= 4 * eps);
+    for (const double speed : {-3.0, 0.0}) {
+      const Vector3 omega = speed * Vector3::Unit(axis);
+      const FreeRotation rotation(diagonal(phone), {.angular_velocity = omega});
+      for (const double time : {0.0, 0.3, -1.7, 2000.0}) {
+        const Rotation r = rotation.at(time);
+        BOOST_CHECK(r.angular_velocity == omega);
+        Eigen::Vector4d expected = Eigen::Vector4d::Zero();
+        expected[axis] = std::sin(speed / 2 * time);
+        expected[3] = std::cos(speed / 2 * time);
+        BOOST_TEST((r.attitude.coeffs() - expected).norm() <= 4 * eps);
+      }
+      BOOST_TEST(rotation.largest_acceleration() == 0);
+      BOOST_TEST(rotation.largest_speed() <= std::fabs(speed) * (1 + 1e-13));
     }
-    BOOST_TEST(rotation.largest_acceleration() == 0);
   }
 }
 
 BOOST_AUTO_TEST_CASE(a_planar_motion_stays_planar_to_the_last_bit) {
   Matrix3 inertia;
   inertia << 2, 0, 0.3, 0, 2.5, 0, 0.3, 0, 1;
-  const Rotation start{Eigen::Quaterniond(0.6, 0, 0.8, 0), {0, 1.3, 0}};
-  const Rotation r = FreeRotation(inertia, start).at(123.4);
+  const Rotation start{Eigen::Quaterniond(0.6, 0, 0.8, 0), {0, 1.3, 0}}, r = FreeRotation(inertia, start).at(123.4);
   BOOST_CHECK(r.angular_velocity == start.angular_velocity);
-  BOOST_TEST(r.attitude.x() == 0);
-  BOOST_TEST(r.attitude.z() == 0);
-}
-
-BOOST_AUTO_TEST_CASE(a_body_at_rest_stays_at_rest) {
-  const FreeRotation rotation(diagonal(phone), {});
-  BOOST_TEST(rotation.at(1e9).angular_velocity.norm() == 0);
-  BOOST_CHECK(rotation.at(1e9).attitude.coeffs() == Eigen::Quaterniond::Identity().coeffs());
-  BOOST_TEST(rotation.largest_speed() == 0);
-}
-
-BOOST_AUTO_TEST_CASE(a_symmetrical_body_precesses_steadily_about_its_momentum) {
-  // Momentum along z; the axis of symmetry keeps its angle to it and goes round at L/I_t.
-  const double across = 2, along = 3, nutation = 0.7, momentum = 5;
-  const Vector3 omega(0, momentum * std::sin(nutation) / across, momentum * std::cos(nutation) / along);
-  const Eigen::Quaterniond tilt(Eigen::AngleAxisd(nutation, Vector3::UnitX()));
-  const FreeRotation rotation(diagonal({across, across, along}), {tilt, omega});
-  for (const double time : {0.1, -3.0, 100.0}) {
-    const double psi = momentum / across * time - std::numbers::pi / 2;
-    const Vector3 expected(std::sin(nutation) * std::cos(psi), std::sin(nutation) * std::sin(psi), std::cos(nutation));
-    const Vector3 axis = rotation.at(time).attitude * Vector3::UnitZ();
-    BOOST_TEST((axis - expected).norm() <= 4 * eps * (1 + std::fabs(psi)));
-  }
-}
-
-BOOST_AUTO_TEST_CASE(two_flights_in_a_row_are_one) {
-  constexpr double tolerance = 400 * eps;  // 20 radians, well conditioned starts
-  std::mt19937_64 random(7);
-  std::uniform_real_distribution<> any(-1, 1);
-  for (int i = 0; i < 2000; ++i) {
-    const double a = 1 + any(random) / 2, b = 1 + any(random) / 2;
-    const Matrix3 inertia = diagonal({a, b, std::fabs(a - b) + (any(random) + 1) * std::fmin(a, b)});
-    const Rotation start{Eigen::Quaterniond(any(random), any(random), any(random), 2).normalized(),
-                         {any(random), any(random), any(random)}};
-    const double first = 10 * any(random), second = 10 * any(random);
-    const FreeRotation rotation(inertia, start);
-    const Rotation once = rotation.at(first + second);
-    const Rotation twice = FreeRotation(inertia, rotation.at(first)).at(second);
-    // Near the separatrix a rounding of the middle state grows like e^t.
-    const double growth = std::exp(std::fabs(second));
-    BOOST_REQUIRE((once.angular_velocity - twice.angular_velocity).norm() <= tolerance * growth);
-    BOOST_REQUIRE(1 - std::fabs(once.attitude.dot(twice.attitude)) <= tolerance * growth);
-  }
+  BOOST_TEST((r.attitude.x() == 0 && r.attitude.z() == 0));
 }
 
 BOOST_AUTO_TEST_CASE(the_choice_of_body_axes_does_not_matter) {
@@ -254,11 +187,9 @@ BOOST_AUTO_TEST_CASE(the_bounds_hold_and_the_speed_s_is_attained) {
 
 BOOST_AUTO_TEST_CASE(whatever_the_size_shape_and_speed_the_result_is_finite_and_conserves_the_momentum) {
   constexpr double tolerance = 20 * eps;
-  std::mt19937_64 random(11);
-  const auto power = [&](double low, double high) {
-    return std::pow(10, std::uniform_real_distribution<>(low, high)(random));
-  };
-  for (int i = 0; i < 20000; ++i) {
+  Random random(11);
+  const auto power = [&](double low, double high) { return random.decades(low, high); };
+  for (int i = 0; i < 4000; ++i) {
     const double size = power(-30, 30), speed = power(-12, 8);
     const double a = i % 2 == 0 ? power(-12, 0) : 1 + power(-16, 0);
     const double difference = std::fmin(a, 1) * (i % 3 == 0 ? 1 : power(-17, 0));
@@ -273,7 +204,9 @@ BOOST_AUTO_TEST_CASE(whatever_the_size_shape_and_speed_the_result_is_finite_and_
       const Rotation r = rotation.at(turns * turn / omega.norm());
       BOOST_REQUIRE(r.angular_velocity.norm() <= rotation.largest_speed());
       BOOST_REQUIRE(std::fabs(r.attitude.norm() - 1) <= 2 * eps);
-      const Vector3 momentum = inertia * omega;
+      const Vector3 momentum = inertia * omega, w = r.angular_velocity;
+      const double energy = omega.dot(momentum);
+      if (std::isnormal(energy)) BOOST_REQUIRE(std::fabs(w.dot(inertia * w) / energy - 1) <= 2 * tolerance);
       BOOST_REQUIRE((world_momentum(inertia, r) - momentum).stableNorm() <= tolerance * momentum.stableNorm());
     }
     BOOST_REQUIRE(rotation.at(1e300).attitude.coeffs().allFinite());
@@ -281,18 +214,17 @@ BOOST_AUTO_TEST_CASE(whatever_the_size_shape_and_speed_the_result_is_finite_and_
 }
 
 BOOST_AUTO_TEST_CASE(what_is_no_inertia_or_no_number_is_refused) {
-  const auto refused = [](const Matrix3& inertia, const Rotation& start) {
-    BOOST_CHECK_THROW(FreeRotation(inertia, start), std::domain_error);
-  };
-  refused(diagonal({1, 2, 3.1}), {});
-  refused(diagonal({0, 1, 1}), {});
-  refused(diagonal({-1, 1, 1}), {});
-  refused(diagonal({1, NAN, 1}), {});
   Matrix3 skewed = Matrix3::Identity();
   skewed(0, 1) = 0.1;
-  refused(skewed, {});
-  refused(diagonal({1, 1, 1}), {.angular_velocity = {0, INFINITY, 0}});
-  refused(diagonal({1, 1, 1}), {.attitude = Eigen::Quaterniond(0, 0, 0, 0)});
-  refused(diagonal({1, 1, 1}), {.attitude = Eigen::Quaterniond(NAN, 0, 0, 0)});
-  BOOST_CHECK_THROW(static_cast<void>(FreeRotation(diagonal({1, 1, 1}), {}).at(NAN)), std::domain_error);
+  for (const Matrix3& inertia :
+       {diagonal({1, 2, 3.1}), diagonal({0, 1, 1}), diagonal({-1, 1, 1}), diagonal({1, NAN, 1}), skewed}) {
+    BOOST_CHECK_THROW(FreeRotation(inertia, {}), std::domain_error);
+  }
+  const Matrix3 ball = Matrix3::Identity();
+  for (const Rotation& start : {Rotation{.angular_velocity = {0, INFINITY, 0}},
+                                {.attitude = Eigen::Quaterniond(0, 0, 0, 0)},
+                                {.attitude = Eigen::Quaterniond(NAN, 0, 0, 0)}}) {
+    BOOST_CHECK_THROW(FreeRotation(ball, start), std::domain_error);
+  }
+  CHECK_REFUSED(FreeRotation(ball, {}).at(NAN), std::domain_error);
 }

@@ -4,16 +4,11 @@
 #include <boost/math/quadrature/gauss_kronrod.hpp>
 #include <boost/math/special_functions/ellint_1.hpp>
 #include <boost/math/special_functions/jacobi_elliptic.hpp>
-#include <boost/test/unit_test.hpp>
-#include <cmath>
 
-namespace {
+#include "tests/support.hpp"
 
 using clatter::numeric::JacobiFunctions;
-
-constexpr double eps = 2.2e-16;
-
-}  // namespace
+using clatter::test::eps;
 
 BOOST_AUTO_TEST_CASE(where_the_modulus_tells_enough_the_functions_are_those_of_boost) {
   for (const double complement : {0.1, 0.3, 0.5, 0.75, 0.96, 1.0}) {

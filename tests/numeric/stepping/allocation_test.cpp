@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The stepping loop takes no memory from the heap.
-#include <boost/test/unit_test.hpp>
-
 #include <atomic>
 #include <cstdlib>
 #include <new>
@@ -9,6 +7,7 @@
 #include "numeric/motion/free_flight.hpp"
 #include "numeric/stepping/contact_run.hpp"
 #include "tests/numeric/bodies.hpp"
+#include "tests/numeric/support.hpp"
 
 namespace {
 
@@ -60,10 +59,7 @@ BOOST_AUTO_TEST_CASE(a_contact_allocates_nothing_while_it_is_stepped) {
     for (const Ground& ground :
          {Ground{.stiffness = 1e8},
           Ground{.stiffness = 1e8, .damping = 1e7, .static_friction = 0.1, .sliding_friction = 0.075},
-          Ground{.stiffness = 1e8,
-          .static_friction = 0.5,
-          .sliding_friction = 0.5,
-          .friction = FrictionLaw::regularised}}) {
+          with_friction({.stiffness = 1e8, .friction = FrictionLaw::regularised}, 0.5)}) {
       for (const Method method : {Method::tvd_rk3, Method::rk8pd, Method::rkf45, Method::rk4}) {
         const MotionState touch = touching_state(
             body, {.inclination = 10 * degree, .velocity = {0.2, 0.1, -4}, .spin = 1, .out_of_plane_tilt = 0.1});

@@ -1,10 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Coulomb friction during contacts.
-#include <boost/test/unit_test.hpp>
-
-#include <cmath>
-#include <vector>
-
 #include "tests/numeric/bodies.hpp"
 #include "tests/numeric/support.hpp"
 
@@ -15,7 +10,7 @@ using namespace clatter::numeric::test;
 
 Simulation rod_at_45(double mu, double stiffness = 1e11, bool planar = false, HistoryRecorder* history = nullptr) {
   static const Body body = rod();
-  const Ground ground{.stiffness = stiffness, .static_friction = mu, .sliding_friction = mu};
+  const Ground ground = with_friction({.stiffness = stiffness}, mu);
   return dropped(body, weightless(ground, planar), 45 * degree, 1, {.digits = 8}, {.history = history});
 }
 
@@ -39,10 +34,9 @@ struct Samples : HistoryRecorder {
 BOOST_AUTO_TEST_CASE(slip_in_one_direction_has_the_impulse_ratio_mu) {
   for (const double mu : {0.1, 0.3, 0.5}) {
     const Simulation run = rod_at_45(mu);
-    BOOST_REQUIRE(run.impacts.size() == 1);
-    BOOST_TEST((run.impacts[0].mode == FrictionMode::slip));
-    BOOST_TEST(std::fabs(ratio(run.impacts[0].value)) == mu, boost::test_tools::tolerance(1e-9));
-    BOOST_TEST(run.impacts[0].value.work_friction > 0);
+    BOOST_TEST((run.impacts.at(0).mode == FrictionMode::slip));
+    BOOST_TEST(std::fabs(ratio(run.impacts.at(0).value)) == mu, boost::test_tools::tolerance(1e-9));
+    BOOST_TEST(run.impacts.at(0).value.work_friction > 0);
   }
 }
 
@@ -51,31 +45,30 @@ BOOST_AUTO_TEST_CASE(a_body_that_slides_feels_the_sliding_friction_alone) {
   const double sliding = 0.3;
   const Ground tilted{.stiffness = 1e11, .static_friction = 0.5, .sliding_friction = sliding};  // 0.586 would stick
   const Simulation rod_run = dropped(rod(), weightless(tilted), 45 * degree, 1);
-  BOOST_TEST((rod_run.impacts[0].mode == FrictionMode::slip));
-  BOOST_TEST(std::fabs(ratio(rod_run.impacts[0].value)) == sliding, boost::test_tools::tolerance(1e-9));
+  BOOST_TEST((rod_run.impacts.at(0).mode == FrictionMode::slip));
+  BOOST_TEST(std::fabs(ratio(rod_run.impacts.at(0).value)) == sliding, boost::test_tools::tolerance(1e-9));
   // A plate that slides at 10 m/s, by a law over its whole patch: (v_r/v)²/2 below the coefficient.
   const Ground local{
       .stiffness = 1e8, .static_friction = 0.5, .sliding_friction = sliding, .friction = FrictionLaw::regularised};
   const Body plate = phone();
   const MotionState start = touching_state(plate, {.velocity = {10, 0, -1}});
   const Simulation plate_run = simulate(plate, weightless(local), start, plain);
-  BOOST_TEST(ratio(plate_run.impacts[0].value) == -sliding, boost::test_tools::tolerance(1e-7));
+  BOOST_TEST(ratio(plate_run.impacts.at(0).value) == -sliding, boost::test_tools::tolerance(1e-7));
 }
 
 /// Claim C11: a plateau from about 0.6 on; with the rod's real radius from 0.586 on, but for the patch's size.
 BOOST_AUTO_TEST_CASE(beyond_the_sticking_ratio_more_friction_changes_nothing) {
   const Simulation first = rod_at_45(0.62), second = rod_at_45(0.8);
-  BOOST_TEST((first.impacts[0].mode == FrictionMode::stick));
+  BOOST_TEST((first.impacts.at(0).mode == FrictionMode::stick));
   // The very end, where the force fades and the rod's turning asks for more than it, slips for an instant.
-  BOOST_TEST(ratio(first.impacts[0].value) == ratio(second.impacts[0].value), boost::test_tools::tolerance(1e-5));
-  BOOST_TEST(std::fabs(std::fabs(ratio(first.impacts[0].value)) - sticking_ratio()) <= 0.01);
-  BOOST_TEST(std::fabs(first.impacts[0].value.work_friction) <= 1e-9 * first.energy_start);
-}
-
-BOOST_AUTO_TEST_CASE(the_sticking_ratio_tends_to_that_of_the_rigid_body) {
-  const double soft = std::fabs(std::fabs(ratio(rod_at_45(0.8, 1e11).impacts[0].value)) - sticking_ratio());
-  const double stiff = std::fabs(std::fabs(ratio(rod_at_45(0.8, 1e13).impacts[0].value)) - sticking_ratio());
-  BOOST_TEST(stiff <= 0.4 * soft);  // the patch's size falls by √10
+  BOOST_TEST(ratio(first.impacts.at(0).value) == ratio(second.impacts.at(0).value), boost::test_tools::tolerance(1e-5));
+  // The rigid body's ratio but for the patch's size, which falls by √10 on a ground a hundred times as stiff.
+  const auto off = [](const Simulation& run) {
+    return std::fabs(std::fabs(ratio(run.impacts.at(0).value)) - sticking_ratio());
+  };
+  BOOST_TEST(off(first) <= 0.01);
+  BOOST_TEST(off(rod_at_45(0.8, 1e13)) <= 0.4 * off(second));
+  BOOST_TEST(std::fabs(first.impacts.at(0).value.work_friction) <= 1e-9 * first.energy_start);
 }
 
 /// Claim C12.
@@ -85,47 +78,28 @@ BOOST_AUTO_TEST_CASE(the_pressure_centre_of_a_sticking_rod_stays_at_rest) {
   BOOST_REQUIRE(samples.rows.size() > 10);
   for (const HistorySample& row : samples.rows) {
     // But for the very end, where the force has faded.
-    if (!(row.force.z() > 0.01 * run.impacts[0].value.peak_force)) continue;
+    if (!(row.force.z() > 0.01 * run.impacts.at(0).value.peak_force)) continue;
     BOOST_TEST(std::fabs(row.point_velocity.x()) <= 1e-9);
     BOOST_TEST(std::hypot(row.force.x(), row.force.y()) <= 0.7 * row.force.z());
   }
 }
 
-BOOST_AUTO_TEST_CASE(friction_dissipates_and_opposes_the_slip) {
-  Samples samples;
-  const Simulation run = rod_at_45(0.4, 1e11, false, &samples);
-  for (const HistorySample& row : samples.rows) {
-    BOOST_TEST(row.force.x() * row.point_velocity.x() <= 0);
-  }
-  BOOST_TEST(run.impacts[0].value.work_friction > 0);
-}
-
-BOOST_AUTO_TEST_CASE(slip_that_ends_sticks_or_turns_as_the_friction_allows) {
-  const Body body = rod();
-  const auto thrown = [&](double speed, double mu) {
-    const MotionState start = touching_state(body, {.inclination = 45 * degree, .velocity = {speed, 0, -1}});
-    return simulate(body, weightless({.stiffness = 1e11, .static_friction = mu, .sliding_friction = mu}), start, plain);
-  };
-  BOOST_TEST((thrown(0.3, 0.7).impacts[0].mode == FrictionMode::slip_stick));
-  BOOST_TEST((thrown(0.3, 0.2).impacts[0].mode == FrictionMode::reverse_slip));
-  BOOST_TEST((thrown(-0.3, 0.2).impacts[0].mode == FrictionMode::slip));
-}
-
 /// At 45° the rod sticks from 0.586 on: with that much static friction, however little when it slides.
-BOOST_AUTO_TEST_CASE(slip_that_ends_sticks_if_the_static_friction_allows) {
+BOOST_AUTO_TEST_CASE(slip_that_ends_sticks_or_turns_as_the_static_friction_allows) {
+  struct Case {
+    double speed, static_friction, sliding_friction;
+    FrictionMode mode;
+  };
   const Body body = rod();
-  const MotionState start = touching_state(body, {.inclination = 45 * degree, .velocity = {0.3, 0, -1}});
-  const Ground ground{.stiffness = 1e11, .static_friction = 0.7, .sliding_friction = 0.5};
-  BOOST_TEST((simulate(body, weightless(ground), start, plain).impacts[0].mode == FrictionMode::slip_stick));
-}
-
-BOOST_AUTO_TEST_CASE(a_planar_drop_on_its_plane_and_in_space_are_the_same) {
-  for (const double mu : {0.0, 0.3, 0.7}) {
-    const ImpactNumbers space = rod_at_45(mu).impacts[0].value, plane = rod_at_45(mu, 1e11, true).impacts[0].value;
-    BOOST_TEST(space.velocity_after.x() == plane.velocity_after.x(), boost::test_tools::tolerance(1e-9));
-    BOOST_TEST(space.velocity_after.z() == plane.velocity_after.z(), boost::test_tools::tolerance(1e-9));
-    BOOST_TEST(space.angular_velocity_after.y() == plane.angular_velocity_after.y(),
-               boost::test_tools::tolerance(1e-9));
+  for (const Case& c : {Case{0.3, 0.7, 0.7, FrictionMode::slip_stick},
+                        {0.3, 0.7, 0.5, FrictionMode::slip_stick},
+                        {0.3, 0.2, 0.2, FrictionMode::reverse_slip},
+                        {-0.3, 0.2, 0.2, FrictionMode::slip}}) {
+    const MotionState start = touching_state(body, {.inclination = 45 * degree, .velocity = {c.speed, 0, -1}});
+    const Ground ground{
+        .stiffness = 1e11, .static_friction = c.static_friction, .sliding_friction = c.sliding_friction};
+    BOOST_TEST((simulate(body, weightless(ground), start, plain).impacts[0].mode == c.mode),
+               c.speed << ' ' << c.static_friction << ' ' << c.sliding_friction);
   }
 }
 
@@ -151,14 +125,11 @@ BOOST_AUTO_TEST_CASE(the_regularised_law_tends_to_coulombs) {
   const auto impulse = [&](const Ground& ground) {
     return dropped(body, weightless(ground), 45 * degree, 1).impacts[0].value.impulse;
   };
-  const Vector3 coulomb = impulse({.stiffness = 1e11, .static_friction = 0.3, .sliding_friction = 0.3});
+  const Vector3 coulomb = impulse(with_friction({.stiffness = 1e11}, 0.3));
   double previous = 1;
   for (const double speed : {1e-2, 1e-3, 1e-4}) {
-    const Vector3 soft = impulse({.stiffness = 1e11,
-                                  .static_friction = 0.3,
-                                  .sliding_friction = 0.3,
-                                  .friction = FrictionLaw::regularised,
-                                  .regularisation_speed = speed});
+    const Vector3 soft = impulse(
+        with_friction({.stiffness = 1e11, .friction = FrictionLaw::regularised, .regularisation_speed = speed}, 0.3));
     const double gap = (soft - coulomb).norm();
     BOOST_TEST(gap < 0.5 * previous);
     previous = gap;
@@ -171,33 +142,29 @@ BOOST_AUTO_TEST_CASE(the_regularised_law_slows_a_spinning_plate) {
   const Body body = phone();
   MotionState start = touching_state(body, {.velocity = {0, 0, -1}});
   start.angular_velocity = Vector3(0, 0, 10);
-  const Ground ground{
-      .stiffness = 1e8, .static_friction = 0.3, .sliding_friction = 0.3, .friction = FrictionLaw::regularised};
+  const Ground ground = with_friction({.stiffness = 1e8, .friction = FrictionLaw::regularised}, 0.3);
   const Simulation run = simulate(body, weightless(ground), start, plain);
-  const double spin = run.impacts[0].value.angular_velocity_after.z();
+  const double spin = run.impacts.at(0).value.angular_velocity_after.z();
   BOOST_TEST(spin < 9.9);
   BOOST_TEST(spin > -10 * eps);  // it may come to rest, to rounding, and does not turn back
-  BOOST_TEST(run.impacts[0].value.work_friction > 0);
+  BOOST_TEST(run.impacts.at(0).value.work_friction > 0);
 }
 
 /// Friction that brings slip and spin to rest together is stiff; a law that jumps there made steps a billionth as long.
 BOOST_AUTO_TEST_CASE(a_patch_that_hardly_slips_and_spins_takes_few_steps_at_any_tolerance) {
   const Body body = box_body({0.25, 0.17, 0.008}, 0.48);
-  const World world{
-      .ground = {.stiffness = 5.6e10, .damping = 1.65e10, .static_friction = 0.4, .sliding_friction = 0.4}};
+  const World world{.ground = with_friction({.stiffness = 5.6e10, .damping = 1.65e10}, 0.4)};
   const MotionState start =
       touching_state(body, {.inclination = 85 * degree, .velocity = {0, 0, -4.852}, .out_of_plane_tilt = 2 * degree});
   const auto run = [&](Method method, double tolerance) {
     return simulate(body, world, start, plain, {.method = method, .tolerance = tolerance, .evaluation_limit = 100'000});
   };
   const Simulation best = run(Method::rk8pd, 1e-13);
-  BOOST_REQUIRE(best.impacts.size() == 1);
   for (const double tolerance : {1e-8, 1e-10, 1e-12}) {
     const Simulation other = run(Method::rkck, tolerance);
-    BOOST_REQUIRE(other.impacts.size() == 1);
-    const Vector3 off = other.impacts[0].value.impulse - best.impacts[0].value.impulse;
+    const Vector3 off = other.impacts.at(0).value.impulse - best.impacts.at(0).value.impulse;
     // Slow slip errs by the root of the tolerance.
-    BOOST_TEST(off.norm() <= 0.01 * std::sqrt(tolerance) * best.impacts[0].value.impulse.norm());
+    BOOST_TEST(off.norm() <= 0.01 * std::sqrt(tolerance) * best.impacts.at(0).value.impulse.norm());
   }
 }
 
@@ -205,15 +172,13 @@ BOOST_AUTO_TEST_CASE(a_patch_that_hardly_slips_and_spins_takes_few_steps_at_any_
 /// has turned by then, and goes on.
 BOOST_AUTO_TEST_CASE(slip_that_has_hardly_begun_is_free_to_turn_at_the_usual_tolerances) {
   const Body body = box_body({0.1372, 0.07699, 0.01878}, 0.299);
-  const World world{
-      .ground = {.stiffness = 6.7e10, .damping = 7.28e8, .static_friction = 0.706, .sliding_friction = 0.706}};
+  const World world{.ground = with_friction({.stiffness = 6.7e10, .damping = 7.28e8}, 0.706)};
   const MotionState start = touching_state(
       body, {.inclination = 1.4388 * degree, .velocity = {0, 0, -1.3}, .out_of_plane_tilt = 0.1411 * degree});
   const auto spin = [&](const Accuracy& accuracy) {
     const Simulation run = simulate(body, world, start, plain, accuracy);
-    BOOST_REQUIRE(run.impacts.size() == 1);
-    BOOST_TEST((run.impacts[0].mode == FrictionMode::slip));
-    return run.impacts[0].value.angular_velocity_after.z();
+    BOOST_TEST((run.impacts.at(0).mode == FrictionMode::slip));
+    return run.impacts.at(0).value.angular_velocity_after.z();
   };
   const double fine = spin({.method = Method::rk8pd, .tolerance = 1e-12});
   for (const double tolerance : {1e-7, 1e-8, 1e-10}) {

@@ -3,14 +3,10 @@
 // simulator.
 #include <fmt/ranges.h>
 
-#include <algorithm>
-#include <boost/test/unit_test.hpp>
-#include <cmath>
-#include <functional>
-
 #include "analytic/plane/sequence.hpp"
 #include "analytic/space/sequence/sequence.hpp"
 #include "numeric/simulate.hpp"
+#include "tests/support.hpp"
 #include "validation/benchmark/reference.hpp"
 #include "validation/run/discrete_scene.hpp"
 
@@ -132,9 +128,8 @@ BOOST_AUTO_TEST_CASE(the_discrete_model_confirms_the_truth_of_every_rigid_proble
       const std::vector<TruthRow> rows = reference.is_planar ? planar_rows(reference, sequence.law.name, count)
                                                              : rows_in_space(problem, sequence.law.name, count);
       BOOST_TEST_REQUIRE(rows.size() == sequence.truth.size());
-      for (std::size_t i = 0; i < rows.size(); ++i, ++compared) {
+      for (std::size_t i = 0; i < rows.size(); ++i, ++compared)
         check_row(problem.id + " " + sequence.law.name, sequence.truth[i], rows[i], sizes_of(sequence.truth));
-      }
     }
   }
   BOOST_TEST(compared >= 60);
@@ -209,9 +204,8 @@ BOOST_AUTO_TEST_CASE(the_benchmark_has_24_to_36_problems_each_with_its_statement
   BOOST_TEST(problems.size() <= 36U);
   for (const Problem& problem : problems) {
     BOOST_TEST_CONTEXT(problem.id) {
-      for (const std::string& text : {problem.title, problem.motivation, problem.separates, problem.acceptance}) {
+      for (const std::string& text : {problem.title, problem.motivation, problem.separates, problem.acceptance})
         BOOST_TEST(!text.empty());
-      }
       // A block that rocks is on the ground before.
       const bool rocks = problem.id == "rock" || problem.id == "overhang";
       BOOST_TEST(problem.gaps.size() >= (rocks ? 1U : 3U));
@@ -224,9 +218,8 @@ BOOST_AUTO_TEST_CASE(the_benchmark_has_24_to_36_problems_each_with_its_statement
         BOOST_TEST((touch.velocity - reference.start.velocity).norm() <= 1e-13 * reference.speed());
         BOOST_TEST(std::fabs(touch.position.z() - reference.start.position.z()) <= 1e-13 * reference.reach());
         double lowest = 1;
-        for (const Vector3& arm : reference.arms(state.attitude)) {
+        for (const Vector3& arm : reference.arms(state.attitude))
           lowest = std::min(lowest, state.position.z() + arm.z());
-        }
         BOOST_TEST(std::fabs(lowest - gap) <= 1e-13 * reference.reach());
       }
     }

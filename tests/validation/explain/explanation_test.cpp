@@ -2,16 +2,12 @@
 // Explanations as structure: symbols, numbers and values of every formula, and the TeX written from it.
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <boost/test/unit_test.hpp>
 #include <cctype>
-#include <cmath>
 #include <map>
 #include <set>
-#include <string>
-#include <vector>
 
 #include "analytic/base/errors.hpp"
+#include "tests/support.hpp"
 #include "validation/explain/explanation_report.hpp"
 #include "validation/explain/formula.hpp"
 #include "validation/output/bad_input.hpp"
@@ -54,9 +50,8 @@ void add(std::vector<Told>& all, const std::string& source, const std::string& f
 /// The same on the scene's ground, as compare has it.
 void add_on_ground(std::vector<Told>& all, const std::string& source, int impacts) {
   const PreparedScene scene = prepared(read_scene(scene_values(source), {}, Model::continuous));
-  for (int n = 1; n <= impacts; ++n) {
+  for (int n = 1; n <= impacts; ++n)
     all.push_back({fmt::format("explain {} {} on its ground", n, source), explain_impact(scene, n)});
-  }
 }
 
 /// Cases of the program, and flags for every branch: laws, modes of friction, gravity, flat landings, edges and faces.
@@ -68,37 +63,30 @@ const std::vector<Told>& told() {
       add(list, name, "", 3);
       add_on_ground(list, name, 3);
     }
-    const std::string plane = "drop.angle_deg=20 run.impacts=4 ";
+    // Of each law and friction a different slip for the thin rod, the thick one and the box that lands flat.
+    const char* const slips[] = {"", " drop.tangential_velocity=0.4", " drop.tangential_velocity=-1.5 drop.spin=2"};
+    const std::string box = "body.shape=box body.size=0.3x0.2x0.1 ";
+    int number = 0;
     for (const char* law : {"newton", "poisson", "stronge"}) {
       const std::string restitution = fmt::format("impact.restitution=0.6 impact.law={} world.gravity=9.81 ", law);
       for (const char* friction :
            {"", "impact.friction=0.05", "impact.friction=0.3", "impact.friction=0.9", "impact.impulse_ratio=0.1"}) {
-        for (const char* slip : {"", " drop.tangential_velocity=0.4", " drop.tangential_velocity=-1.5 drop.spin=2"}) {
-          add(list, "", plane + restitution + friction + slip, 4);
-          add(list, "", "drop.angle_deg=50 body.radius=0.05 " + restitution + friction + slip, 2);
-          add(list, "", "drop.angle_deg=0 body.shape=box body.size=0.3x0.2x0.1 " + restitution + friction + slip, 2);
-        }
-        add(list, "",
-            "drop.angle_deg=30 drop.tilt_deg=25 body.shape=box body.size=0.3x0.2x0.1 " + restitution + friction, 3);
+        const auto slip = [&](int kind) { return restitution + friction + slips[(number + kind) % 3]; };
+        add(list, "", "drop.angle_deg=20 run.impacts=4 " + slip(0), 4);
+        add(list, "", "drop.angle_deg=50 body.radius=0.05 " + slip(1), 2);
+        add(list, "", "drop.angle_deg=0 " + box + slip(2), 2);
+        add(list, "", "drop.angle_deg=30 drop.tilt_deg=25 " + box + restitution + friction, 2);
+        ++number;
       }
     }
     for (const char* attitude :
          {"drop.attitude=1x0x0x0 drop.angular_velocity=0.3x-0.2x0.1", "drop.angle_deg=0 drop.tilt_deg=20"})
-      add(list, "", std::string("body.shape=box body.size=0.3x0.2x0.1 impact.restitution=0.5 ") + attitude, 3);
+      add(list, "", box + "impact.restitution=0.5 " + attitude, 3);
     add(list, "", "drop.angle_deg=90 world.gravity=9.81 impact.restitution=0.5", 3);
-    add(list, "", "drop.angle_deg=70 drop.spin=1 body.shape=box body.size=0.3x0.2x0.1", 2);
+    add(list, "", box + "drop.angle_deg=70 drop.spin=1", 2);
     return list;
   }();
   return all;
-}
-
-template <class Check>
-void for_each_equation(const Check& check) {
-  for (const Told& one : told()) {
-    for (const Step& step : one.explanation.steps) {
-      for (const Equation& equation : step.equations) check(one.name + ", " + step.title, equation);
-    }
-  }
 }
 
 std::string name_of(const Quantity& quantity) { return FormulaWriter(Notation::text, 6).symbol(quantity); }
@@ -134,7 +122,7 @@ BOOST_AUTO_TEST_CASE(every_symbol_of_a_formula_stands_before_it_with_the_number_
       }
     }
   }
-  BOOST_TEST(formulas > 3000u);
+  BOOST_TEST(formulas > 1500u);
 }
 
 BOOST_AUTO_TEST_CASE(every_symbol_of_a_law_has_been_introduced_by_words_or_an_equation) {
@@ -155,7 +143,7 @@ BOOST_AUTO_TEST_CASE(every_symbol_of_a_law_has_been_introduced_by_words_or_an_eq
 
 BOOST_AUTO_TEST_CASE(every_formula_evaluates_to_the_number_of_the_sequence_and_has_its_numbers_put_in) {
   const FormulaWriter writer(Notation::text, 6);
-  for_each_equation([&](const std::string& where, const Equation& equation) {
+  const auto check = [&](const std::string& where, const Equation& equation) {
     if (equation.formula.empty() || !std::isfinite(equation.quantity.error)) return;
     const Expression& formula = equation.formula.front();
     const Eigen::MatrixXd mine = evaluated(formula), shown = evaluated(equation.quantity);
@@ -167,7 +155,11 @@ BOOST_AUTO_TEST_CASE(every_formula_evaluates_to_the_number_of_the_sequence_and_h
                                          << " = " << writer.numbers(formula) << ", off by " << error);
     if (formula->operation != Operation::quantity)
       BOOST_TEST(writer.numbers(formula) != writer.formula(formula), where << ": " << writer.formula(formula));
-  });
+  };
+  for (const Told& one : told()) {
+    for (const Step& step : one.explanation.steps)
+      for (const Equation& equation : step.equations) check(one.name + ", " + step.title, equation);
+  }
 }
 
 BOOST_AUTO_TEST_CASE(tex_has_balanced_braces_ascii_characters_and_commands_of_amsmath_alone) {
@@ -212,17 +204,4 @@ BOOST_AUTO_TEST_CASE(each_line_of_text_fits_80_columns_and_ascii_is_ascii) {
     }
     BOOST_TEST(std::ranges::all_of(ascii, [](unsigned char c) { return c < 128; }), one.name);
   }
-}
-
-BOOST_AUTO_TEST_CASE(on_a_damped_ground_e_follows_from_the_speed_of_each_impact) {
-  const PreparedScene scene = prepared(read_scene(scene_values("rod-damped"), {}, Model::continuous));
-  const Explanation explanation = explain_impact(scene, 1);
-  const auto step =
-      std::ranges::find_if(explanation.steps, [](const Step& s) { return s.title.starts_with("Restitution"); });
-  BOOST_REQUIRE((step != explanation.steps.end()));
-  BOOST_REQUIRE(step->equations.size() == 2u);
-  const double zeta = step->equations[0].quantity.value(0, 0), e = step->equations[1].quantity.value(0, 0);
-  const double rounding = 1e-14;  // a few of the sides, which are below 1
-  BOOST_TEST(std::abs(std::log((1 + zeta) / (1 - zeta * e)) - zeta * (1 + e)) <= rounding);
-  BOOST_TEST((e > 0 && e < 1));
 }

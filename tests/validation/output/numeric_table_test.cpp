@@ -2,12 +2,7 @@
 // CSV files of others: what is read, and what is said of those that cannot be.
 #include "validation/output/numeric_table.hpp"
 
-#include <boost/test/unit_test.hpp>
-#include <cmath>
-#include <filesystem>
-#include <fstream>
-#include <random>
-
+#include "tests/support.hpp"
 #include "validation/output/bad_input.hpp"
 
 namespace {
@@ -124,7 +119,7 @@ BOOST_AUTO_TEST_CASE(damaged_files_are_read_or_refused_in_one_line) {
   std::mt19937 random(11);
   const std::string whole = "# engine: some engine\nt,x,\"z\"\n0,1e-3,-.5\n1,2,3\n1.5,\"2\",3e5\n";
   int refused = 0;
-  for (int i = 0; i < 20000; ++i) {
+  for (int i = 0; i < 4000; ++i) {
     std::string text = whole;
     for (unsigned damage = random() % 4 + 1; damage > 0; --damage) {
       const std::size_t at = random() % text.size();
@@ -139,5 +134,5 @@ BOOST_AUTO_TEST_CASE(damaged_files_are_read_or_refused_in_one_line) {
     BOOST_TEST(error.find('\n') == std::string::npos);
     BOOST_TEST((error == "no error" || error.starts_with("file.csv:")));
   }
-  BOOST_TEST(refused > 5000);
+  BOOST_TEST(refused > 1000);
 }

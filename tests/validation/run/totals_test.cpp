@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Errors of sums over a run and of the difference of both models.
-#include <boost/test/unit_test.hpp>
-
-#include <cmath>
-
+#include "tests/support.hpp"
 #include "validation/compare/number_pair.hpp"
 #include "validation/run/run.hpp"
 
@@ -30,9 +27,8 @@ BOOST_AUTO_TEST_CASE(sums_over_an_impact_that_cannot_be_predicted_are_unknown_wh
   run.impacts.push_back(impact(false));
   const Totals unknown = totals(run);
   BOOST_TEST(!unknown.predictable);
-  for (const Estimated& sum : {unknown.normal_impulse, unknown.energy_loss, unknown.last_start, unknown.largest_peak}) {
+  for (const Estimated& sum : {unknown.normal_impulse, unknown.energy_loss, unknown.last_start, unknown.largest_peak})
     BOOST_TEST(!std::isfinite(sum.error));
-  }
 }
 
 BOOST_AUTO_TEST_CASE(a_deviation_has_the_errors_of_both_models) {

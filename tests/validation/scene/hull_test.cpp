@@ -2,36 +2,20 @@
 // The convex hull of points: what lies within it, and its corners against their definition.
 #include "validation/scene/hull.hpp"
 
-#include <Eigen/Geometry>
-#include <algorithm>
-#include <boost/test/unit_test.hpp>
-#include <cmath>
-#include <numbers>
-#include <random>
+#include "tests/support.hpp"
 
 namespace {
 
 using clatter::numeric::Vector3;
+using clatter::test::Random;
 using clatter::validation::hull_corners;
 using clatter::validation::is_outside_hull;
 
-class Draw {
- public:
-  double operator()(double low, double high) { return std::uniform_real_distribution<double>(low, high)(random_); }
-  Vector3 direction() {
-    std::normal_distribution<double> normal;
-    return Vector3(normal(random_), normal(random_), normal(random_)).normalized();
-  }
-  std::vector<Vector3> points(int count, const Vector3& size) {
-    std::vector<Vector3> list;
-    for (int i = 0; i < count; ++i)
-      list.emplace_back(size.cwiseProduct(Vector3((*this)(-1, 1), (*this)(-1, 1), (*this)(-1, 1))));
-    return list;
-  }
-
- private:
-  std::mt19937 random_{7};
-};
+std::vector<Vector3> points_within(Random& random, int count, const Vector3& size) {
+  std::vector<Vector3> list;
+  for (int i = 0; i < count; ++i) list.emplace_back(size.cwiseProduct(random.vector()));
+  return list;
+}
 
 /// By definition: each point is held against all others.
 std::vector<Vector3> corners_one_by_one(const std::vector<Vector3>& points) {
@@ -56,11 +40,11 @@ std::vector<Vector3> lattice(const Vector3& size, const Vector3& turn) {
 }  // namespace
 
 BOOST_AUTO_TEST_CASE(means_of_points_lie_within_their_hull_and_points_beyond_a_supporting_plane_do_not) {
-  Draw draw;
-  for (int i = 0; i < 3000; ++i) {
+  Random draw(7);
+  for (int i = 0; i < 1000; ++i) {
     // Bodies, plates and needles, of four points and of many.
     const Vector3 size(1, i % 3 == 0 ? 1 : 0.01, i % 3 == 2 ? 0.01 : 1);
-    const std::vector<Vector3> points = draw.points(4 + i % 40, size);
+    const std::vector<Vector3> points = points_within(draw, 4 + i % 40, size);
     Vector3 mean = Vector3::Zero();
     double sum = 0;
     for (const Vector3& point : points) {
@@ -88,10 +72,10 @@ BOOST_AUTO_TEST_CASE(the_size_of_a_body_does_not_matter_to_what_is_within_it) {
 }
 
 BOOST_AUTO_TEST_CASE(the_corners_of_a_hull_are_the_points_outside_the_hull_of_all_others_in_their_order) {
-  Draw draw;
+  Random draw(7);
   for (int i = 0; i < 200; ++i) {
     const Vector3 size(1, i % 3 == 0 ? 1 : 0.01, i % 3 == 2 ? 0.01 : 1);
-    std::vector<Vector3> points = draw.points(4 + i % 60, size);
+    std::vector<Vector3> points = points_within(draw, 4 + i % 60, size);
     if (i % 4 == 3) points = lattice(size, draw.direction());
     std::shuffle(points.begin(), points.end(), std::mt19937(static_cast<unsigned>(i)));
     BOOST_TEST((hull_corners(points, 1) == corners_one_by_one(points)));
@@ -99,9 +83,9 @@ BOOST_AUTO_TEST_CASE(the_corners_of_a_hull_are_the_points_outside_the_hull_of_al
 }
 
 BOOST_AUTO_TEST_CASE(a_meshed_box_has_eight_corners_however_it_is_turned) {
-  Draw draw;
+  Random draw(7);
   for (int i = 0; i < 200; ++i) {
-    const Vector3 size(draw(0.1, 1), draw(0.1, 1), std::pow(10, draw(-5, 0)));
+    const Vector3 size(draw(0.1, 1), draw(0.1, 1), draw.decades(-5, 0));
     BOOST_TEST(hull_corners(lattice(size, draw.direction()), 1).size() == 8U);
   }
 }
@@ -120,12 +104,12 @@ BOOST_AUTO_TEST_CASE(points_of_a_sphere_are_all_corners_and_those_within_it_none
 }
 
 BOOST_AUTO_TEST_CASE(the_first_of_points_that_are_one_is_the_corner) {
-  const double near = 1e-10;  // of the size; counts as the same
-  std::vector<Vector3> points, kept;
+  std::vector<Vector3> kept;
   for (int i = 0; i < 8; ++i) kept.emplace_back(i & 1, i >> 1 & 1, i >> 2 & 1);
-  points = kept;
-  for (const Vector3& corner : kept) points.push_back(corner);
-  for (const Vector3& corner : kept) points.push_back(corner * (1 + near));
+  std::vector<Vector3> points = kept;
+  for (const double off : {0.0, 1e-10}) {  // of the size; counts as the same
+    for (const Vector3& corner : kept) points.push_back(corner * (1 + off));
+  }
   BOOST_TEST((hull_corners(points, 1) == kept));
 }
 

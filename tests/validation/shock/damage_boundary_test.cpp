@@ -2,16 +2,13 @@
 // The damage boundary against its closed forms and against an integration of the part's equation of motion.
 #include "validation/shock/damage_boundary.hpp"
 
-#include <boost/test/unit_test.hpp>
-#include <cmath>
-#include <numbers>
-#include <random>
+#include "tests/support.hpp"
 
 using namespace clatter::validation;
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 constexpr double closed_form = 1e-9;  // what is claimed of corners
 constexpr double by_steps = 1e-6;     // of 4000 steps of fourth order in each period and in the pulse
 
@@ -42,29 +39,25 @@ double stepped(PulseShape shape, double turns) {
 }  // namespace
 
 BOOST_AUTO_TEST_CASE(responses_to_both_pulses_are_those_of_the_equation_of_motion) {
-  std::mt19937 random(3);
-  std::uniform_real_distribution<double> uniform(-2, 1);
-  for (int i = 0; i < 40; ++i) {
-    const double turns = std::pow(10, uniform(random));
-    for (const PulseShape shape : {PulseShape::rectangle, PulseShape::half_sine}) {
+  clatter::test::Random random(3);
+  for (int i = 0; i < 15; ++i) {
+    const double turns = random.decades(-2, 1);
+    for (const PulseShape shape : {PulseShape::rectangle, PulseShape::half_sine})
       BOOST_TEST(std::fabs(pulse_response(shape, turns) / stepped(shape, turns) - 1) < by_steps,
                  "f T = " << turns << ": " << pulse_response(shape, turns) << ", by steps " << stepped(shape, turns));
-    }
   }
 }
 
 BOOST_AUTO_TEST_CASE(the_half_sine_is_smooth_where_its_closed_form_is_zero_over_zero) {
   // f T = 1/2: the residual is π/2.
-  for (const double off : {0.0, 1e-12, -1e-9, 1e-7, -1e-5}) {
+  for (const double off : {0.0, 1e-12, -1e-9, 1e-7, -1e-5})
     BOOST_TEST(std::fabs(pulse_response(PulseShape::half_sine, 0.5 * (1 + off)) - pi / 2) < 1e-9 + std::fabs(off));
-  }
 }
 
 BOOST_AUTO_TEST_CASE(the_corner_of_the_boundary_lies_where_astm_has_it) {
-  std::mt19937 random(4);
-  std::uniform_real_distribution<double> uniform(0, 3);
+  clatter::test::Random random(4);
   for (int i = 0; i < 100; ++i) {
-    const FragilePart part{std::pow(10, uniform(random)), std::pow(10, 1 + uniform(random))};
+    const FragilePart part{random.decades(0, 3), random.decades(1, 4)};
     const double omega = 2 * pi * part.frequency;
     const DamageBoundary rectangle = damage_boundary(part, PulseShape::rectangle);
     BOOST_TEST(std::fabs(rectangle.critical_velocity * omega / part.fragility - 1) < closed_form);
@@ -107,11 +100,7 @@ BOOST_AUTO_TEST_CASE(the_eight_conditions_of_jesd22_b110b_have_its_changes_of_ve
 }
 
 BOOST_AUTO_TEST_CASE(the_mildest_condition_that_covers_a_blow_is_the_last_that_does) {
-  const auto covering = [](double peak, double milliseconds) {  // of a half sine
-    const TestPulse pulse{peak * standard_gravity, milliseconds * 1e-3};
-    return covering_condition(pulse.velocity(), pulse.acceleration);
-  };
-  BOOST_TEST(covering(850, 0.7) == 'F');
+  BOOST_TEST(covering_condition(0.1, 10) == 'C');
   // A hair inside each condition is covered by it, a hair outside in either by the next one up.
   const auto& all = service_conditions();
   for (std::size_t i = 0; i < all.size(); ++i) {
@@ -127,11 +116,6 @@ BOOST_AUTO_TEST_CASE(an_equivalent_pulse_has_the_blow_s_numbers_and_the_fall_its
   const TestPulse pulse = equivalent_pulse(7, 12'000);
   BOOST_TEST(std::fabs(pulse.velocity() / 7 - 1) < 1e-15);
   // A fall from h ends with √(2 g h), and (1 + e) times that is the change of velocity.
-  for (const double e : {0.0, 0.5, 1.0}) {
+  for (const double e : {0.0, 0.5, 1.0})
     BOOST_TEST(std::fabs((1 + e) * std::sqrt(2 * standard_gravity * pulse.height(e)) / 7 - 1) < 1e-14);
-  }
-  BOOST_TEST(covering_condition(4, 10'000) == 'B');
-  BOOST_TEST(covering_condition(4, 20'000) == 'H');
-  BOOST_TEST(covering_condition(0.1, 10) == 'C');
-  BOOST_TEST(covering_condition(6, 10) == '-');
 }
