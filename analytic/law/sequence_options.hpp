@@ -13,8 +13,8 @@ struct SequenceOptions {
   /// of tail and total.
   bool amplification = true;
   /// The end is asked for and no number of rows: bouncing in closed form is summed up at once.  In space: goes on after
-  /// corners have stayed on the ground while the body turns (space/sequence/sustained_contact.hpp), and ends where the body has
-  /// to settle on one face and no impact can be predicted any more.
+  /// corners have stayed on the ground while the body turns (space/sequence/sustained_contact.hpp), and ends where the
+  /// body has to settle on one face and no impact can be predicted any more.
   bool until_rest = false;
 
   /// @throws std::domain_error naming the field, its value and what is allowed.

@@ -10,8 +10,8 @@
 namespace clatter::numeric {
 namespace {
 
-/// Of the energy that S₂ and S₁ give: S₄ gives less of any convex body, whose √(area deeper than δ) is concave by Brunn
-/// and Minkowski, so that a cone's 1.2649 is the most that √S₄ S₁/S₂^(3/2) may be.
+/// The least part of the energy by S₂ and S₁ that is taken: S₄ gives less of any convex body, whose √(area deeper than
+/// δ) is concave by Brunn and Minkowski, so that a cone's 1.2649 is the most that √S₄ S₁/S₂^(3/2) may be.
 constexpr double least_part = 0.78;
 constexpr double round_enough = 1e-4;      ///< det Σ over (tr Σ)² from which on any axes keep the digits
 constexpr double least_roundness = 1e-26;  ///< of det Σ over (tr Σ)²: below it all is rounding

@@ -53,12 +53,12 @@ struct HalfSpacePressure {
 class Footprint {
  public:
   void begin(const GroundView& view);
-  /// Of a facet, below the ground.
+  /// Adds the part of a facet that lies below the ground.
   void add(const ContactPolygon& polygon);
   /// @param place  from `origin`
   /// @param area  vertical component
   void add(const Vector3& origin, const Vector3& place, double depth, double area);
-  /// Of what was added since begin(), which it turns to its axes: once.
+  /// The pressure over what was added since begin(), which it turns to its axes: once.
   [[nodiscard]] HalfSpacePressure pressure(double modulus);
 
  private:

@@ -11,8 +11,8 @@
 #include "analytic/plane/contact_angles.hpp"
 #include "analytic/plane/sequence.hpp"
 #include "analytic/space/flight/body.hpp"
-#include "analytic/space/sequence/sequence.hpp"
 #include "analytic/space/landing/tilted_outcomes.hpp"
+#include "analytic/space/sequence/sequence.hpp"
 #include "tests/analytic/space/impulse/random_contact.hpp"
 
 namespace {

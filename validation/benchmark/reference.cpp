@@ -9,10 +9,10 @@
 
 #include "analytic/base/errors.hpp"
 #include "analytic/plane/sequence.hpp"
-#include "analytic/space/landing/level_rim.hpp"
 #include "analytic/space/flight/point_height.hpp"
-#include "analytic/space/sequence/sequence.hpp"
+#include "analytic/space/landing/level_rim.hpp"
 #include "analytic/space/landing/simultaneous.hpp"
+#include "analytic/space/sequence/sequence.hpp"
 #include "validation/embedded/embedded.hpp"
 #include "validation/output/bad_input.hpp"
 #include "validation/output/number.hpp"

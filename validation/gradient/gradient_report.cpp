@@ -12,8 +12,8 @@
 #include <variant>
 
 #include "analytic/plane/body_motion.hpp"
-#include "analytic/space/sequence/gradient.hpp"
 #include "analytic/space/flight/point_height.hpp"
+#include "analytic/space/sequence/gradient.hpp"
 #include "validation/output/number.hpp"
 #include "validation/run/scene_value.hpp"
 #include "validation/run/shortfall.hpp"

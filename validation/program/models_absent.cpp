@@ -2,10 +2,10 @@
 // Stands in for the models in space, meshes and their explanations in clatter-plane, which leaves scenes that need one
 // of them to the program after it.
 #include "analytic/space/flight/point_height.hpp"
-#include "analytic/space/sequence/sequence.hpp"
 #include "analytic/space/impulse/slip_field.hpp"
-#include "analytic/space/sequence/sustained_contact.hpp"
 #include "analytic/space/landing/tilted_outcomes.hpp"
+#include "analytic/space/sequence/sequence.hpp"
+#include "analytic/space/sequence/sustained_contact.hpp"
 #include "numeric/body/body.hpp"
 #include "numeric/files/import.hpp"
 #include "numeric/mesh/generators.hpp"

@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "analytic/plane/sequence.hpp"
-#include "analytic/space/sequence/sequence.hpp"
 #include "analytic/space/landing/tilted_outcomes.hpp"
+#include "analytic/space/sequence/sequence.hpp"
 #include "numeric/body.hpp"
 #include "numeric/simulate.hpp"
 #include "validation/run/run.hpp"

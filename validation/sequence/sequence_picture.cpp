@@ -14,8 +14,8 @@
 #include <vector>
 
 #include "analytic/space/flight/free_flight.hpp"
-#include "analytic/space/sequence/impact_rows.hpp"
 #include "analytic/space/landing/tilted_outcomes.hpp"
+#include "analytic/space/sequence/impact_rows.hpp"
 #include "validation/output/number.hpp"
 #include "validation/run/discrete_scene.hpp"
 

@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "analytic/base/limits.hpp"
-#include "analytic/space/landing/face_pressure.hpp"
 #include "analytic/space/impulse/slip_motion.hpp"
+#include "analytic/space/landing/face_pressure.hpp"
 
 namespace clatter::analytic::space {
 

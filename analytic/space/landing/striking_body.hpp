@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "analytic/space/impulse/contact_area.hpp"
-#include "analytic/space/landing/edge_friction.hpp"
 #include "analytic/space/impulse/impact.hpp"
+#include "analytic/space/landing/edge_friction.hpp"
 
 namespace clatter::analytic::space {
 

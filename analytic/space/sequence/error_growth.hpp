@@ -6,8 +6,8 @@
 #include <functional>
 #include <optional>
 
-#include "analytic/space/sequence/impact_rows.hpp"
 #include "analytic/space/impulse/strike_derivatives.hpp"
+#include "analytic/space/sequence/impact_rows.hpp"
 #include "analytic/space/sequence/sustained_contact.hpp"
 
 namespace clatter::analytic::space {

@@ -5,8 +5,8 @@
 #include <span>
 
 #include "analytic/base/limits.hpp"
-#include "analytic/space/landing/level_rim.hpp"
 #include "analytic/space/flight/point_height.hpp"
+#include "analytic/space/landing/level_rim.hpp"
 
 namespace clatter::analytic::space {
 

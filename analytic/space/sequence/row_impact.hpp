@@ -2,8 +2,8 @@
 // The impact of a row of a sequence: of one corner, or of a group of corners or a level rim.
 #pragma once
 
-#include "analytic/space/sequence/impact_rows.hpp"
 #include "analytic/space/impulse/strike_derivatives.hpp"
+#include "analytic/space/sequence/impact_rows.hpp"
 
 namespace clatter::analytic::space {
 

@@ -11,14 +11,14 @@
 #include "analytic/base/errors.hpp"
 #include "analytic/base/limits.hpp"
 #include "analytic/law/sequence_loop.hpp"
+#include "analytic/space/flight/first_contact.hpp"
+#include "analytic/space/landing/level_rim.hpp"
+#include "analytic/space/landing/striking_body.hpp"
 #include "analytic/space/sequence/accumulation.hpp"
 #include "analytic/space/sequence/error_growth.hpp"
-#include "analytic/space/flight/first_contact.hpp"
 #include "analytic/space/sequence/impact_rows.hpp"
-#include "analytic/space/landing/level_rim.hpp"
 #include "analytic/space/sequence/resting_face.hpp"
 #include "analytic/space/sequence/row_impact.hpp"
-#include "analytic/space/landing/striking_body.hpp"
 #include "analytic/space/sequence/sustained_contact.hpp"
 
 namespace clatter::analytic::space {

@@ -11,8 +11,8 @@
 
 #include <vector>
 
-#include "analytic/space/sequence/ground_motion.hpp"
 #include "analytic/space/impulse/radau_rule.hpp"
+#include "analytic/space/sequence/ground_motion.hpp"
 #include "analytic/space/sequence/slip_onset.hpp"
 
 namespace clatter::analytic::space {

@@ -6,8 +6,8 @@
 
 #include "analytic/law/viscoelastic.hpp"
 #include "analytic/space/landing/simultaneous.hpp"
-#include "tests/analytic/space/landing/flat_landing.hpp"
 #include "tests/analytic/space/impulse/random_contact.hpp"
+#include "tests/analytic/space/landing/flat_landing.hpp"
 
 namespace {
 

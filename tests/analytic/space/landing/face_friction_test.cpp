@@ -6,8 +6,8 @@
 #include <numbers>
 
 #include "analytic/space/sequence/sequence.hpp"
-#include "tests/analytic/space/landing/flat_landing.hpp"
 #include "tests/analytic/space/impulse/random_contact.hpp"
+#include "tests/analytic/space/landing/flat_landing.hpp"
 
 namespace {
 

@@ -6,8 +6,8 @@
 #include <numbers>
 
 #include "analytic/space/flight/body.hpp"
-#include "analytic/space/sequence/sequence.hpp"
 #include "analytic/space/landing/tilted_outcomes.hpp"
+#include "analytic/space/sequence/sequence.hpp"
 #include "tests/analytic/space/impulse/random_contact.hpp"
 #include "validation/oracles/viscoelastic_bounce.hpp"
 

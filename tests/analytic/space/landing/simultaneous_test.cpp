@@ -5,9 +5,9 @@
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 
-#include "tests/analytic/space/landing/flat_landing.hpp"
 #include "tests/analytic/space/impulse/random_contact.hpp"
 #include "tests/analytic/space/impulse/reference_impact.hpp"
+#include "tests/analytic/space/landing/flat_landing.hpp"
 #include "validation/oracles/reference_table.hpp"
 #include "validation/oracles/viscoelastic_bounce.hpp"
 

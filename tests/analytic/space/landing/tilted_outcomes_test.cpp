@@ -9,8 +9,8 @@
 #include <numbers>
 
 #include "analytic/space/landing/simultaneous.hpp"
-#include "tests/analytic/space/landing/flat_landing.hpp"
 #include "tests/analytic/space/impulse/random_contact.hpp"
+#include "tests/analytic/space/landing/flat_landing.hpp"
 
 namespace {
 

@@ -8,8 +8,8 @@
 
 #include "analytic/base/errors.hpp"
 #include "analytic/plane/sequence.hpp"
-#include "analytic/space/sequence/accumulation.hpp"
 #include "analytic/space/flight/body.hpp"
+#include "analytic/space/sequence/accumulation.hpp"
 #include "analytic/space/sequence/resting_face.hpp"
 #include "analytic/space/sequence/sequence.hpp"
 

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "analytic/space/sequence/sequence.hpp"
 #include "analytic/space/impulse/strike_derivatives.hpp"
+#include "analytic/space/sequence/sequence.hpp"
 #include "tests/analytic/space/impulse/random_contact.hpp"
 
 namespace {
