@@ -210,13 +210,15 @@ const char* level_name(ModelLevel level) {
   return "";
 }
 
-const char* level_assumption(ModelLevel level) {
+const char* level_assumption(ModelLevel level, const numeric::Ground& ground) {
   switch (level) {
     case ModelLevel::closed_form: return "the rod is thin, and nothing strikes after the third impact";
     case ModelLevel::discrete:
     case ModelLevel::discrete_in_space: return "contacts take no time and no depth";
     case ModelLevel::planar: return "the body stays in the plane of its motion";
-    case ModelLevel::spatial: return "the body is rigid, the ground a bed of springs and dampers";
+    case ModelLevel::spatial:
+      return ground.modulus > 0 ? "the body is rigid, the ground an elastic half-space"
+                                : "the body is rigid, the ground a bed of springs and dampers";
   }
   return "";
 }

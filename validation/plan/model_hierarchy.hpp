@@ -47,7 +47,7 @@ inline constexpr ModelLevel all_levels[] = {ModelLevel::closed_form, ModelLevel:
 
 [[nodiscard]] const char* level_name(ModelLevel level);
 /// What a level takes for granted, in which the level above it does not follow.
-[[nodiscard]] const char* level_assumption(ModelLevel level);
+[[nodiscard]] const char* level_assumption(ModelLevel level, const numeric::Ground& ground);
 [[nodiscard]] inline bool is_continuous(ModelLevel level) {
   return level == ModelLevel::planar || level == ModelLevel::spatial;
 }

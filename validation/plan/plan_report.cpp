@@ -102,7 +102,7 @@ Row level_row(const WeighedLevel& level, const Plan& plan) {
           Cell(level.error, 2),
           applies ? Cell(level.evaluations, continuous ? fmt::format("{:.0f}", level.evaluations) : "") : Cell(),
           applies ? Cell(level.seconds, 2) : Cell(),
-          Cell(level_assumption(level.level)),
+          Cell(level_assumption(level.level, plan.scene.world.ground)),
           Cell(rounded_up(level.assumption_error)),
           Cell(level.serves),
           Cell(verdict(level, plan)),
