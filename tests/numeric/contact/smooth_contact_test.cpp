@@ -248,14 +248,14 @@ BOOST_AUTO_TEST_CASE(a_cap_that_rolls_and_hardly_spins_rubs_as_the_sum_over_its_
   // Slip is smooth over a twentieth of what it varies by, and azimuths are as fine as friction of seven digits asks
   // for.
   constexpr double tolerance = 3e-7, rolling = 10;
-  Uniform random(7);
+  Random random(7);
   for (int i = 0; i < 24; ++i) {
     const SmoothShape shape{i % 2 == 0 ? Vector3(1, 1, 1) : Vector3(0.7, 0.8, 1), 0, Vector3::Zero()};
     const Vector3 normal = random.direction(), along = normal.unitOrthogonal(), across = normal.cross(along);
-    const double depth = std::pow(10, random(-3, -1)), width = std::sqrt(2 * depth);
+    const double depth = random.decades(-3, -1), width = std::sqrt(2 * depth);
     GroundView view = pressed(shape, normal, depth);
     view.vertical_speed = -0.3;
-    view.angular_velocity = rolling * along + rolling * width * std::pow(10, random(-4, 0)) * normal;
+    view.angular_velocity = rolling * along + rolling * width * random.decades(-4, 0) * normal;
     const Vector3 lowest = view.angular_velocity.cross(shape.lowest(0, normal));
     const Vector3 slip = rolling * depth * (random(-1, 1) * across + 0.3 * random(-1, 1) * along);
     view.east_speed = (slip - lowest).dot(view.east);
