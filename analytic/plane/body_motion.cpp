@@ -53,7 +53,7 @@ BodyMotion::BodyMotion(const PlanarBody& body, const Angle& inclination, const P
     : body_(body), turned_(body), gravity_(gravity), gravity_along_(gravity_along), inclination_(inclination.radians),
       sine_(inclination.sine), cosine_(inclination.cosine), initial_(inclination), remainder_(velocity) {
   turn_to_face_below();
-  if (!body.uniform_thin_rod && std::fabs(sine_) <= level_tilt) inclination_ = sine_ = 0, cosine_ = 1;
+  if (body.vertex_count > 2 && std::fabs(sine_) <= level_tilt) inclination_ = sine_ = 0, cosine_ = 1;
   if (body.uniform_thin_rod && velocity.normal < 0 && inclination.cosine >= 0) {
     frame_ = {.speed = -velocity.normal, .sextant = 3};
     remainder_.normal = 0;
