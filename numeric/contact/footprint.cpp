@@ -12,7 +12,7 @@ namespace {
 
 /// Of the energy that S₂ and S₁ give: S₄ gives less of any convex body, whose √(area deeper than δ) is concave by Brunn
 /// and Minkowski, so that a cone's 1.2649 is the most that √S₄ S₁/S₂^(3/2) may be.
-constexpr double least_part = 0.78;
+constexpr double least_by_depths = 0.78;
 constexpr double round_enough = 1e-4;      ///< det Σ over (tr Σ)² from which on any axes keep the digits
 constexpr double least_roundness = 1e-26;  ///< of det Σ over (tr Σ)²: below it all is rounding
 
@@ -237,7 +237,7 @@ HalfSpacePressure Footprint::pressure(double modulus) {
   const double xx = sums.xx / s1, xy = sums.xy / s1, yy = sums.yy / s1, trace = xx + yy;
   const double determinant = std::max(xx * yy - xy * xy, least_roundness * trace * trace);
   const AspectFactor factor = aspect_factor(trace * trace / (4 * determinant));
-  const double by_squares = s2 * std::sqrt(s2) / s1, by_depths = least_part * std::sqrt(sums.depth_fourth);
+  const double by_squares = s2 * std::sqrt(s2) / s1, by_depths = least_by_depths * std::sqrt(sums.depth_fourth);
   const bool is_stepped = by_depths > by_squares;
   found.energy = modulus * std::numbers::inv_sqrtpi * factor.value * std::max(by_squares, by_depths);
   found.stiffness = 3 * found.energy / s2;
