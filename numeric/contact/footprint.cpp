@@ -5,8 +5,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "numeric/contact/contact_load.hpp"
-
 namespace clatter::numeric {
 namespace {
 
@@ -69,9 +67,8 @@ struct Footprint::Moments {
   double depth = 0, depth_squared = 0, depth_fourth = 0, x = 0, y = 0, xx = 0, xy = 0, yy = 0;
 };
 
-void Footprint::begin(const GroundView& view) {
-  view_ = &view;
-  up_ = view.normal();
+void Footprint::begin(const Vector3& up) {
+  up_ = up;
   // Seen from below, where facets that look down turn counter-clockwise.
   x_axis_ = up_.unitOrthogonal();
   y_axis_ = x_axis_.cross(up_);
@@ -82,8 +79,11 @@ void Footprint::begin(const GroundView& view) {
 }
 
 Footprint::Place Footprint::place_of(const Vector3& origin, const Vector3& place, double depth) {
-  if (is_empty_) origin_ = origin;
-  is_empty_ = false;
+  if (is_empty_) {
+    origin_ = origin;
+    rise_ = -depth - up_.dot(place);
+    is_empty_ = false;
+  }
   const Vector3 away = origin - origin_;
   return {x_axis_.dot(away) + x_axis_.dot(place), y_axis_.dot(away) + y_axis_.dot(place), depth};
 }
@@ -257,11 +257,11 @@ HalfSpacePressure Footprint::pressure(double modulus) {
   }
   const double per_volume = found.energy / s1;
   // The surface lies δ below the ground, and ∫Rδ = −U, since U is of degree 2 in δ.
-  const double rise = view_->height(origin_), square = up_.squaredNorm();
+  const double square = up_.squaredNorm();
   found.rest = per_volume * rest.sum;
   found.rest_moment = found.rest * origin_ + per_volume * (rest.x * x_axis_ + rest.y * y_axis_) +
-                      (found.energy - rise * found.rest) / square * up_;
-  found.volume_moment = s1 * origin_ + sums.x * x_axis_ + sums.y * y_axis_ - (s2 + rise * s1) / square * up_;
+                      (found.energy - rise_ * found.rest) / square * up_;
+  found.volume_moment = s1 * origin_ + sums.x * x_axis_ + sums.y * y_axis_ - (s2 + rise_ * s1) / square * up_;
   return found;
 }
 
