@@ -5,14 +5,12 @@
 #include <cmath>
 #include <numbers>
 
-#include "numeric/contact/contact_load.hpp"
-
 namespace clatter::numeric {
 namespace {
 
 /// The least part of the energy by S₂ and S₁ that is taken: S₄ gives less of any convex body, whose √(area deeper than
 /// δ) is concave by Brunn and Minkowski, so that a cone's 1.2649 is the most that √S₄ S₁/S₂^(3/2) may be.
-constexpr double least_of_energy = 0.78;
+constexpr double least_by_depths = 0.78;
 constexpr double round_enough = 1e-4;      ///< det Σ over (tr Σ)² from which on any axes keep the digits
 constexpr double least_roundness = 1e-26;  ///< of det Σ over (tr Σ)²: below it all is rounding
 
@@ -69,9 +67,8 @@ struct Footprint::Moments {
   double depth = 0, depth_squared = 0, depth_fourth = 0, x = 0, y = 0, xx = 0, xy = 0, yy = 0;
 };
 
-void Footprint::begin(const GroundView& view) {
-  view_ = &view;
-  up_ = view.normal();
+void Footprint::begin(const Vector3& up) {
+  up_ = up;
   // Seen from below, where facets that look down turn counter-clockwise.
   x_axis_ = up_.unitOrthogonal();
   y_axis_ = x_axis_.cross(up_);
@@ -82,8 +79,11 @@ void Footprint::begin(const GroundView& view) {
 }
 
 Footprint::Place Footprint::place_of(const Vector3& origin, const Vector3& place, double depth) {
-  if (is_empty_) origin_ = origin;
-  is_empty_ = false;
+  if (is_empty_) {
+    origin_ = origin;
+    rise_ = -depth - up_.dot(place);
+    is_empty_ = false;
+  }
   const Vector3 away = origin - origin_;
   return {x_axis_.dot(away) + x_axis_.dot(place), y_axis_.dot(away) + y_axis_.dot(place), depth};
 }
@@ -237,7 +237,7 @@ HalfSpacePressure Footprint::pressure(double modulus) {
   const double xx = sums.xx / s1, xy = sums.xy / s1, yy = sums.yy / s1, trace = xx + yy;
   const double determinant = std::max(xx * yy - xy * xy, least_roundness * trace * trace);
   const AspectFactor factor = aspect_factor(trace * trace / (4 * determinant));
-  const double by_squares = s2 * std::sqrt(s2) / s1, by_depths = least_of_energy * std::sqrt(sums.depth_fourth);
+  const double by_squares = s2 * std::sqrt(s2) / s1, by_depths = least_by_depths * std::sqrt(sums.depth_fourth);
   const bool is_stepped = by_depths > by_squares;
   found.energy = modulus * std::numbers::inv_sqrtpi * factor.value * std::max(by_squares, by_depths);
   found.stiffness = 3 * found.energy / s2;
@@ -257,11 +257,11 @@ HalfSpacePressure Footprint::pressure(double modulus) {
   }
   const double per_volume = found.energy / s1;
   // The surface lies δ below the ground, and ∫Rδ = −U, since U is of degree 2 in δ.
-  const double rise = view_->height(origin_), square = up_.squaredNorm();
+  const double square = up_.squaredNorm();
   found.rest = per_volume * rest.sum;
   found.rest_moment = found.rest * origin_ + per_volume * (rest.x * x_axis_ + rest.y * y_axis_) +
-                      (found.energy - rise * found.rest) / square * up_;
-  found.volume_moment = s1 * origin_ + sums.x * x_axis_ + sums.y * y_axis_ - (s2 + rise * s1) / square * up_;
+                      (found.energy - rise_ * found.rest) / square * up_;
+  found.volume_moment = s1 * origin_ + sums.x * x_axis_ + sums.y * y_axis_ - (s2 + rise_ * s1) / square * up_;
   return found;
 }
 

@@ -8,8 +8,6 @@
 
 namespace clatter::numeric {
 
-struct GroundView;
-
 /// κ of a patch of aspect r, the square root of the ratio of its second moments, by q = ((r + 1/r)/2)²:
 ///     κ = (π/2) √r/K(1 − 1/r²) = agm(√r, 1/√r),   K(m) the complete elliptic integral,
 /// the stiffness of a flat elliptic punch over that of a round one of the same area.  Even in ln r, so that it is
@@ -52,7 +50,8 @@ struct HalfSpacePressure {
 /// is formed along their axes.
 class Footprint {
  public:
-  void begin(const GroundView& view);
+  /// @param up  the ground's normal, body frame
+  void begin(const Vector3& up);
   /// Adds the part of a facet that lies below the ground.
   void add(const ContactPolygon& polygon);
   /// @param place  from `origin`
@@ -83,9 +82,9 @@ class Footprint {
   [[nodiscard]] Rest rest_by_shape(const Bend& bend, double constant) const;
   [[nodiscard]] Rest cubes() const;
 
-  const GroundView* view_ = nullptr;
   Vector3 up_ = Vector3::UnitZ(), x_axis_ = Vector3::UnitX(), y_axis_ = Vector3::UnitY();
   Vector3 origin_ = Vector3::Zero();
+  double rise_ = 0;  ///< of the origin above the ground [m]
   bool is_empty_ = true;
   std::vector<Place> corners_;
   std::vector<std::size_t> ends_;  ///< of the polygons, in corners_

@@ -35,7 +35,7 @@ HalfSpaceContact::Evaluation HalfSpaceContact::evaluate(Bed& bed, const GroundVi
                                                         std::vector<int>* submerged) {
   springs_.stiffness = 1;
   springs_.damping = dissipation_;
-  bed.footprint.begin(view);
+  bed.footprint.begin(view.normal());
   const ContactLoad springs = bed.surface->load(view, rates, submerged);
   Evaluation found;
   found.load.deepest = springs.deepest;
