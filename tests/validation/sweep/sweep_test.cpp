@@ -314,7 +314,8 @@ BOOST_AUTO_TEST_CASE(a_list_of_attitudes_is_an_axis_whose_values_are_four_number
 /// What a number put into a scene does is what the reader does with the same number in the file.
 BOOST_AUTO_TEST_CASE(every_number_of_a_scene_can_be_put_where_the_reader_puts_it) {
   const std::string ground = "\n[ground]\nstiffness = 1e8\nsliding_friction = 0\nstatic_friction = 0.1\n";
-  const std::string tilted = "[drop]\nangle_deg = 10" + ground, lying = "[drop]\nangle_deg = 0" + ground;
+  const std::string tilted = "[drop]\nangle_deg = 10" + ground, lying = "[drop]\nangle_deg = 0" + ground,
+                    on_half_space = "[drop]\nangle_deg = 10\n[ground]\nmodulus = 1e8\n";
   const std::vector<std::string> shapes{"[body]\nshape = 'rod'\n", "[body]\nshape = 'box'\nsize = [1, 1, 1]\n",
                                         "[body]\nshape = 'mesh'\nmesh = { file = 'a.msh' }\n"};
   int put = 0;
@@ -326,7 +327,7 @@ BOOST_AUTO_TEST_CASE(every_number_of_a_scene_can_be_put_where_the_reader_puts_it
     const std::vector<SceneOverride> overrides{{key, "--set", text}};
     bool read = false;
     for (const std::string& shape : shapes) {
-      const std::string& drop = key == "drop.topple" ? lying : tilted;
+      const std::string& drop = key == "drop.topple" ? lying : key == "ground.dissipation" ? on_half_space : tilted;
       const SceneValues values("scene.toml", drop + shape, scene_keys());
       try {
         const Scene expected = read_scene(values, overrides, Model::continuous);
