@@ -218,9 +218,10 @@ std::optional<Impact> strike_flat(const PlanarBody& body, const PlanarVelocity& 
   const double e = restitution_at(law, pressure_centre_speed(-before.normal, before.angular, body.gyration_square));
   auto impact = landed_flat(body, before, first, second, law, e);
   if (!impact || !law.rubs() || may_gain_energy(law.law)) return impact;
-  const double least = restitution_without_gain(e, energy_of_motion(body, before), [&](double some) {
-    const auto landed = landed_flat(body, before, first, second, law, some);
-    return landed ? landed->energy_loss : energy_of_motion(body, before);
+  const double energy = energy_of_motion(body, before);
+  const double least = restitution_without_gain(e, energy, [&](double some) {
+    const auto landed = some == e ? impact : landed_flat(body, before, first, second, law, some);
+    return landed ? landed->energy_loss : energy;
   });
   if (!(least < e)) return impact;
   impact = landed_flat(body, before, first, second, law, least);

@@ -64,13 +64,17 @@ BodySlip body_slip(const Vector3& origin, const GroundView& view, const SlipFiel
           view.north_speed + field.north + north_slope.dot(origin), east_slope, north_slope};
 }
 
-void take_ground(const Ground& ground, const LoadIntegrals& pressing, ContactLoad& load) {
+void take_ground(const Ground& ground, const LoadIntegrals& pressing, ContactLoad& load, LoadRates* rates) {
   const double k = ground.stiffness, c = ground.damping;
   load.force = k * pressing.depth + c * pressing.depth_rate;
   load.first_moment = k * pressing.depth_position + c * pressing.depth_rate_position;
   load.energy *= k / 2;
   load.damping_power = c * pressing.depth_rate_squared;
   load.release_power *= -k;
+  if (!rates) return;
+  rates->stiffness = k;
+  rates->damping = c;
+  rates->load = pressing;
 }
 
 void SlipRange::add(double east, double north) {
@@ -128,12 +132,7 @@ ContactLoad ContactLoader::load(const GroundView& view, LoadRates* rates, std::v
   body_.hierarchy().visit_below(view.plane(), margin, [&](int facet) {
     add_facet(body_.facets().facets[static_cast<std::size_t>(facet)], sums);
   });
-  take_ground(ground_, sums.pressing, sums.load);
-  if (rates) {
-    rates->stiffness = ground_.stiffness;
-    rates->damping = ground_.damping;
-    rates->load = sums.pressing;
-  }
+  take_ground(ground_, sums.pressing, sums.load, rates);
   return sums.load;
 }
 

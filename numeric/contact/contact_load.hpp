@@ -78,9 +78,12 @@ struct ContactLoad {
   [[nodiscard]] Vector3 pressure_centre() const { return first_moment / force; }
 };
 
+struct LoadRates;
+
 /// Makes of a load, whose energy and powers are sums of ∫δ² and ∫δδ̇ over the parts that they are of, what it is on the
 /// ground: times k_G and c_G, with F_n and ∫f_n u from the integrals over all that presses.
-void take_ground(const Ground& ground, const LoadIntegrals& pressing, ContactLoad& load);
+/// @param rates  gets k_G, c_G and the integrals if not null.
+void take_ground(const Ground& ground, const LoadIntegrals& pressing, ContactLoad& load, LoadRates* rates);
 
 /// What the rates of change of F_n and ∫f_n u are made of, over the pressing part and weighted by the area measure.
 struct LoadRates {

@@ -125,12 +125,7 @@ ContactLoad SmoothContact::load(const GroundView& view, LoadRates* rates, std::v
     add_end(end, depth, shared, sums);
   }
   if (shape_.straight > 0 && sums.load.deepest > 0) add_mantle(depths, shared, sums);
-  take_ground(ground_, sums.pressing, sums.load);
-  if (rates) {
-    rates->stiffness = ground_.stiffness;
-    rates->damping = ground_.damping;
-    rates->load = sums.pressing;
-  }
+  take_ground(ground_, sums.pressing, sums.load, rates);
   return sums.load;
 }
 

@@ -42,6 +42,11 @@ std::string_view trimmed(std::string_view text) {
   return text.substr(first, text.find_last_not_of(blanks) - first + 1);
 }
 
+std::string_view without_byte_order_mark(std::string_view text) {
+  constexpr std::string_view mark = "\xEF\xBB\xBF";
+  return text.starts_with(mark) ? text.substr(mark.size()) : text;
+}
+
 std::string shown_field(std::string_view field) {
   constexpr std::size_t longest = 40;
   std::string text(field.substr(0, longest));
@@ -99,8 +104,6 @@ std::vector<Row> read_csv_rows(const std::string& text) {
 
 namespace {
 
-constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
-
 /// A number too small for a double is 0.
 bool read_field(std::string_view text, double& value) {
   if (text.starts_with("+-") || text.starts_with("++")) return false;
@@ -137,7 +140,7 @@ class NumericTable::Parser {
   void parse() {
     check_names();
     const std::string_view text = table_.text_;
-    std::size_t offset = text.starts_with(byte_order_mark) ? byte_order_mark.size() : 0;
+    std::size_t offset = text.size() - without_byte_order_mark(text).size();
     lines_ = static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n')) + 1;
     while (offset < text.size()) {
       const std::size_t end = std::min(text.find('\n', offset), text.size());
@@ -293,7 +296,7 @@ std::string NumericTable::text_of(const std::string& path) {
 }
 
 std::vector<std::string> NumericTable::header_of(std::string_view text) {
-  if (text.starts_with(byte_order_mark)) text.remove_prefix(byte_order_mark.size());
+  text = without_byte_order_mark(text);
   std::vector<std::string> names;
   for (std::size_t offset = 0; offset < text.size() && names.empty();) {
     const std::size_t end = std::min(text.find('\n', offset), text.size());

@@ -26,6 +26,9 @@ namespace clatter::validation {
 /// Without blanks at either end.
 [[nodiscard]] std::string_view trimmed(std::string_view text);
 
+/// Without a byte order mark before it.
+[[nodiscard]] std::string_view without_byte_order_mark(std::string_view text);
+
 /// A field as an error shows it: on one line, printable, short.
 [[nodiscard]] std::string shown_field(std::string_view field);
 

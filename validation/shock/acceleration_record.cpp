@@ -74,8 +74,7 @@ struct TextLine {
 };
 
 std::vector<TextLine> lines_of(std::string_view text) {
-  constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
-  if (text.starts_with(byte_order_mark)) text.remove_prefix(byte_order_mark.size());
+  text = without_byte_order_mark(text);
   std::vector<TextLine> lines;
   std::size_t number = 0;
   for (std::size_t begin = 0; begin < text.size();) {

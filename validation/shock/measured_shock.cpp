@@ -105,6 +105,7 @@ class BlowFinder {
     blow.peak_time = time(peak) - blow.time;
     blow.first = falling(begin, -1, blow.width);
     blow.last = falling(end, 1, blow.width);
+    blow.largest = peak;
     blow.peak = record_.values[peak];
     blow.peak_size = {sizes_[peak], 0};
     if (!is_low_before || !is_low_after) blow.width_error = unknown_error;
@@ -200,8 +201,7 @@ class Measurement {
     const double random = count > 0 ? shock_.noise * duration / std::sqrt(count) : 0;
     const double zero = std::min(shock_.before.norm(), std::fabs(shock_.before.norm() - standard_gravity));
     blow.delta_v_size = {blow.delta_v.norm(), sag + random + zero * duration};
-    std::size_t peak = blow.first;
-    while (times()[peak] < blow.time + blow.peak_time) ++peak;
+    const std::size_t peak = blow.largest;
     double most = 0;
     for (std::size_t i = peak > 0 ? peak - 1 : 0; i <= peak + 1; ++i) most = std::max(most, bend(i).norm());
     blow.peak_size.error = most / 8 + shock_.noise;

@@ -17,6 +17,7 @@ namespace clatter::validation {
 /// One blow of a record, along its axes.  Errors are not finite where the samples do not tell.
 struct MeasuredBlow {
   std::size_t first = 0, last = 0;  ///< samples over which ΔV is the integral
+  std::size_t largest = 0;          ///< the sample of the peak
   double time = 0;                  ///< in the record, when the size first exceeds a tenth of the peak [s]
   double peak_time = 0;             ///< after that [s]
   double width = 0;                 ///< until it last exceeds a tenth of the peak [s]

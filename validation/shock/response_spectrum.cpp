@@ -302,8 +302,14 @@ namespace {
 constexpr double infinite_time = std::numeric_limits<double>::infinity();
 constexpr double response_rounding = 64 * std::numeric_limits<double>::epsilon();
 
-/// Takes the residual response, and the slack and rounding into the errors.
-void end(Oscillator& oscillator, ResponsePoint& point) {
+/// Takes the primary and the residual response, and into the errors what of the base's velocity is left open, the slack
+/// and rounding.
+/// @param left_open  ∫|δs| dt [m/s]
+void end(Oscillator& oscillator, double left_open, double quality, ResponsePoint& point) {
+  const double stretch = 1 / std::sqrt(1 - 1 / (4 * quality * quality));  // ω/ω_d
+  point.primary = oscillator.take_extremes();
+  point.pseudo_velocity_error = left_open * stretch;
+  point.acceleration_error = left_open * stretch * oscillator.omega();
   oscillator.rest(infinite_time);
   point.residual = oscillator.take_extremes();
   const ResponseExtremes whole = point.whole();
@@ -348,11 +354,7 @@ ResponsePoint response(std::span<const BasePiece> pieces, double frequency, doub
     oscillator.drive(piece.acceleration, piece.length);
     left_open += piece.length * piece.acceleration.tail();
   }
-  point.primary = oscillator.take_extremes();
-  const double stretch = 1 / std::sqrt(1 - 1 / (4 * quality * quality));  // ω/ω_d
-  point.pseudo_velocity_error = left_open * stretch;
-  point.acceleration_error = left_open * stretch * oscillator.omega();
-  end(oscillator, point);
+  end(oscillator, left_open, quality, point);
   return point;
 }
 
@@ -368,11 +370,7 @@ ResponsePoint response(std::span<const BaseSample> samples, double frequency, do
       left_open += std::fabs(bend) * (to.time - from.time) / 12;
     }
   }
-  point.primary = oscillator.take_extremes();
-  const double stretch = 1 / std::sqrt(1 - 1 / (4 * quality * quality));
-  point.pseudo_velocity_error = left_open * stretch;
-  point.acceleration_error = left_open * stretch * oscillator.omega();
-  end(oscillator, point);
+  end(oscillator, left_open, quality, point);
   return point;
 }
 
@@ -388,11 +386,7 @@ ResponsePoint response(std::span<const VelocityStep> steps, double frequency, do
     so_far += std::fabs(step.delta_v);
     last_time_error = step.time_error;
   }
-  point.primary = oscillator.take_extremes();
-  const double stretch = 1 / std::sqrt(1 - 1 / (4 * quality * quality));
-  point.pseudo_velocity_error = error * stretch;
-  point.acceleration_error = error * stretch * oscillator.omega();
-  end(oscillator, point);
+  end(oscillator, error, quality, point);
   return point;
 }
 

@@ -45,9 +45,7 @@ std::optional<ShockRun> run_beside(const ShockCommandInput& input, const ShockRe
 }
 
 int run_measured(const ShockCommandInput& input) {
-  ShockView view = input.view;
-  view.rows = input.rows.value_or(view.rows);
-  if (input.part) view.part = FragilePart{(*input.part)[0], (*input.part)[1] * standard_gravity};
+  ShockView view = shown_of(input);
   check_files(input.output, plot_files(input.plot));
   PlotFile plot(input.plot);
   RecordRequest wanted{.path = input.measured, .rate = input.view.rate, .unit = input.unit};

@@ -72,10 +72,15 @@ ShockRequest request_of(const ShockInput& input) {
   return request;
 }
 
-ShockView view_of(const ShockInput& input) {
+ShockView shown_of(const ShockInput& input) {
   ShockView view = input.view;
   view.rows = input.rows.value_or(view.rows);
   if (input.part) view.part = FragilePart{(*input.part)[0], (*input.part)[1] * standard_gravity};
+  return view;
+}
+
+ShockView view_of(const ShockInput& input) {
+  const ShockView view = shown_of(input);
   if (view.rate) {
     if (input.rows) throw BadInput("--rate: the rows are the history's; leave out --rows");
     if (model_of(input) == Model::discrete)

@@ -36,6 +36,9 @@ void add_shock_options(Command& command, ShockInput& input);
 /// The probes of the flags, or else of the scene file.
 [[nodiscard]] std::vector<Probe> probes_of(const ShockInput& input);
 [[nodiscard]] ShockRequest request_of(const ShockInput& input);
+/// What is shown, a record or a drop.
+[[nodiscard]] ShockView shown_of(const ShockInput& input);
+/// The same of a drop.  @throws BadInput for rows that its model does not have
 [[nodiscard]] ShockView view_of(const ShockInput& input);
 /// Exit status of a run, as that of simulate or of sequence; says why it is not 0.
 [[nodiscard]] int status_of(const Scene& scene, const ShockRun& run);

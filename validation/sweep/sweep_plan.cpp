@@ -366,14 +366,13 @@ void choose_ranking(const SweepRequest& request, SweepPlan& plan) {
 
 /// A summary of many scenes by the continuous model asks for no more than statistics need, unless it is told: three
 /// digits, and no second run for the growth of errors.
-void spare(const SweepRequest& request, const SceneValues& values, const std::vector<Setting>& settings,
-           std::vector<std::string>& sets) {
+void spare(const SweepRequest& request, const SceneValues& values, const Drawing& drawing,
+           std::vector<Setting>& settings) {
   if (!request.summary || read_model(request, values, settings) == Model::discrete) return;
-  const auto is_given = [&](const char* key) {
-    return values.has(key) || std::ranges::any_of(settings, [&](const Setting& one) { return one.key == key; });
-  };
-  if (!is_given("run.digits") && !is_given("run.tolerance") && !is_given("run.step")) sets.emplace_back("run.digits=3");
-  if (!is_given("run.amplification")) sets.emplace_back("run.amplification=false");
+  const auto is_given = [&](const char* key) { return values.has(key) || sets(settings, key); };
+  if (!is_given("run.digits") && !is_given("run.tolerance") && !is_given("run.step"))
+    settings.push_back(read_setting("run.digits=3", drawing));
+  if (!is_given("run.amplification")) settings.push_back(read_setting("run.amplification=false", drawing));
 }
 
 /// The points of flags, else of the scene's file, where rows have columns for them.
@@ -467,8 +466,8 @@ SweepPlan read_sweep_plan(const SweepRequest& request) {
   if (request.require_digits) sets.emplace_back("run.require_digits=true");
   const Drawing drawing = read_drawing(request);
   if (drawing.scatter) name_own_attitude(request, values, sets);
-  spare(request, values, read_settings(sets, drawing), sets);
   std::vector<Setting> settings = read_settings(sets, drawing);
+  spare(request, values, drawing, settings);
   read_scene(request, settings, values, plan);
   plan.fixed_words = shell_word(request.file) + " --model " + name_of(plan.layout.model);
   for (const Setting& setting : settings) {

@@ -48,7 +48,7 @@ analytic::Sequence sequence_of(const BarScene& scene, int impacts = to_rest) {
   return impact_sequence(scene.drop(), {.impacts = impacts, .digits = scene.digits});
 }
 
-/// Of 1 kg and 1 m, dropped without spin on a ground with gravity.
+/// A bar of 1 kg and 1 m that is dropped without spin on a ground with gravity.
 BarScene fallen(BarShape shape, double half_thickness, double degrees, double speed, double restitution) {
   return {.shape = shape,
           .half_thickness = half_thickness,

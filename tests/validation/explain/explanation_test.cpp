@@ -63,7 +63,7 @@ const std::vector<Told>& told() {
       add(list, name, "", 3);
       add_on_ground(list, name, 3);
     }
-    // Of each law and friction a different slip for the thin rod, the thick one and the box that lands flat.
+    // Each law and friction meets a different slip of the thin rod, the thick one and the box that lands flat.
     const char* const slips[] = {"", " drop.tangential_velocity=0.4", " drop.tangential_velocity=-1.5 drop.spin=2"};
     const std::string box = "body.shape=box body.size=0.3x0.2x0.1 ";
     int number = 0;

@@ -50,7 +50,7 @@ class Damage {
     const std::size_t before = text_.rfind('\n', random_.below(text_.size()));
     return line_ = before == std::string::npos ? 0 : before + 1;
   }
-  /// Of the line whose begin was drawn last.
+  /// The end of the line whose begin was drawn last.
   [[nodiscard]] std::size_t line_end() const { return std::min(text_.find('\n', line_), text_.size() - 1) + 1; }
 
   std::string text_;
