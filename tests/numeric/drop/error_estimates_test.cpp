@@ -15,7 +15,7 @@ MotionState dropped(const Body& body, double angle, double tilt = 0) {
                         {.inclination = angle * degree, .velocity = {0, 0, -4}, .out_of_plane_tilt = tilt * degree});
 }
 
-constexpr int random_drops = CLATTER_TEST_SLOW_BUILD ? 4 : 30;
+constexpr int random_drops = CLATTER_TEST_SLOW_BUILD ? 12 : 30;
 
 /// A random drop of the phone or the rod, with friction or without.
 struct RandomDrop {
