@@ -24,11 +24,11 @@ bool holds(const VertexSet set, int vertex) { return (set >> vertex & 1) != 0; }
 
 }  // namespace
 
-ErrorGrowth::ErrorGrowth(const BodyMotion& motion, double angle, bool sums_only) : sums_only_(sums_only) {
+ErrorGrowth::ErrorGrowth(const BodyMotion& motion, const Drop& drop, bool sums_only) : sums_only_(sums_only) {
   const ContactPoint d = motion.contact_point(std::countr_zero(motion.lowest_vertices()));
   const PlanarVelocity v = motion.velocity();
   const bool exact = motion.local_departure().sine == 0 || d.tangential == 0;  // 0° and 90° are what they are
-  const double size = exact ? 0 : std::fabs(angle);
+  const double size = exact ? 0 : std::fabs(drop.inclination.radians);
   of_angle_[at_angle] = size;
   of_angle_[at_normal] = v.angular * d.normal * size;
   of_angle_[at_slip] = v.angular * d.tangential * size;
@@ -42,6 +42,16 @@ ErrorGrowth::ErrorGrowth(const BodyMotion& motion, double angle, bool sums_only)
     for (double& entry : column) entry *= epsilon;
     factor_.add(column);
   }
+  if (!drop.fall) return;
+  const double turn = drop.fall->inclination_error / deviations;
+  StateVector of_inclination{}, of_normal{};
+  of_inclination[at_angle] = turn;
+  of_inclination[at_normal] = v.angular * d.normal * turn;
+  of_inclination[at_slip] = v.angular * d.tangential * turn;
+  of_normal[at_normal] = drop.fall->normal_error / deviations;
+  factor_.add(of_inclination);
+  factor_.add(of_normal);
+  predictable_ = std::isfinite(drop.fall->time_error);
 }
 
 void ErrorGrowth::advance(const StateMatrix& jacobian) {

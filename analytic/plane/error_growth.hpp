@@ -20,9 +20,9 @@ namespace clatter::analytic {
 
 class ErrorGrowth {
  public:
-  /// @param motion before its first impact, in internal units (impact_rows.hpp); angle of the drop [rad]
+  /// @param motion before its first impact; drop whose it is; both in internal units (impact_rows.hpp)
   /// @param sums_only only what summed_sequence() gives
-  ErrorGrowth(const BodyMotion& motion, double angle, bool sums_only);
+  ErrorGrowth(const BodyMotion& motion, const Drop& drop, bool sums_only);
 
   /// Errors and amplification of a row whose impact `motion` has just had; errors go through the
   /// impact.

@@ -44,6 +44,7 @@ Drop Units::to_internal(Drop drop) const {
   scale(drop.gravity, length_ - 2 * speed_);
   scale(drop.gravity_along, length_ - 2 * speed_);
   scale(drop.law.damping_per_stiffness, speed_);
+  if (drop.fall) scale(drop.fall->normal_error, -speed_);
   return drop;
 }
 

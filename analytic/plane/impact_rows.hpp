@@ -37,6 +37,15 @@ struct RowErrors {
   [[nodiscard]] static RowErrors unknown();
 };
 
+/// The free flight from a release to the first touch, and bounds on the errors that it leaves in the drop's numbers;
+/// infinite where it is not certain which vertex touches, or when.
+struct FreeFall {
+  double time = 0;               ///< of the touch since the release [s]
+  double time_error = 0;         ///< [s]
+  double inclination_error = 0;  ///< [rad]
+  double normal_error = 0;       ///< of V_n [m/s]
+};
+
 /// The body as it touches the ground for the first time.
 struct Drop {
   PlanarBody body;
@@ -45,6 +54,7 @@ struct Drop {
   double gravity = 0;        ///< towards the ground, >= 0 [m/s²]
   double gravity_along = 0;  ///< along x, where the ground slopes [m/s²]
   ImpactLaw law;
+  std::optional<FreeFall> fall{};  ///< that has ended in this touch (free_fall.hpp)
 
   /// @throws std::domain_error naming the field, its value and what is allowed.
   void validate() const;

@@ -43,7 +43,7 @@ class Run : public SequenceLoop<Sequence, ErrorGrowth> {
       : SequenceLoop(options), law_(drop.law), gravity_(drop.gravity), gravity_along_(drop.gravity_along),
         motion_(drop.body, drop.inclination, drop.velocity, drop.gravity, drop.gravity_along) {
     result_.rows.reserve(static_cast<std::size_t>(std::min(options.impacts, 64)));
-    if (options.amplification) growth_.emplace(motion_, drop.inclination.radians, sums_only);
+    if (options.amplification) growth_.emplace(motion_, drop, sums_only);
   }
 
   Sequence run() {

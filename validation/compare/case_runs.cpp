@@ -85,8 +85,9 @@ const RecordedRun& CaseRuns::history(const std::string& name, const RunOptions& 
     const numeric::Body body = scene.make_body();
     RecordedRun recorded;
     SampleList list(recorded.samples);
-    const numeric::MotionState start = scene.start(body);
-    if (scene.height) record_fall(list, start, body.mass(), scene.world.gravity, fall_points);
+    double fall = 0;
+    const numeric::MotionState start = scene.start(body, &fall);
+    record_fall(list, body, scene.world, start, fall, fall_points);
     recorded.run = numeric::simulate(body, scene.world, start, scene.request, scene.accuracy, {.history = &list});
     return recorded;
   });

@@ -292,7 +292,7 @@ SequenceImpact planar_impact(const analytic::Drop& drop, const ImpactRow& row, c
 }
 
 DiscreteSide planar_side(const Scene& scene, const analytic::Drop& drop, const analytic::Sequence& sequence) {
-  const Run run = run_of(sequence, scene.angle_deg);
+  const Run run = run_of(sequence, given_inclination(scene));
   DiscreteSide side{.in_space = false,
                     .quantities = plane_quantities,
                     .scales = comparison_scales(run.impacts, {.reach = drop.body.reach(), .mass = drop.body.mass}),

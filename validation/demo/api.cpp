@@ -96,9 +96,10 @@ Value simulate(NamedTexts texts) {
   const bool with_history = taken(texts, "history") == "true";
   const Scene scene = continuous_scene(texts);
   const numeric::Body body = scene.make_body();
-  const numeric::MotionState start = scene.start(body);
+  double fall = 0;
+  const numeric::MotionState start = scene.start(body, &fall);
   HistoryColumns history;
-  if (with_history && scene.height) record_fall(history, start, body.mass(), scene.world.gravity, 20);
+  if (with_history) record_fall(history, body, scene.world, start, fall, 20);
   const PlannedRun planned = run_to_digits(scene, body, {.history = with_history ? &history : nullptr});
   Value fields = simulation_report(scene, planned).fields;
   if (with_history) fields["history"] = history.fields();

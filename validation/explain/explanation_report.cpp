@@ -146,6 +146,10 @@ void write_fall(StepWriter& writer, const Scene& scene, const Given& given, cons
                  {"velocity of the centre of mass along the normal, after the fall"});
     return;
   }
+  if (scene.is_released()) {
+    writer.found(speed, {"velocity of the centre of mass along the normal, after the free flight from the release"});
+    return;
+  }
   if (!scene.height || !(given.gravity.value(0, 0) > 0)) {
     writer.given(speed, {"velocity of the centre of mass along the normal, before"});
     return;

@@ -70,6 +70,9 @@ class PlanarImpact {
   void first_touch() {
     writer_.open("The first touch",
                  {fmt::format("{} {} the ground.", "With " + ends(row_.vertices), "the body touches")});
+    if (drop_.fall)
+      writer_.found(number("T", drop_.fall->time, "s"),
+                    {"time of the free flight since the release, the first root of the vertices' heights"});
     alpha_ = writer_.given(number("α", drop_.inclination.degrees, "°"), {"inclination, positive with end a low"});
     contact_point();
     vn_ = number("v_n", row_.before.normal, "m/s");

@@ -58,16 +58,15 @@ class SpatialImpact {
  public:
   SpatialImpact(const Scene& scene, const space::Drop& drop, const space::Sequence& sequence, int n)
       : scene_(scene), drop_(drop), n_(n), row_(sequence.rows[static_cast<std::size_t>(n - 1)]),
-        last_(n > 1 ? &sequence.rows[static_cast<std::size_t>(n - 2)] : nullptr), struck_(row_.impact),
-        reach_(drop.body.reach()), writer_(relative_error(row_, reach_)),
-        given_(write_body(writer_, drop.body.mass, drop.gravity)),
+        departure_(departure_of(drop, sequence, n)), struck_(row_.impact), reach_(drop.body.reach()),
+        writer_(relative_error(row_, reach_)), given_(write_body(writer_, drop.body.mass, drop.gravity)),
         speed_(std::max({row_.before.velocity.norm(), struck_.velocity_after.norm(), row_.approach_speed})) {}
 
   std::vector<Step> steps() {
     inertia_b_ = writer_.given({"I_b", drop_.body.inertia, "kg·m²"}, {"inertia about the centre of mass, body axes"});
     normal_ = writer_.given({"n", Vector3::UnitZ(), ""}, {"the ground's normal"});
     write_law(writer_, scene_, drop_.law.law, given_);
-    if (last_) flight();
+    if (departure_) flight();
     else writer_.open("The first touch", {fmt::format("The body touches the ground with {}.", arrived())});
     touch();
     if (row_.group) {
@@ -94,29 +93,40 @@ class SpatialImpact {
     for (const space::Corner& corner : row_.corners) corners.push_back(corner.index);
     return names(corners);
   }
+  /// Where the flight to impact n begins: after the impact before, or at the release; nothing if there is none.
+  struct Departure {
+    space::State state;
+    double velocity_error = 0;
+  };
+  static std::optional<Departure> departure_of(const space::Drop& drop, const space::Sequence& sequence, int n) {
+    if (n > 1) {
+      const space::ImpactRow& last = sequence.rows[static_cast<std::size_t>(n - 2)];
+      return Departure{state_after(last), last.error.velocity_after};
+    }
+    if (drop.release_height) return Departure{given_state(drop)};
+    return {};
+  }
   [[nodiscard]] Symbol after_last(const std::string& symbol) const { return symbol + "_" + std::to_string(n_ - 1); }
   [[nodiscard]] bool falls() const { return drop_.gravity > 0; }
   [[nodiscard]] Expression up(const Expression& vector) const { return dot(vector, normal_); }
 
   void flight() {
-    writer_.open(
-        fmt::format("The flight to impact {}", n_),
-        {fmt::format("After impact {} the body flies freely: its centre of mass along a parabola, its attitude "
-                     "by a rotation without torque.",
-                     n_ - 1)});
-    z0_ = writer_.found(number(after_last("z"), last_->before.position.z(), "m"),
-                        {"height of the centre of mass at departure"});
-    v0_ = writer_.found({after_last("V"), last_->impact.velocity_after, "m/s", last_->error.velocity_after, speed_},
-                        {"its velocity"});
-    const Vector3 rate = last_->before.attitude.conjugate() * last_->impact.angular_velocity_after;
+    writer_.open(fmt::format("The flight to impact {}", n_),
+                 {fmt::format("After {} the body flies freely: its centre of mass along a parabola, its attitude "
+                              "by a rotation without torque.",
+                              n_ > 1 ? fmt::format("impact {}", n_ - 1) : "the release")});
+    const space::State& from = departure_->state;
+    z0_ = writer_.found(number(after_last("z"), from.position.z(), "m"), {"height of the centre of mass at departure"});
+    v0_ = writer_.found({after_last("V"), from.velocity, "m/s", departure_->velocity_error, speed_}, {"its velocity"});
+    const Vector3 rate = from.attitude.conjugate() * from.angular_velocity;
     rate_b_ = writer_.found({"ω_b", rate, "rad/s"}, {"angular velocity at departure, in body axes"});
     rotation();
     earliest();
   }
 
   void rotation() {
-    const space::FreeRotation free(space::PrincipalAxes(drop_.body.inertia), last_->before.attitude,
-                                   last_->impact.angular_velocity_after);
+    const space::FreeRotation free(space::PrincipalAxes(drop_.body.inertia), departure_->state.attitude,
+                                   departure_->state.angular_velocity);
     const Vector3 rate = free.angular_velocity(0), momentum_now = drop_.body.inertia * rate;
     // A wobble that may be rounding leaves λ and k² no digits.
     const bool steady =
@@ -201,12 +211,12 @@ class SpatialImpact {
   /// Attitude, velocities and inertia as the corner comes down.
   void touch() {
     const space::State& now = row_.before;
-    if (last_) writer_.open("At the touch", {"Attitude, velocities and inertia as the corner comes down."});
+    if (departure_) writer_.open("At the touch", {"Attitude, velocities and inertia as the corner comes down."});
     const Eigen::Vector4d q(now.attitude.w(), now.attitude.x(), now.attitude.y(), now.attitude.z());
     writer_.found({"q", q, "", 0, 1}, {"Euler parameters of the attitude, body to world"});
     rotation_ = writer_.found({"R", now.attitude.toRotationMatrix(), "", 0, 1}, {"their rotation matrix"});
     inertia_ = writer_.computed("I", "kg·m²", rotation_ * inertia_b_ * power(rotation_, -1), {"inertia in world axes"});
-    if (last_) {
+    if (departure_) {
       velocity_ = writer_.found({"V", now.velocity, "m/s", 0, speed_},
                                 falls() ? v0_ - given_.gravity * time_ * normal_ : Expression(v0_),
                                 {"velocity of the centre of mass"});
@@ -230,7 +240,7 @@ class SpatialImpact {
   }
 
   void heights(const Quantity& arm) {
-    if (last_) writer_.computed("h", "m", z_ + up(arm), {"height of the corner at the root"}, reach_);
+    if (departure_) writer_.computed("h", "m", z_ + up(arm), {"height of the corner at the root"}, reach_);
     else
       z_ = writer_.found(number("z", row_.before.position.z(), "m", 0, reach_), -up(arm),
                          {"height of the centre of mass"});
@@ -488,7 +498,7 @@ class SpatialImpact {
   const space::Drop& drop_;
   int n_;
   const ImpactRow& row_;
-  const ImpactRow* last_;
+  std::optional<Departure> departure_;
   const space::Impact& struck_;
   double reach_;
   StepWriter writer_;

@@ -14,6 +14,7 @@
 #include "analytic/plane/body_motion.hpp"
 #include "analytic/space/flight/point_height.hpp"
 #include "analytic/space/sequence/gradient.hpp"
+#include "validation/output/bad_input.hpp"
 #include "validation/output/number.hpp"
 #include "validation/run/scene_value.hpp"
 #include "validation/run/shortfall.hpp"
@@ -237,6 +238,8 @@ std::vector<Column> gradient_columns(bool in_space) {
 GradientReport gradient_report(const PreparedScene& prepared) {
   const Scene& scene = prepared.scene;
   const bool in_space = std::holds_alternative<analytic::space::Drop>(prepared.drop);
+  if (scene.is_released())
+    throw BadInput("drop.release: must be left out for clatter gradient, whose numbers are those of the touch");
   const std::vector<Parameter> parameters = parameters_of(scene, in_space);
   DropGradient gradient = drop_gradient(prepared.drop, scene.most_impacts());
   if (scene.falls()) take_height(prepared, gradient);

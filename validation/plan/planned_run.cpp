@@ -339,7 +339,8 @@ std::string planar_warning(const numeric::Body& body, const numeric::World& worl
 PlannedRun run_to_digits(const Scene& scene, const numeric::Body& body, const numeric::Observer& observer) {
   const Accuracy& accuracy = scene.accuracy;
   const numeric::World& world = scene.world;
-  const numeric::MotionState start = scene.start(body);
+  double fall = 0;
+  const numeric::MotionState start = scene.start(body, &fall);
   const bool plans = accuracy.method == Method::automatic && accuracy.step == 0 && accuracy.tolerance == 0;
   PlannedRun planned;
   if (plans) {
@@ -348,6 +349,7 @@ PlannedRun run_to_digits(const Scene& scene, const numeric::Body& body, const nu
     planned.run = numeric::simulate(body, world, start, scene.request, accuracy, observer);
     planned.asked = std::pow(10.0, -accuracy.digits);
   }
+  if (scene.is_released()) planned.first_touch = first_touch_of(fall, start);
   add_facet_errors(scene, planned.run);
   judge(body, planned);
   const std::string out_of_plane = planar_warning(body, world, start);

@@ -11,6 +11,7 @@
 #include "analytic/base/errors.hpp"
 #include "analytic/law/viscoelastic.hpp"
 #include "analytic/plane/body_motion.hpp"
+#include "analytic/plane/free_fall.hpp"
 #include "analytic/space/flight/body.hpp"
 #include "validation/output/bad_input.hpp"
 #include "validation/output/json.hpp"
@@ -90,18 +91,6 @@ bool vanish(std::initializer_list<double> parts, double whole) {
   return std::all_of(parts.begin(), parts.end(), [&](double part) { return std::fabs(part) <= typed * whole; });
 }
 
-/// Height of the centre of mass above the lowest point.
-double touch_height(const space::Body& body, const space::Quaternion& attitude) {
-  const space::Vector3 up = attitude.conjugate() * space::Vector3::UnitZ();
-  double lowest = std::numeric_limits<double>::infinity();
-  for (const space::Vector3& vertex : body.vertices) lowest = std::fmin(lowest, up.dot(vertex));
-  for (const space::Rim& rim : body.rims)
-    lowest = std::fmin(lowest, up.dot(rim.centre) - rim.radius * up.cross(rim.axis).norm());
-  for (const auto& [centre, semiaxes] : body.ellipsoids)
-    lowest = std::fmin(lowest, up.dot(centre) - semiaxes.cwiseProduct(up).norm());
-  return -lowest;
-}
-
 /// By sizes alone, about the centre of mass.
 space::Body simple_body(const Scene& scene) {
   const BodyScene& body = scene.body;
@@ -150,12 +139,14 @@ analytic::Drop planar_drop(const Scene& scene, const analytic::PlanarBody& body)
   const Vector3 velocity = scene.touch_velocity();
   const auto touch = [&] { return analytic::BodyMotion(body, inclination, {}, 0).centre_height(); };
   const double normal = scene.height ? -scene.fallen_speed(touch()) : velocity.z();
-  return {.body = body,
-          .inclination = inclination,
-          .velocity = {.normal = normal, .tangential = velocity.x(), .angular = scene.touch_angular_velocity().y()},
-          .gravity = scene.world.pull().down,
-          .gravity_along = scene.world.pull().along,
-          .law = discrete_law(scene).law};
+  const analytic::Drop drop{
+      .body = body,
+      .inclination = inclination,
+      .velocity = {.normal = normal, .tangential = velocity.x(), .angular = scene.touch_angular_velocity().y()},
+      .gravity = scene.world.pull().down,
+      .gravity_along = scene.world.pull().along,
+      .law = discrete_law(scene).law};
+  return scene.is_released() ? analytic::after_free_fall(drop, scene.release_height(touch())) : drop;
 }
 
 /// The same in space, where an impulse ratio acts along x.
@@ -169,6 +160,7 @@ space::Drop space_drop(const Scene& scene, const space::Body& body) {
                    .law = {}};
   drop.law.law = discrete_law(scene).law;
   if (scene.height) drop.velocity.z() = -scene.fallen_speed(touch_height(drop.body, drop.attitude));
+  if (scene.is_released()) drop.release_height = scene.release_height(touch_height(drop.body, drop.attitude));
   return drop;
 }
 
@@ -381,6 +373,8 @@ double first_approach_speed(const DiscreteDrop& drop) {
     return speed;
   }
   const auto& in_space = std::get<space::Drop>(drop);
+  if (in_space.release_height)
+    return impact_sequence(in_space, {.impacts = 1, .amplification = false}).rows.front().approach_speed;
   const auto at = [&](const Vector3& arm) {
     take(arm.z(), -(in_space.velocity + in_space.angular_velocity.cross(arm)).z(), in_space.body.reach());
   };
@@ -545,8 +539,11 @@ std::string landing_words(const std::vector<space::Corner>& corners) {
   return fmt::format("{} corners land at once", corners.size());
 }
 
+double given_inclination(const Scene& scene) { return scene.is_released() ? no_inclination : scene.angle_deg; }
+
 Run named_run(const Scene& scene, const DiscreteSequence& sequence, const Vector3& centre) {
-  if (const auto* const planar = std::get_if<analytic::Sequence>(&sequence)) return run_of(*planar, scene.angle_deg);
+  if (const auto* const planar = std::get_if<analytic::Sequence>(&sequence))
+    return run_of(*planar, given_inclination(scene));
   const auto& in_space = std::get<space::Sequence>(sequence);
   Run run = run_of(in_space);
   for (std::size_t i = 0; i < run.impacts.size(); ++i) name_corners(scene, in_space.rows[i], centre, run.impacts[i]);
@@ -576,6 +573,8 @@ DiscreteRun run_discrete(const PreparedScene& prepared) {
       },
       prepared.drop);
   Run run = named_run(scene, sequence, prepared.centre);
+  if (const auto* const planar = std::get_if<analytic::Drop>(&prepared.drop); planar && planar->fall)
+    run.first_touch = first_touch_of(*planar);
   return {std::move(sequence), std::move(run)};
 }
 

@@ -141,6 +141,8 @@ struct PreparedScene {
 [[nodiscard]] std::string tilt_words(const analytic::space::OutcomeSet& set);
 /// The corners of a row in words: "2 corners land at once", "a round end lands level".
 [[nodiscard]] std::string landing_words(const std::vector<analytic::space::Corner>& corners);
+/// The inclination of the first touch as the scene gives it [°]; no_inclination after a free flight.
+[[nodiscard]] double given_inclination(const Scene& scene);
 /// The run of a drop's sequence, in space with the names and places of the corners that strike.
 /// @param centre  of mass, in the body's frame [m]
 [[nodiscard]] Run named_run(const Scene& scene, const DiscreteSequence& sequence, const numeric::Vector3& centre);

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "numeric/motion/free_flight.hpp"
 #include "validation/output/bad_input.hpp"
 #include "validation/output/number.hpp"
 
@@ -119,18 +120,19 @@ void HistoryFile::record(const HistorySample& sample) {
   sink_.write(line + "\n");
 }
 
-void record_fall(numeric::HistoryRecorder& recorder, const numeric::MotionState& touch, double mass, double gravity,
-                 int parts) {
-  const double fall = -touch.velocity.z() / gravity;
+void record_fall(numeric::HistoryRecorder& recorder, const numeric::Body& body, const numeric::World& world,
+                 const numeric::MotionState& touch, double fall, int parts) {
+  if (!(fall > 0)) return;
+  const numeric::FreeFlight flight(body, touch, world.pull(), world.planar);
   for (int i = 0; i < parts; ++i) {
     HistorySample sample;
     sample.time = -fall * (1 - static_cast<double>(i) / parts);
-    sample.state = touch;
-    sample.state.centre += sample.time * touch.velocity - Vector3(0, 0, gravity / 2 * sample.time * sample.time);
-    sample.state.velocity.z() -= gravity * sample.time;
-    sample.point_velocity = sample.state.velocity;
-    sample.energy_translation = 0.5 * mass * sample.state.velocity.squaredNorm();
-    sample.energy_potential = mass * gravity * sample.state.centre.z();
+    sample.state = flight.at(sample.time);
+    const numeric::MotionState& s = sample.state;
+    sample.point_velocity = numeric::point_velocity(s, numeric::touch_point(body, touch));
+    sample.energy_translation = 0.5 * body.mass() * s.velocity.squaredNorm();
+    sample.energy_rotation = 0.5 * s.angular_velocity.dot(body.inertia() * s.angular_velocity);
+    sample.energy_potential = body.mass() * world.gravity * s.centre.z();
     recorder.record(sample);
   }
 }

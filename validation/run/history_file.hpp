@@ -51,8 +51,8 @@ class HistoryFile : public numeric::HistoryRecorder {
   TimeWindow window_;
 };
 
-/// Samples of the fall from rest that ends in `touch` at time 0: `parts` of them, from the release on.
-void record_fall(numeric::HistoryRecorder& recorder, const numeric::MotionState& touch, double mass, double gravity,
-                 int parts);
+/// Samples of the free flight that ends in `touch` at time 0: `parts` of them, over `fall` [s]; none if that is 0.
+void record_fall(numeric::HistoryRecorder& recorder, const numeric::Body& body, const numeric::World& world,
+                 const numeric::MotionState& touch, double fall, int parts);
 
 }  // namespace clatter::validation

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "validation/run/run.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -21,6 +23,10 @@ EntryVector each(double bound) { return {bound, bound, bound}; }
 EntryVector velocity(const analytic::PlanarVelocity& v) { return {v.tangential, 0, v.normal}; }
 EntryVector rotation(const analytic::PlanarVelocity& v) { return {0, v.angular, 0}; }
 double speed(const analytic::PlanarVelocity& v) { return std::hypot(v.normal, v.tangential); }
+
+FirstTouch first_touch(const Estimated& time, const space::State& state) {
+  return {time, entry(state.attitude), entry(state.velocity), entry(state.angular_velocity)};
+}
 
 /// The inclination of the body's x axis [rad], positive with end a lower.
 double inclination_of(const Eigen::Quaterniond& attitude) {
@@ -294,6 +300,10 @@ Run run_of(const space::Sequence& sequence) {
   Run run = begun_run(RunModel::space, sequence, sequence.evaluations);
   for (const space::ImpactRow& row : sequence.rows)
     run.impacts.push_back(impact_of(row, static_cast<int>(run.impacts.size()) + 1));
+  if (!sequence.rows.empty() && sequence.rows.front().flight.time > 0) {
+    const space::ImpactRow& first = sequence.rows.front();
+    run.first_touch = first_touch({first.flight.time, sequence.first_flight_error}, first.before);
+  }
   for (const space::SustainedContact& contact : sequence.contacts) {
     run.impulse_between += {contact.normal_impulse, contact.normal_impulse_error};
     if (contact.tail) run.impulse_between += {contact.tail->normal_impulse, contact.tail->normal_impulse_error};
@@ -310,6 +320,38 @@ Run run_of(const numeric::Simulation& simulation) {
   for (const numeric::ImpactRecord& row : simulation.impacts)
     run.impacts.push_back(impact_of(row, static_cast<int>(run.impacts.size()) + 1));
   return run;
+}
+
+FirstTouch first_touch_of(const analytic::Drop& drop) {
+  const double half = drop.inclination.radians / 2;
+  return {{drop.fall->time, drop.fall->time_error},
+          {std::cos(half), 0, -std::sin(half), 0},
+          velocity(drop.velocity),
+          rotation(drop.velocity)};
+}
+
+FirstTouch first_touch_of(double time, const numeric::MotionState& state) {
+  return {{time, unknown_error},
+          entry(state.attitude),
+          entry(state.velocity),
+          entry(state.attitude * state.angular_velocity)};
+}
+
+Value fields_of(const FirstTouch& touch) {
+  return Value::Fields{
+      {"time", touch.time.value},
+      {"time_error", error_or_nothing(touch.time)},
+      {"attitude", std::vector<double>(touch.attitude.begin(), touch.attitude.end())},
+      {"velocity", std::vector<double>(touch.velocity.begin(), touch.velocity.end())},
+      {"angular_velocity", std::vector<double>(touch.angular_velocity.begin(), touch.angular_velocity.end())}};
+}
+
+std::string words_of(const FirstTouch& touch) {
+  const auto vector = [](const EntryVector& v) {
+    return fmt::format("({}, {}, {})", significant(v[0], 6), significant(v[1], 6), significant(v[2], 6));
+  };
+  return fmt::format("first touch {} s after the release, at {} m/s and {} rad/s", significant(touch.time.value, 6),
+                     vector(touch.velocity), vector(touch.angular_velocity));
 }
 
 Totals totals(const Run& run) {

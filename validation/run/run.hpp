@@ -68,6 +68,14 @@ struct Impact {
   double largest_rate = 0;   ///< before or after [rad/s]
 };
 
+/// How a body that was let go comes to the ground.
+struct FirstTouch {
+  Estimated time{};                ///< since the release [s]
+  EntryParameters attitude{};      ///< body to world
+  EntryVector velocity{};          ///< of the centre of mass [m/s]
+  EntryVector angular_velocity{};  ///< [rad/s]
+};
+
 /// The sum of infinitely many impacts after the last row.
 struct RunTail {
   Impact sum{};
@@ -77,6 +85,7 @@ struct RunTail {
 struct Run {
   RunModel model = RunModel::plane;
   std::vector<Impact> impacts{};
+  std::optional<FirstTouch> first_touch{};  ///< of a drop with a release
   std::optional<RunTail> tail{};
   Estimated impulse_between{};  ///< normal impulse of hops and contacts that last, between impacts [N·s]
   const char* outcome = "";
@@ -123,6 +132,15 @@ struct Totals {
 };
 
 [[nodiscard]] Totals totals(const Run& run);
+
+/// That of a planar drop after its fall.
+[[nodiscard]] FirstTouch first_touch_of(const analytic::Drop& drop);
+/// That of the continuous model, in the state at the touch; the error of its time is not known.
+[[nodiscard]] FirstTouch first_touch_of(double time, const numeric::MotionState& state);
+/// The numbers of a first touch; an error that is not known is left out.
+[[nodiscard]] Value fields_of(const FirstTouch& touch);
+/// "first touch 0.358364 s after the release, at (0.3, 0, -3.71555) m/s and (0, 9, 0) rad/s".
+[[nodiscard]] std::string words_of(const FirstTouch& touch);
 
 /// Adds the sum of normal impulses, its error and whether all can be predicted to the fields of a run.
 void add_totals(const Totals& sums, Value& fields);

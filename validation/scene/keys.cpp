@@ -30,6 +30,7 @@ constexpr Range gravities{0, 1e9, false, "from 0 to 1e9"};
 constexpr Range slopes{-89, 89, false, "from -89 to 89 degrees"};
 constexpr Range heights{0, 1e12, true, "greater than 0 and at most 1e12"};
 constexpr Range angles{0, 90, false, "from 0 to 90 degrees"};
+constexpr Range turns_of_release{-1e4, 1e4, false, "from -1e4 to 1e4 degrees"};
 constexpr Range tilts{-180, 180, false, "from -180 to 180 degrees"};
 constexpr Range parameters{-1.01, 1.01, false, "from -1.01 to 1.01"};
 constexpr Range orientations{1, orientation_count, false, "a whole number from 1 to 26"};
@@ -42,6 +43,14 @@ constexpr std::array speed_of_fall{"drop.speed"};
 constexpr std::array speed_and_height{"drop.speed", "drop.height"};
 constexpr std::array turns{"drop.angle_deg", "drop.tilt_deg"};
 constexpr std::array ways_to_turn{"drop.angle_deg", "drop.tilt_deg", "drop.attitude"};
+constexpr std::array before_release{"drop.speed",    "drop.height", "drop.clearance",        "drop.tangential_velocity",
+                                    "drop.velocity", "drop.spin",   "drop.angular_velocity", "drop.topple"};
+constexpr std::array height_and_before_release{
+    "drop.speed", "drop.height",           "drop.clearance", "drop.tangential_velocity", "drop.velocity",
+    "drop.spin",  "drop.angular_velocity", "drop.topple",    "drop.release.height"};
+constexpr std::array attitude_before_release{"drop.angle_deg", "drop.tilt_deg", "drop.attitude", "drop.orientation"};
+constexpr std::array angle_and_attitude_before_release{"drop.angle_deg", "drop.tilt_deg", "drop.attitude",
+                                                       "drop.orientation", "drop.release.angle_deg"};
 constexpr std::array all_of_motion{"drop.speed",    "drop.height", "drop.clearance",       "drop.tangential_velocity",
                                    "drop.velocity", "drop.spin",   "drop.angular_velocity"};
 constexpr std::array springs{"ground.stiffness", "ground.damping"};
@@ -55,6 +64,7 @@ Echo only_if(bool shown) { return shown ? Echo::value : Echo::absent; }
 Echo in_discrete_only_if(bool given, Model model) {
   return given || model == Model::continuous ? Echo::value : Echo::absent;
 }
+Echo of_release(const Scene& scene, Model) { return only_if(scene.is_released()); }
 Echo of_rod(const Scene& scene, Model) { return only_if(scene.body.shape == BodyScene::Shape::rod); }
 Echo of_length(const Scene& scene, Model) { return only_if(scene.body.has_length()); }
 Echo of_radius(const Scene& scene, Model) { return only_if(scene.body.has_radius()); }
@@ -81,11 +91,21 @@ std::size_t index_of(Enum value) {
   return static_cast<std::size_t>(value);
 }
 
-template <std::vector<double> Scene::*member>
+/// @param at  std::vector<double>& of a Scene&
+template <auto at>
 ListValue three_velocities(const char* example) {
-  const auto get = [](const Scene& s) { return s.*member; };
-  const auto put = [](Scene& s, const std::vector<double>& v) { s.*member = v; };
+  const auto get = [](const Scene& s) { return at(s); };
+  const auto put = [](Scene& s, const std::vector<double>& v) { at(s) = v; };
   return {get, put, {3}, velocities, "three numbers from -1e9 to 1e9", example, &finite};
+}
+
+template <auto at>
+ListValue euler_parameters() {
+  const auto get = [](const Scene& s) { return at(s); };
+  const auto put = [](Scene& s, const std::vector<double>& v) { at(s) = v; };
+  return {
+      get,           put, {4}, parameters, "four numbers q0, q1, q2, q3 of length 1 (normalised if within 0.01 of it)",
+      "[1, 0, 0, 0]"};
 }
 
 void append_attitude(std::vector<Key>& keys) {
@@ -93,23 +113,30 @@ void append_attitude(std::vector<Key>& keys) {
               {
                   {"drop.angle_deg", Use::both, "--angle", "DEG", "°",
                    "inclination at the first impact, end a low; 0 flat, 90 upright",
-                   NumberValue{[](Scene& s) -> double& { return s.angle_deg; }, angles}, nullptr, true},
+                   NumberValue{[](Scene& s) -> double& {
+    return s.angle_deg; }, angles}, nullptr, true},
                   {"drop.tilt_deg", Use::both, "--tilt", "DEG", "°", "rotation about the body's long axis before that",
-                   NumberValue{[](Scene& s) -> double& { return s.tilt_deg; }, tilts}},
+                   NumberValue{[](Scene& s) -> double& {
+    return s.tilt_deg; }, tilts}},
                   {"drop.attitude", Use::both, "--attitude", "Q0,Q1,Q2,Q3", "",
                    "or Euler parameters, body to world, scalar first; the lowest vertex is put on the ground",
-                   ListValue{[](const Scene& s) { return s.attitude; },
-                             [](Scene& s, const std::vector<double>& v) { s.attitude = v; },
-                             {4},
-                             parameters,
-                             "four numbers q0, q1, q2, q3 of length 1 (normalised if within 0.01 of it)",
-                             "[1, 0, 0, 0]"},
-                   nullptr, false, turns},
-                  {"drop.orientation", Use::both, "--orientation", "N", "",
-                   "or which part of a box points down: 1-6 faces, 7-18 edges, 19-26 corners",
-                   OptionalNumber{[](Scene& s) -> std::optional<double>& { return s.orientation; }, orientations},
-                   nullptr, false, ways_to_turn},
-              });
+                   euler_parameters<[](auto& s) -> auto& { return s.attitude;
+}
+> (), nullptr, false, turns
+}  // namespace
+,
+    {"drop.orientation",
+     Use::both,
+     "--orientation",
+     "N",
+     "",
+     "or which part of a box points down: 1-6 faces, 7-18 edges, 19-26 corners",
+     OptionalNumber{[](Scene& s) -> std::optional<double>& { return s.orientation; }, orientations},
+     nullptr,
+     false,
+     ways_to_turn},
+}  // namespace clatter::validation
+);
 }
 
 void append_motion(std::vector<Key>& keys) {
@@ -117,40 +144,119 @@ void append_motion(std::vector<Key>& keys) {
       keys.end(),
       {
           {"drop.speed", Use::both, "--speed", "M/S", "m/s", "downward, of the centre of mass at first touch",
-           NumberValue{[](Scene& s) -> double& { return s.speed; }, speeds, &positive_number},
+           NumberValue{[](Scene& s) -> double& {
+    return s.speed; }, speeds, &positive_number},
            [](const Scene& s, Model model) {
-             return null_if(!s.velocity.empty() || (s.falls() && model == Model::continuous));
+    return null_if(!s.velocity.empty() || (s.falls() && model == Model::continuous));
            }},
           {"drop.height", Use::both, "--height", "M", "m", "or its height at release from rest",
-           OptionalNumber{[](Scene& s) -> std::optional<double>& { return s.height; }, heights, &positive_number},
+           OptionalNumber{[](Scene& s) -> std::optional<double>& {
+    return s.height; }, heights, &positive_number},
            nullptr, false, speed_of_fall},
           {"drop.clearance", Use::both, "--clearance", "M", "m",
            "or that of its lowest point at release from rest, the drop height of test standards",
-           OptionalNumber{[](Scene& s) -> std::optional<double>& { return s.clearance; }, heights, &positive_number},
+           OptionalNumber{[](Scene& s) -> std::optional<double>& {
+    return s.clearance; }, heights, &positive_number},
            nullptr, false, speed_and_height},
           {"drop.tangential_velocity", Use::both, "--tangential-velocity", "M/S", "m/s",
            "of the centre of mass, to the right",
-           NumberValue{[](Scene& s) -> double& { return s.tangential_velocity; }, velocities, &finite}},
+           NumberValue{[](Scene& s) -> double& {
+    return s.tangential_velocity; }, velocities, &finite}},
           {"drop.velocity", Use::both, "--velocity", "X,Y,Z", "m/s",
            "or all of it: of the centre of mass at the first touch, world",
-           three_velocities<&Scene::velocity>("[0, 0, -1]"), nullptr, false, parts_of_velocity},
-          {"drop.spin", Use::both, "--spin", "RAD/S", "rad/s", "clockwise, as Omega in Eq. 8",
-           NumberValue{[](Scene& s) -> double& { return s.spin; }, velocities, &finite}},
-          {"drop.angular_velocity", Use::both, "--angular-velocity", "X,Y,Z", "rad/s",
-           "or all of it: at the first touch, world components",
-           three_velocities<&Scene::angular_velocity>("[0, 0, 0]"), nullptr, false, turn_of_plane},
-          {"drop.topple", Use::both, "--topple", "M", "m",
-           "or let go from rest, end a raised by this: it turns about the lower edge of end b and lands flat",
-           OptionalNumber{[](Scene& s) -> std::optional<double>& { return s.topple; }, heights, &positive_number},
-           nullptr, false, all_of_motion},
-          {"world.gravity", Use::both, "--gravity", "M/S2", "m/s²",
-           "acceleration of free fall; 9.81 where a height, clearance, topple or incline is given, else 0",
-           NumberValue{[](Scene& s) -> double& { return s.world.gravity; }, gravities, &not_negative_number}},
-          {"world.incline_deg", Use::both, "--incline", "DEG", "°",
-           "slope of the ground, down to the right where positive; x and z are along and across the ground",
-           NumberValue{[](Scene& s) -> double& { return s.world.incline_deg; }, slopes},
-           [](const Scene& s, Model) { return only_if(s.world.incline_deg != 0); }},
-      });
+           three_velocities<[](auto& s) -> auto& { return s.velocity;
+}
+> ("[0, 0, -1]"), nullptr, false, parts_of_velocity
+}
+,
+    {"drop.spin",
+     Use::both,
+     "--spin",
+     "RAD/S",
+     "rad/s",
+     "clockwise, as Omega in Eq. 8",
+     NumberValue{[](Scene& s) -> double& { return s.spin; }, velocities, &finite}},
+    {"drop.angular_velocity", Use::both, "--angular-velocity", "X,Y,Z", "rad/s",
+     "or all of it: at the first touch, world components",
+     three_velocities < [](auto& s) -> auto& {return s.angular_velocity;
+}
+> ("[0, 0, 0]"), nullptr, false, turn_of_plane
+}
+,
+    {"drop.topple",
+     Use::both,
+     "--topple",
+     "M",
+     "m",
+     "or let go from rest, end a raised by this: it turns about the lower edge of end b and lands flat",
+     OptionalNumber{[](Scene& s) -> std::optional<double>& { return s.topple; }, heights, &positive_number},
+     nullptr,
+     false,
+     all_of_motion},
+    {"drop.release.height",
+     Use::both,
+     "--release-height",
+     "M",
+     "m",
+     "or let it fly freely, turning, to its first touch, from this height of the centre of mass",
+     OptionalNumber{[](Scene& s) -> std::optional<double>& { return s.release.height; }, heights, &positive_number},
+     of_release,
+     false,
+     before_release},
+    {"drop.release.clearance",
+     Use::both,
+     "--release-clearance",
+     "M",
+     "m",
+     "or from this one of its lowest point",
+     OptionalNumber{[](Scene& s) -> std::optional<double>& { return s.release.clearance; }, heights, &positive_number},
+     of_release,
+     false,
+     height_and_before_release},
+    {"drop.release.angle_deg",
+     Use::both,
+     "--release-angle",
+     "DEG",
+     "°",
+     "inclination at the release, end a low where positive; without it the angle, attitude or orientation above",
+     OptionalNumber{[](Scene& s) -> std::optional<double>& { return s.release.angle_deg; }, turns_of_release},
+     of_release,
+     false,
+     attitude_before_release},
+    {"drop.release.attitude", Use::both, "--release-attitude", "Q0,Q1,Q2,Q3", "", "or Euler parameters",
+     euler_parameters < [](auto& s) -> auto& {return s.release.attitude;
+}
+> (), of_release, false, angle_and_attitude_before_release
+}
+, {"drop.release.velocity", Use::both, "--release-velocity", "X,Y,Z", "m/s",
+   "of the centre of mass at the release, world; without it at rest",
+   three_velocities < [](auto& s) -> auto& {return s.release.velocity;
+}
+> ("[0, 0, 0]"), of_release
+}
+, {"drop.release.angular_velocity", Use::both, "--release-angular-velocity", "X,Y,Z", "rad/s",
+   "at the release, world components; without it none",
+   three_velocities < [](auto& s) -> auto& {return s.release.angular_velocity;
+}
+> ("[0, 0, 0]"), of_release
+}
+,
+    {"world.gravity",
+     Use::both,
+     "--gravity",
+     "M/S2",
+     "m/s²",
+     "acceleration of free fall; 9.81 where a height, clearance, topple, release or incline is given, else 0",
+     NumberValue{[](Scene& s) -> double& { return s.world.gravity; }, gravities, &not_negative_number}},
+    {"world.incline_deg",
+     Use::both,
+     "--incline",
+     "DEG",
+     "°",
+     "slope of the ground, down to the right where positive; x and z are along and across the ground",
+     NumberValue{[](Scene& s) -> double& { return s.world.incline_deg; }, slopes},
+     [](const Scene& s, Model) { return only_if(s.world.incline_deg != 0); }},
+});
 }
 
 void append_impact(std::vector<Key>& keys) {

@@ -223,6 +223,10 @@ void check_sweep(const SceneValues& values, Scene& scene) {
   if (!scene.history.empty()) values.refuse("run.history", "left out in a sweep");
 }
 
+/// Keys with which a body falls before it touches.
+constexpr std::array falls_from{"drop.height", "drop.clearance", "drop.topple", "drop.release.height",
+                                "drop.release.clearance"};
+
 /// The angle of a turn about −y by these Euler parameters.
 double inclination_of(const std::vector<double>& q) {
   constexpr double degree = std::numbers::pi / 180;
@@ -233,29 +237,36 @@ void check_drop(const SceneValues& values, Scene& scene) {
   const bool swept = scene.sweep && scene.sweep->quantity == SceneSweep::Quantity::angle_deg;
   scene.settle();
   if (!scene.attitude.empty()) {
-    if (!is_attitude(scene.attitude)) values.refuse("drop.attitude", key_named("drop.attitude").allowed());
-  } else if (!swept && !scene.topple && scene.body.shape != BodyScene::Shape::sphere) {
+    const char* const key = scene.release.attitude.empty() ? "drop.attitude" : "drop.release.attitude";
+    if (!is_attitude(scene.attitude)) values.refuse(key, key_named(key).allowed());
+  } else if (!swept && !scene.topple && !scene.release.angle_deg && scene.body.shape != BodyScene::Shape::sphere) {
     values.require("drop.angle_deg", "the inclination at the first impact, or drop.attitude");
   }
-  for (const auto& [key, is_given] :
-       {std::pair{"drop.height", scene.height}, {"drop.clearance", scene.clearance}, {"drop.topple", scene.topple}}) {
-    if (is_given && !(scene.world.gravity > 0)) values.refuse(key, "left out where world.gravity is 0");
-    if (is_given && scene.world.incline_deg != 0)
+  if (!scene.is_released()) {
+    only_for(
+        values,
+        {"drop.release.angle_deg", "drop.release.attitude", "drop.release.velocity", "drop.release.angular_velocity"},
+        "a drop with drop.release.height or drop.release.clearance");
+  }
+  for (const char* key : falls_from) {
+    if (!values.has(key)) continue;
+    const bool may_float = std::string_view(key).starts_with("drop.release.");
+    if (!may_float && !(scene.world.gravity > 0)) values.refuse(key, "left out where world.gravity is 0");
+    if (scene.world.incline_deg != 0)
       values.refuse("world.incline_deg", fmt::format("0 or left out with {}: give the velocity at the touch", key));
   }
   if (scene.world.incline_deg != 0 && !(scene.world.gravity > 0))
     values.refuse("world.incline_deg", "0 or left out where world.gravity is 0");
 }
 
-/// The same for files, flags and Python: the paper's thin rod, without gravity unless something falls from a height or
-/// the ground slopes.
+/// The same for files, flags and Python: the paper's thin rod, without gravity unless something falls or the ground
+/// slopes.
 Scene default_scene(const SceneValues& values) {
   Scene scene;
   scene.path = values.path();
   scene.world.ground.stiffness = 0;  // none, until it is given
   const auto is_given = [&](const char* key) { return values.has(key); };
-  const std::array heavy{"drop.height", "drop.clearance", "drop.topple", "world.incline_deg"};
-  scene.world.gravity = std::any_of(heavy.begin(), heavy.end(), is_given) ? 9.81 : 0;
+  scene.world.gravity = is_given("world.incline_deg") || std::ranges::any_of(falls_from, is_given) ? 9.81 : 0;
   return scene;
 }
 
@@ -333,6 +344,13 @@ void require_level(const Scene& scene, const std::string& command) {
 }
 
 void Scene::settle() {
+  if (is_released()) {
+    const auto or_none = [](const std::vector<double>& v) { return v.empty() ? std::vector<double>(3, 0.0) : v; };
+    velocity = or_none(release.velocity);
+    angular_velocity = or_none(release.angular_velocity);
+    if (release.angle_deg) angle_deg = std::remainder(*release.angle_deg, 360);
+    if (!release.attitude.empty()) attitude = release.attitude;
+  }
   if (orientation) {
     if (body.shape != BodyScene::Shape::box)
       throw BadInput("drop.orientation: must be left out where the body is no box");

@@ -110,6 +110,16 @@ enum class Model { discrete, continuous };
 inline const std::vector<std::string> model_names{"discrete", "continuous"};
 [[nodiscard]] inline const std::string& name_of(Model model) { return model_names[static_cast<std::size_t>(model)]; }
 
+/// How a body is let go that flies freely, turning, to its first touch.
+struct Release {
+  std::optional<double> height;          ///< of the centre of mass [m]
+  std::optional<double> clearance;       ///< of the lowest point, instead [m]
+  std::optional<double> angle_deg;       ///< turn about −y, of any size [°]
+  std::vector<double> attitude;          ///< Euler parameters, instead; empty, without an angle too: that of the drop
+  std::vector<double> velocity;          ///< of the centre of mass, world [m/s]; empty: none
+  std::vector<double> angular_velocity;  ///< world components [rad/s]; empty: none
+};
+
 /// Names of keys of which nothing is to be said, since their values are not those of every scene of a sweep.
 using KeyNames = std::vector<std::string>;
 
@@ -129,6 +139,7 @@ struct Scene {
   /// The velocity of the centre of mass at the first touch, world [m/s]; empty: (tangential_velocity, 0, −speed).
   std::vector<double> velocity;
   std::vector<double> angular_velocity;  ///< at the first touch, world components [rad/s]; empty: (0, spin, 0)
+  Release release;  ///< with a height or clearance: attitude and velocities are those at release, by settle()
   DiscreteImpact impact;
   BodyScene body;
   numeric::World world;  ///< a ground of stiffness 0: none given, for the discrete model
@@ -144,22 +155,29 @@ struct Scene {
   [[nodiscard]] int most_impacts() const;
   /// Whether the body falls from rest, from a height or clearance.
   [[nodiscard]] bool falls() const { return height || clearance; }
+  /// Whether it flies freely from a release.
+  [[nodiscard]] bool is_released() const { return release.height || release.clearance; }
   /// The scene with the swept quantity at one value, and no sweep.
   [[nodiscard]] Scene at(double value) const;
   [[nodiscard]] numeric::Body make_body() const;
-  /// Takes `attitude` from `orientation`, `angle_deg` from the attitude, and the velocities from `topple`, where they
-  /// are given.
+  /// Takes `attitude` from `orientation`, `angle_deg` from the attitude, the velocities from `topple`, and all three
+  /// from `release`, where they are given.
   /// @throws BadInput if the orientation is no whole number, or the body no box; as toppled().
   void settle();
-  /// Body → world; unit.
+  /// Body → world; unit.  Here and in the velocities: at the release, where there is one.
   [[nodiscard]] Eigen::Quaterniond touch_attitude() const;
   /// The velocity of the centre of mass at the first touch, world [m/s]; with `height`, not with `clearance`, the speed
   /// is not yet that of the fall.
   [[nodiscard]] numeric::Vector3 touch_velocity() const;
   [[nodiscard]] numeric::Vector3 touch_angular_velocity() const;  ///< world components [rad/s]
-  /// State at the first touch; with `height` the speed there follows from the fall.
-  /// @throws BadInput if `height` is not above the centre of mass at the touch, or no touching vertex comes down.
-  [[nodiscard]] numeric::MotionState start(const numeric::Body& body) const;
+  /// Height of the centre of mass at the release, if it is `touch` when the lowest point touches [m].
+  /// @throws BadInput if it is not above that.
+  [[nodiscard]] double release_height(double touch) const;
+  /// State at the first touch; with `height` the speed there follows from the fall, with `release` all of it from the
+  /// free flight.
+  /// @param fall  set to the time since the release, 0 where neither `height` nor `release` tells it [s]
+  /// @throws BadInput if a height is not above that at the touch, no touching vertex comes down, or none ever touches.
+  [[nodiscard]] numeric::MotionState start(const numeric::Body& body, double* fall = nullptr) const;
   /// Downward speed after a fall from `height`, of a centre of mass that is `touch` [m] above the ground at the first
   /// touch [m/s].  @throws BadInput if `height` is not above that.
   [[nodiscard]] double fallen_speed(double touch) const;

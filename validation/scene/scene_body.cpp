@@ -65,13 +65,37 @@ numeric::Vector3 Scene::touch_angular_velocity() const {
   return angular_velocity.empty() ? numeric::Vector3(0, spin, 0) : vector_of(angular_velocity);
 }
 
-numeric::MotionState Scene::start(const numeric::Body& dropped) const {
+double Scene::release_height(double touch) const {
+  const double lowest = release.clearance ? *release.clearance : *release.height - touch;
+  if (!(lowest > 0)) {
+    throw BadInput(fmt::format(
+        "{}drop.release.height = {}: must be greater than {} m, where the body touches (lengths are in metres)",
+        path.empty() ? "" : path + ": ", shortest(*release.height), significant(touch, 6)));
+  }
+  return touch + lowest;
+}
+
+numeric::MotionState Scene::start(const numeric::Body& dropped, double* fall) const {
   numeric::MotionState state;
   state.attitude = touch_attitude();
   state.velocity = touch_velocity();
   state.angular_velocity = state.attitude.conjugate() * touch_angular_velocity();
   state = numeric::on_ground(dropped, state);
-  if (height) state.velocity.z() = -fallen_speed(state.centre.z());
+  double fallen = 0;
+  if (height) {
+    state.velocity.z() = -fallen_speed(state.centre.z());
+    fallen = -state.velocity.z() / world.gravity;
+  }
+  if (is_released()) {
+    state.centre.z() = release_height(state.centre.z());
+    const numeric::FreeFlight flight(dropped, state, world.pull(), world.planar);
+    const numeric::TouchDown touch = numeric::next_touch_down(dropped, flight);
+    if (touch.kind != numeric::TouchDown::Kind::touch)
+      throw BadInput("drop.release: the body never reaches the ground");
+    fallen = touch.time;
+    state = numeric::on_ground(dropped, flight.at(fallen));
+  }
+  if (fall) *fall = fallen;
   const numeric::FirstTouch first = numeric::first_touch(dropped, state);
   if (!(first.approach_speed > 0)) {  // in the discrete model's words
     throw BadInput(

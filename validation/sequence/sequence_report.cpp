@@ -182,6 +182,7 @@ std::vector<std::string> notes_of(const PreparedScene& prepared, const DiscreteR
   const int digits = prepared.scene.accuracy.digits;
   const Run& run = found.run;
   std::vector<std::string> notes;
+  if (run.first_touch) notes.push_back(words_of(*run.first_touch));
   add_group_notes(found, sets, notes);
   if (run.tail) notes.push_back(tail_words(digits, *run.tail));
   if (const auto* const sequence = std::get_if<space::Sequence>(&found.sequence))
@@ -330,6 +331,7 @@ void add_end(const Scene& scene, const space::Drop& drop, const space::Sequence&
 
 /// The fields behind the impacts.
 void add_results(const Scene& scene, const Run& run, Value& fields) {
+  if (run.first_touch) fields["first_touch"] = fields_of(*run.first_touch);
   if (run.tail) fields["tail"] = tail_fields(*run.tail);
   fields["outcome"] = run.outcome;
   fields["message"] = run.message + "; the discrete model's impacts are instantaneous: no peak force or time";

@@ -49,8 +49,9 @@ PlannedRun run_scene(const Scene& scene, const numeric::Body& body, const Cooper
     if (evaluations >= evaluations_before_progress) show(impacts, evaluations);
     return !interrupt.requested();
   };
-  const numeric::MotionState start = scene.start(body);
-  if (history && scene.height) record_fall(*history, start, body.mass(), scene.world.gravity, 20);
+  double fall = 0;
+  const numeric::MotionState start = scene.start(body, &fall);
+  if (history) record_fall(*history, body, scene.world, start, fall, 20);
   return run_to_digits(scene, body, observer);
 }
 

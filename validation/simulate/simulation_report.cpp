@@ -135,7 +135,7 @@ std::vector<std::string> remarks_of(const Scene& scene, const Simulation& run) {
 
 std::vector<std::string> notes_of(const Scene& scene, const PlannedRun& planned) {
   const Simulation& run = planned.run;
-  std::vector<std::string> notes{trust_words(scene, run)};
+  std::vector<std::string> notes{planned.first_touch ? words_of(*planned.first_touch) : "", trust_words(scene, run)};
   for (const std::string& warning : planned.warnings) notes.push_back("!: warning: " + warning);
   double gap = 0;
   for (const ImpactRecord& row : run.impacts) gap = std::max(gap, std::fabs(row.ledger_gap));
@@ -222,6 +222,7 @@ void add_results(const Scene& scene, const PlannedRun& planned, Value& fields) {
   add_totals(totals(run_of(run)), fields);
   fields["shortfall"] = shortfall_value(scene, planned);
   fields["energy_start"] = run.energy_start;
+  if (planned.first_touch) fields["first_touch"] = fields_of(*planned.first_touch);
   fields["cost"] =
       Value::Fields{{"force_evaluations", run.force_evaluations}, {"root_evaluations", run.root_evaluations}};
 }

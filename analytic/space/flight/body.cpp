@@ -215,4 +215,15 @@ Body polyhedron(const std::vector<Vector3>& vertices, const MassProperties& prop
   return body;
 }
 
+double touch_height(const Body& body, const Quaternion& attitude) {
+  const Vector3 up = attitude.conjugate() * Vector3::UnitZ();
+  double lowest = std::numeric_limits<double>::infinity();
+  for (const Vector3& vertex : body.vertices) lowest = std::fmin(lowest, up.dot(vertex));
+  for (const Rim& rim : body.rims)
+    lowest = std::fmin(lowest, up.dot(rim.centre) - rim.radius * up.cross(rim.axis).norm());
+  for (const auto& [centre, semiaxes] : body.ellipsoids)
+    lowest = std::fmin(lowest, up.dot(centre) - semiaxes.cwiseProduct(up).norm());
+  return -lowest;
+}
+
 }  // namespace clatter::analytic::space

@@ -89,6 +89,9 @@ struct State {
   Vector3 angular_velocity = Vector3::Zero();    ///< world frame [rad/s]
 };
 
+/// Height of the centre of mass above the lowest point [m].  @param attitude  body to world, unit
+[[nodiscard]] double touch_height(const Body& body, const Quaternion& attitude);
+
 /// Velocity of the body's point at `place`, body frame from the centre of mass, in the world frame [m/s].
 inline Vector3 velocity_at(const State& s, const Vector3& place) {
   return s.velocity + s.angular_velocity.cross(s.attitude * place);

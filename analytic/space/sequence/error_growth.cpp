@@ -272,7 +272,8 @@ void ErrorGrowth::strike(const Strike& strike, const StrikeDerivatives& closed, 
   const Factor arriving = std::exchange(arriving_, Factor(size, 0));
   const bool turns = row.before.angular_velocity.norm() > 0;
   // What comes down beside corners on the ground does so in neighbours, too: stay() has seen to that.
-  if (row.group && row.start > 0 && turns && row.held == 0) predictable_ = false;
+  const bool is_given = row.start == 0 && !(row.flight.time > 0);  // in the attitude of the drop
+  if (row.group && !is_given && turns && row.held == 0) predictable_ = false;
   if (row.group && row.group->is_open) predictable_ = false;
   if (!predictable_) return;
   if (!(row.approach_speed > 0) || row.impact.impulse.norm() == 0) return give_up();
@@ -356,6 +357,14 @@ void ErrorGrowth::fly(const FreeFlight& flight, const FirstContact& contact, con
     predictable_ = false;
   }
   if (predictable_) check_others(flight, contact, now.attitude, now.attitude * to_place);
+}
+
+double ErrorGrowth::begin_time() {
+  const double error = predictable_ ? bound(factor_.row(0)) + bound(arriving_.row(0)) : infinite;
+  factor_.row(0).setZero();
+  arriving_.row(0).setZero();
+  of_drop_.row(0).setZero();
+  return error;
 }
 
 /// A corner on the ground that the last impact has driven into it strikes, too, in neighbours as well.

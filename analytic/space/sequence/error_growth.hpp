@@ -36,6 +36,8 @@ class ErrorGrowth {
   void strike(const Strike& strike, const StrikeDerivatives& derivatives, ImpactRow& row);
   /// Carries the errors through a flight.
   void fly(const FreeFlight& flight, const FirstContact& contact, const Vector3& from_place, const Vector3& to_place);
+  /// Counts time from the touch that fly() has come to.  Returns the bound on the error of the time until then.
+  double begin_time();
   /// Carries the errors through a contact that lasts; amplification is not known thereafter.
   /// @param derivatives  contact_derivatives(); none: nothing is predictable any more
   /// @param before  what adds to the errors at its beginning

@@ -27,7 +27,8 @@ int exponent_of(double value) { return value > 0 && std::isfinite(value) ? std::
 
 SequenceUnits::SequenceUnits(const Drop& drop)
     : length_(exponent_of(drop.body.reach())), mass_(exponent_of(drop.body.mass)) {
-  const double vertical = std::fabs(drop.velocity.z());
+  const double fall = drop.release_height ? std::sqrt(2 * drop.gravity * *drop.release_height) : 0;
+  const double vertical = std::fabs(drop.velocity.z()) + fall;
   speed_ = exponent_of(vertical > 0 ? vertical : drop.angular_velocity.cwiseAbs().maxCoeff() * drop.body.reach());
 }
 
@@ -48,6 +49,7 @@ Drop SequenceUnits::to_internal(const Drop& drop) const {
   scale(d.angular_velocity, length_ - speed_);
   scale(d.gravity, length_ - 2 * speed_);
   scale(d.gravity_along, length_ - 2 * speed_);
+  if (d.release_height) scale(*d.release_height, -length_);
   scale(d.law.law.damping_per_stiffness, speed_);
   return d;
 }
@@ -166,6 +168,7 @@ void SequenceUnits::to_si(Sequence& sequence) const {
   to_si(sequence.near_miss);
   scale(sequence.end_acceleration, 2 * speed_ - length_);
   scale(sequence.total_normal_impulse, mass_ + speed_);
+  scale(sequence.first_flight_error, length_ - speed_);
 }
 
 void Drop::validate() const {
@@ -179,6 +182,17 @@ void Drop::validate() const {
   }
   require(gravity >= 0 && std::isfinite(gravity), "gravity", gravity, "at least 0 and finite");
   require(std::isfinite(gravity_along), "gravity along the ground", gravity_along, "finite");
+  if (release_height) {
+    require(std::isfinite(*release_height) && *release_height > touch_height(body, attitude.normalized()),
+            "release height", *release_height, "finite and above that at which the body touches");
+  }
+}
+
+State given_state(const Drop& drop) {
+  return {.position = Vector3(0, 0, drop.release_height.value_or(0)),
+          .attitude = drop.attitude.normalized(),
+          .velocity = drop.velocity,
+          .angular_velocity = drop.angular_velocity};
 }
 
 double mechanical_energy(const Drop& drop, const State& state) {

@@ -15,7 +15,7 @@
 namespace clatter::analytic::space {
 
 /// The body as it touches the ground for the first time; its lowest vertex or rim is put on z = 0, its centre of mass
-/// on x = y = 0.
+/// on x = y = 0.  With a release height, the body as it is let go to fly freely until then.
 struct Drop {
   Body body;
   Quaternion attitude = Quaternion::Identity();  ///< body to world
@@ -23,6 +23,7 @@ struct Drop {
   Vector3 angular_velocity = Vector3::Zero();    ///< world frame [rad/s]
   double gravity = 0;                            ///< towards the ground, >= 0 [m/s²]
   double gravity_along = 0;                      ///< along x, where the ground slopes [m/s²]
+  std::optional<double> release_height{};        ///< of the centre of mass above the ground [m]
   Law law;
 
   /// @throws std::domain_error naming the field, its value and what is allowed.
@@ -65,10 +66,12 @@ struct ImpactRow {
   /// velocities or change of its attitude: the largest.  NaN if the row cannot be predicted.
   double amplification = 0;
   RowErrors error;      ///< all unknown without SequenceOptions::amplification
-  FirstContact flight;  ///< that led here; empty for the first row
+  FirstContact flight;  ///< that led here; empty for the first row of a drop without a release
 };
 
 [[nodiscard]] State state_after(const ImpactRow& row);
+/// The state in which a drop is given, with the release height where there is one.
+[[nodiscard]] State given_state(const Drop& drop);
 
 /// The remaining impacts after the last row: infinitely many in a finite time.
 struct Tail {
@@ -159,6 +162,8 @@ struct Sequence {
   /// h″ of the corner that stays on the ground, if sustained_contact without a tail [m/s²].
   double end_acceleration = 0;
   double total_normal_impulse = 0;  ///< rows and tail [N·s]
+  /// Bound on the error of the time from the release to the first impact, which is rows.front().flight.time [s].
+  double first_flight_error = 0;
   /// Whether the outcome is certain, and not only that of one of the sequences that the errors leave open.
   bool end_predictable = false;
   int evaluations = 0;  ///< of the rotation, over all flights

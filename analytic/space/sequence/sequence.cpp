@@ -61,20 +61,33 @@ class Run : public SequenceLoop<Sequence, ErrorGrowth> {
  public:
   Run(const Drop& drop, const SequenceOptions& options)
       : SequenceLoop(options), drop_(drop), body_(drop_.body), principal_(body_.inertia), reach_(body_.reach()) {
-    state_.attitude = drop.attitude.normalized();
-    state_.velocity = drop.velocity;
-    state_.angular_velocity = drop.angular_velocity;
+    state_ = given_state(drop_);
   }
 
   Sequence run() {
-    const std::vector<int> lowest = touch_down();
     if (options_.amplification) growth_.emplace(body_, state_, drop_.gravity, drop_.gravity_along);
-    follow([&] { go_on(lowest); });
+    FirstContact flown;
+    const std::vector<int> lowest = drop_.release_height ? fall(flown) : touch_down();
+    follow([&] { go_on(lowest, flown); });
     result_.energy_at_end = energy(state_);
     return std::move(result_);
   }
 
  private:
+  /// Flies from the release to the first touch, from which on time counts; returns the points that touch.
+  std::vector<int> fall(FirstContact& flown) {
+    const FreeFlight flight(principal_, state_, drop_.gravity, drop_.gravity_along);
+    flown = first_contact(body_, flight, {});
+    result_.evaluations += flown.evaluations;
+    if (flown.end != FlightEnd::contact) throw std::domain_error("the released body never reaches the ground");
+    arrive(flight, flown, Vector3::Zero());  // the height of its centre of mass is given
+    state_.position.head<2>().setZero();
+    time_ = 0;
+    result_.first_flight_error = growth_ ? growth_->begin_time() : missing;
+    first_is_open_ = !is_level(flown.together);
+    return flown.together;
+  }
+
   /// Puts the lowest points on the ground; returns those.
   std::vector<int> touch_down() {
     const FreeFlight flight(principal_, state_, 0);
@@ -115,8 +128,7 @@ class Run : public SequenceLoop<Sequence, ErrorGrowth> {
 
   enum class Next { impact, flight, end };
 
-  void go_on(std::vector<int> arriving) {
-    FirstContact flown;
+  void go_on(std::vector<int> arriving, FirstContact flown) {
     for (;;) {
       record(arriving, flown);
       Next next = Next::flight;

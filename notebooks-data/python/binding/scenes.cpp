@@ -93,8 +93,9 @@ py::dict arrays_of(const Samples& s) {
 PlannedRun run_scene(const Scene& scene, const std::function<bool(int)>& seen, numeric::HistoryRecorder* history) {
   const numeric::Body body = scene.make_body();
   const numeric::Observer observer{.history = history, .progress = [&](int impacts, long) { return seen(impacts); }};
-  const numeric::MotionState start = scene.start(body);
-  if (history && scene.height) validation::record_fall(*history, start, body.mass(), scene.world.gravity, 20);
+  double fall = 0;
+  const numeric::MotionState start = scene.start(body, &fall);
+  if (history) validation::record_fall(*history, body, scene.world, start, fall, 20);
   return validation::run_to_digits(scene, body, observer);
 }
 
