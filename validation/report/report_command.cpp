@@ -2,6 +2,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -12,13 +16,16 @@
 #include "validation/output/gnuplot.hpp"
 #include "validation/output/html.hpp"
 #include "validation/output/interrupt.hpp"
+#include "validation/output/json.hpp"
 #include "validation/output/number.hpp"
 #include "validation/output/picture.hpp"
 #include "validation/output/report.hpp"
+#include "validation/report/report_pictures.hpp"
 #include "validation/run/discrete_scene.hpp"
 #include "validation/run/scene_value.hpp"
 #include "validation/scene/body_properties.hpp"
-#include "validation/scene/failure.hpp"
+#include "validation/scene/keys.hpp"
+#include "validation/scene/orientation.hpp"
 #include "validation/sequence/sequence_picture.hpp"
 #include "validation/sequence/sequence_report.hpp"
 #include "validation/shock/damage_boundary.hpp"
@@ -33,6 +40,11 @@
 namespace clatter::validation {
 namespace {
 
+using numeric::Vector3;
+
+/// Which way is down in the axes of a body of this attitude.
+Vector3 down_of(const Eigen::Quaterniond& attitude) { return -(attitude.conjugate() * Vector3::UnitZ()); }
+
 struct HandoutPart {
   std::string title;
   std::string html;
@@ -41,17 +53,29 @@ struct HandoutPart {
 // Pieces of parts.
 
 constexpr const char* page_style =
-    "body{font:16px/1.5 system-ui,sans-serif;color:#1a1a1a;background:#fff;max-width:60rem;margin:0 auto;padding:1rem}"
-    "h1{font-size:1.6rem;margin-bottom:0}h2{font-size:1.2rem;margin-top:2rem;border-bottom:1px solid #bbb}"
-    ".lines{color:#444;margin-top:.3rem}.wide{overflow-x:auto}"
+    ":root{color-scheme:light dark;--ink:#1a1a1a;--soft:#444;--paper:#fff;--line:#ccc;--box:#f4f4f4;--body:#2a6f97}"
+    "@media (prefers-color-scheme:dark){:root{--ink:#e8e8e8;--soft:#b8b8b8;--paper:#161616;--line:#444;--box:#242424;"
+    "--body:#8ecae6}figure.plot svg{background:#fff;border-radius:4px}}"
+    "body{font:16px/1.5 system-ui,sans-serif;color:var(--ink);background:var(--paper);max-width:60rem;margin:0 auto;"
+    "padding:1rem}"
+    "h1{font-size:1.2rem;font-weight:normal;color:var(--soft);margin:0}h2{font-size:1.2rem;margin-top:1.5rem;"
+    "border-bottom:1px solid var(--line)}.answer{font-size:1.4rem;line-height:1.35;margin:.4rem 0}"
+    ".lines{color:var(--soft);margin-top:.3rem}.wide{overflow-x:auto}.beside{display:flex;flex-wrap:wrap;gap:0 1rem}"
+    ".beside figure{flex:1 1 20rem;margin:.5rem 0;align-self:flex-start}"
     "table{border-collapse:collapse;font-size:.85rem;font-variant-numeric:tabular-nums}"
-    "th,td{padding:.15rem .6rem;border-bottom:1px solid #ddd;vertical-align:bottom;white-space:nowrap}"
-    "p,li{max-width:46rem}.wide p{font-size:.85rem;color:#444}"
-    "figure{margin:1rem 0}figure svg{max-width:100%;height:auto;display:block}figcaption{font-size:.85rem;color:#444}"
-    "pre{background:#f4f4f4;padding:.6rem;white-space:pre-wrap;overflow-wrap:anywhere;font-size:.8rem}"
-    "@media print{body{font-size:10pt;max-width:none;padding:0}h2{break-after:avoid}figure,tr,pre{break-inside:avoid}"
-    ".wide{overflow:visible}table{font-size:7.5pt}th,td{padding:.1rem .25rem;white-space:normal}"
-    "figure svg{max-height:23cm}}@page{margin:16mm}";
+    "th,td{padding:.15rem .6rem;border-bottom:1px solid var(--line);vertical-align:bottom;white-space:nowrap}"
+    "p,li{max-width:46rem}.wide p{font-size:.85rem;color:var(--soft)}"
+    "figure{margin:1rem 0}figure svg{max-width:100%;height:auto;display:block}figcaption{font-size:.85rem;"
+    "color:var(--soft)}svg text{font:12px system-ui,sans-serif}.beside svg text{fill:var(--ink)}"
+    ".floor{fill:var(--box);stroke:var(--line)}.body{fill:var(--body);stroke:var(--ink);stroke-linejoin:round}"
+    ".probe{fill:#d62828;stroke:var(--paper)}.rim{fill:none;stroke:var(--line)}.ring{fill:none;stroke:#d62828;"
+    "stroke-width:2}.middle{text-anchor:middle}.end{text-anchor:end}"
+    "pre{background:var(--box);padding:.6rem;white-space:pre-wrap;overflow-wrap:anywhere;font-size:.8rem}"
+    "@media print{:root{color-scheme:light;--ink:#1a1a1a;--soft:#444;--paper:#fff;--line:#ccc;--box:#f4f4f4;"
+    "--body:#2a6f97}*{print-color-adjust:exact;-webkit-print-color-adjust:exact}body{font-size:9.5pt;max-width:none;"
+    "padding:0}h2{break-after:avoid;margin-top:.8rem}figure,tr,pre{break-inside:avoid}.wide{overflow:visible}"
+    "table{font-size:7.5pt}th,td{padding:.1rem .25rem;white-space:normal}figure.plot svg{max-height:8.2cm}"
+    ".answer{font-size:14pt}}@page{margin:14mm}";
 
 /// Without the declarations that only a file of its own may have.
 std::string svg_element(const std::string& svg) {
@@ -96,7 +120,8 @@ std::string handout_page(const std::string& title, const std::vector<std::string
   for (const std::string& line : lines) html += html_escaped(line) + "<br>\n";
   html += "</p>\n";
   for (const HandoutPart& part : parts)
-    html += fmt::format("<section>\n<h2>{}</h2>\n{}</section>\n", html_escaped(part.title), part.html);
+    html += "<section>\n" + (part.title.empty() ? "" : fmt::format("<h2>{}</h2>\n", html_escaped(part.title))) +
+            part.html + "</section>\n";
   return html + "</body></html>\n";
 }
 
@@ -122,7 +147,7 @@ std::string handout_commands(const std::vector<std::string>& commands) {
 
 /// Drawn by gnuplot, as SVG in the page.  @throws as run_gnuplot
 std::string handout_picture(const Picture& picture, const std::string& caption) {
-  return fmt::format("<figure>\n{}<figcaption>{}</figcaption>\n</figure>\n",
+  return fmt::format("<figure class=\"plot\">\n{}<figcaption>{}</figcaption>\n</figure>\n",
                      svg_element(run_gnuplot(picture_script(picture, PictureFormat::svg, ""))), html_escaped(caption));
 }
 
@@ -151,6 +176,7 @@ std::optional<Picture> probe_history_picture(const ShockRun& run) {
 
 struct ReportInput : ShockInput {
   std::string output;
+  bool json = false;
   std::optional<int> drops, threads;
   std::optional<double> scatter;  ///< [°]
   std::string rank_by;            ///< column of the sweep
@@ -162,10 +188,16 @@ struct Attitudes {
   double scatter = 3;  ///< [°]
 };
 
+/// Whether the key turns the body, in place of or beside its Euler parameters.
+bool turns_body(const std::string& key) { return key == "drop.attitude" || are_alternatives(key, "drop.attitude"); }
+
 /// What was typed, with which every command begins: the scene and its flags.
-std::string scene_words(const ReportInput& input) {
-  return (input.scene.source.empty() ? "" : " " + shell_word(input.scene.source)) +
-         flag_words(overrides_of(input.scene));
+/// @param attitude  Euler parameters in place of the scene's own; empty: those
+std::string scene_words(const ReportInput& input, const std::vector<double>& attitude) {
+  std::vector<SceneOverride> flags = overrides_of(input.scene);
+  if (!attitude.empty()) std::erase_if(flags, [](const SceneOverride& flag) { return turns_body(flag.key); });
+  return (input.scene.source.empty() ? "" : " " + shell_word(input.scene.source)) + flag_words(flags) +
+         (attitude.empty() ? "" : fmt::format(" --attitude={}", fmt::join(attitude, ",")));
 }
 
 std::string probe_words(const ReportInput& input) {
@@ -193,8 +225,7 @@ SweepRequest sweep_of(const ReportInput& input, const Attitudes& attitudes) {
                        .rank_by = input.rank_by};
   if (request.file.empty()) request.text = "";
   for (const SceneOverride& given : overrides_of(input.scene)) {
-    const bool is_attitude = given.key == "drop.attitude" || are_alternatives(given.key, "drop.attitude");
-    if (!is_attitude && given.key != "run.errors" && given.key != "run.digits")
+    if (!turns_body(given.key) && given.key != "run.errors" && given.key != "run.digits")
       request.sets.push_back(given.key + "=" + given.text);
   }
   return request;
@@ -208,83 +239,189 @@ std::string sweep_command_of(const SweepRequest& request) {
   return words + fmt::format(" --random {} --scatter {} --no-errors --summary", *request.random, *request.scatter);
 }
 
-std::string worst_html(const ReportInput& input, const Attitudes& attitudes, const CooperativeInterrupt& interrupt,
-                       std::vector<std::string>& commands) {
+/// What the drops in all attitudes give.
+struct AllAttitudes {
+  std::vector<RankedDrop> drops;
+  std::size_t worst = 0;
+  Column column;        ///< by which they are ranked
+  Scene scene;          ///< of the worst
+  std::string name;     ///< of its attitude: "corner -x-y+z down, 3.2° off"
+  Report report;        ///< percentiles, and in its fields the largest of each attitude
+  std::string command;  ///< empty: no file that a command could name
+};
+
+/// "corner -x-y+z down, 3.2° off", of a box's attitude by number, from 0.
+std::string name_of_drop(const Scene& scene, int number, const Vector3& down) {
+  const std::array<int, 3> signs = orientation_signs(number + 1);
+  const auto axes = std::ranges::count_if(signs, [](int sign) { return sign != 0; });
+  const std::vector<double> q = orientation_attitude(number + 1, scene.body.size);
+  const Vector3 level = down_of(Eigen::Quaterniond(q[0], q[1], q[2], q[3]));
+  const double off = std::atan2(down.cross(level).norm(), down.dot(level)) * 180 / std::numbers::pi;
+  return fmt::format("{} {} down, {}° off",
+                     axes == 1   ? "face"
+                     : axes == 2 ? "edge"
+                                 : "corner",
+                     orientation_name(number + 1), significant(off, 2));
+}
+
+/// @throws BadInput as read_sweep_plan; nothing if it was interrupted, or no drop has a number to rank it by.
+std::optional<AllAttitudes> all_attitudes(const ReportInput& input, const Attitudes& attitudes,
+                                          const CooperativeInterrupt& interrupt) {
   const SweepRequest request = sweep_of(input, attitudes);
   SweepPlan plan = read_sweep_plan(request);
   plan.packed = true;
   const SweepBody body = plan.body_values.empty() ? make_sweep_body(plan, plan.scene) : SweepBody{};
   Summary summary(plan.layout, plan.points);
+  const std::optional<std::size_t> ranking = summary.ranking();
+  if (!ranking) return {};
+  AllAttitudes all;
+  all.column = sweep_columns(plan.layout)[*ranking];
   RangeQueue queue({0, plan.points.count()}, range_size(plan));
   SweepHooks hooks;
-  hooks.write = [&](const RangeRows& rows) { summary.add(rows.text); };
+  Progress progress;
+  std::vector<PackedCell> row(sweep_columns(plan.layout).size());
+  std::vector<long long> points;
+  std::vector<double> values;
+  hooks.write = [&](const RangeRows& rows) {
+    summary.add(rows.text);
+    for (PackedRows packed(rows.text); packed.next(row);) {
+      if (!std::isfinite(row[*ranking].number)) continue;
+      points.push_back(static_cast<long long>(row.front().number));
+      plan.points.at(points.back(), values);
+      const Vector3 down = down_of(Eigen::Quaterniond(values[0], values[1], values[2], values[3]));
+      const auto number = static_cast<int>(plan.points.attitude_of(points.back()));
+      all.drops.push_back({down, row[*ranking].number,
+                           fmt::format("{}: {} {}", name_of_drop(plan.scene, number, down),
+                                       significant(row[*ranking].number, 4), all.column.unit)});
+    }
+    const auto done = static_cast<std::size_t>(queue.taken()), of = static_cast<std::size_t>(plan.points.count());
+    progress.show(fmt::format("attitudes: {}{}", progress_bar(done, of), progress.time_left(done, of)));
+  };
   hooks.tick = [] {};
   hooks.stop = [&] { return interrupt.requested(); };
   Ranks ranks;
   run_on_threads(queue, thread_count(input.threads, ranks), runners_of(plan, body), hooks);
-  Report report = plan.report();
-  report.grid.columns = Summary::columns();
+  if (interrupt.requested() || all.drops.empty()) return {};
+  all.worst = static_cast<std::size_t>(std::ranges::max_element(all.drops, {}, &RankedDrop::value) - all.drops.begin());
+  all.scene = shock_scene(input);
+  plan.points.at(points[all.worst], values);
+  all.scene.orientation.reset();
+  all.scene.tilt_deg = 0;
+  all.scene.attitude.assign(values.begin(), values.end());
+  all.scene.settle();
+  all.name =
+      name_of_drop(all.scene, static_cast<int>(plan.points.attitude_of(points[all.worst])), all.drops[all.worst].down);
+  all.report = plan.report();
+  all.report.grid.columns = Summary::columns();
   summary.fill(
-      report, [&](long long index) { return plan.command_of(index); },
+      all.report, [&](long long index) { return plan.command_of(index); },
       [&](long long place) { return plan.attitude_name(place); });
-  // The hardest impacts alone keep their commands; without a file no command could name the scene.
-  std::vector<std::string> hardest{"largest hardest_impulse_normal"};
-  for (const Probe& probe : plan.layout.probes) hardest.push_back("largest " + ranking_column(plan.layout, probe));
-  std::erase_if(report.commands, [&](const NamedCommand& one) {
-    return request.file.empty() || std::ranges::find(hardest, one.what) == hardest.end();
-  });
-  if (!request.file.empty()) commands.push_back(sweep_command_of(request));
-  return fmt::format(
-             "<p>{} drops: each face, edge and corner of the box in its turn, turned about each axis by a "
-             "normally distributed angle with a standard deviation of {}°.</p>\n",
-             attitudes.drops, attitudes.scatter) +
-         handout_table(report);
+  all.report.commands.clear();
+  if (!request.file.empty()) all.command = sweep_command_of(request);
+  return all;
 }
 
-/// The discrete model's sequence, or why there is none.
-std::string discrete_html(const ReportInput& input) {
-  SceneFlags flags = input.scene;
-  flags.model = Model::discrete;
-  std::string html;
-  const auto failure = failure_of_scene([&] {
-    const PreparedScene prepared = read_discrete_flags(flags);
-    const DiscreteRun found = run_discrete(prepared);
-    html = handout_table(sequence_report(prepared, found));
-    html += handout_picture(sequence_picture(prepared, found, TimeWindow{}),
-                            "Discrete model: heights over time, and the impulse of each impact.");
-  });
-  return failure ? fmt::format("<p>The discrete model does not take this drop: {}</p>\n", failure->message) : html;
-}
-
-std::string continuous_html(const Scene& scene, const ShockRun& run) {
-  const numeric::Body body = scene.make_body();
-  PictureHistory history(body);
-  const PlannedRun planned = run_to_digits(scene, body, {.history = &history});
-  std::string html = handout_table(simulation_report(scene, run.continuous->planned));
-  if (!planned.run.impacts.empty()) {
-    html += handout_picture(simulation_picture(scene, history, TimeWindow{}),
-                            "Continuous model: heights, contact force and energies over time.");
+/// The attitudes by the largest of their drops, as far as a reader asks; then how all the drops are distributed.
+std::string attitudes_html(const AllAttitudes& all, const Attitudes& attitudes) {
+  Report shown;
+  shown.grid.columns = {word_column("attitude", "attitude", ""),
+                        {"largest", fmt::format("largest {}", all.column.name), all.column.unit, ""}};
+  std::vector<std::pair<double, std::string>> ranked;
+  for (const Value& one : std::get<Value::List>(all.report.fields.at("attitudes").content())) {
+    if (const Value* of = one.find(all.column.name))
+      ranked.emplace_back(*of->at("largest").number(), one.at("attitude").text());
   }
-  return html;
+  std::ranges::stable_sort(ranked, std::ranges::greater{}, &std::pair<double, std::string>::first);
+  constexpr std::size_t most = 8;
+  for (std::size_t i = 0; i < std::min(most, ranked.size()); ++i)
+    shown.grid.rows.push_back({Cell(ranked[i].second), Cell(ranked[i].first, 4)});
+  Report spread = all.report;
+  spread.notes.clear();
+  std::erase_if(spread.grid.rows, [&](const Row& row) {
+    const std::string name = row.front().value.text();
+    const bool is_asked = name.starts_with(peak_column) || name.starts_with(shock_column) ||
+                          name == "largest_peak_force" || name == "hardest_impulse_normal" || name == all.column.name;
+    return !is_asked || name.ends_with("_impact");
+  });
+  std::erase_if(spread.grid.columns, [](const Column& column) { return column.name == "count"; });
+  for (Row& row : spread.grid.rows) row.erase(row.begin() + 2);
+  return fmt::format(
+      "<p>{} drops: each face, edge and corner of the box in its turn, turned about each axis by a "
+      "normally distributed angle with a standard deviation of {}°.</p>\n<div class=\"beside\">{}{}</div>",
+      attitudes.drops, attitudes.scatter, handout_table(shown), handout_table(spread));
 }
 
+/// The discrete model's sequence.  @throws as run_discrete
+void add_discrete(const Scene& scene, std::string& html, Value& fields) {
+  const PreparedScene drop = prepared(scene);
+  const DiscreteRun found = run_discrete(drop);
+  const Report report = sequence_report(drop, found);
+  html += handout_table(report) + handout_picture(sequence_picture(drop, found, TimeWindow{}),
+                                                  "Discrete model: heights over time, and the impulse of each impact.");
+  fields["sequence"] = report.fields;
+}
+
+/// Pulses or changes of velocity at the probes, then pictures of them and of their spectra.
 std::string shock_html(const ShockRun& run, ShockView view) {
+  if (run.continuous) view.rows = ShockRows::pulses;
   std::string html = handout_table(shock_report(run, view));
   if (const auto picture = probe_history_picture(run))
     html += handout_picture(*picture, "Contacts alone, each impact apart: two blows are two.");
-  if (run.continuous) {
-    view.rows = ShockRows::pulses;
-    html += "<h3>Each impact as a test pulse</h3>\n" + handout_table(shock_report(run, view));
-  }
-  const Picture picture = shock_picture(run, view);
+  Picture picture = shock_picture(run, view);
+  picture.scene.clear();  // which the page has
   if (picture.panels.empty()) return html;
   return html + handout_picture(picture, view.part ? "Response spectra with and without the second blow, and the "
                                                      "damage boundary of the part."
                                                    : "Response spectra with and without the second blow.");
 }
 
-std::vector<std::string> assumptions(const Scene& scene, Model model) {
-  std::vector<std::string> items = scene_head(scene, model);
+/// Three digits, as one says them: 39000, not 39027.
+std::string said(double value) {
+  const double unit = value > 0 ? std::pow(10.0, std::floor(std::log10(value)) - 2) : 1;
+  return shortest(unit < 1 ? std::round(value / unit) / std::round(1 / unit) : std::round(value / unit) * unit);
+}
+
+/// What a drop does at its worst: to the probe and in the impact of the largest peak, or change of velocity.
+struct Answer {
+  std::string words{};
+  Value fields{};
+};
+
+/// "camera: 2658 g in impact 1, 7.52 m/s within 0.47 ms"; with a part its margin.
+Answer answer_of(const ShockRun& run, const std::optional<FragilePart>& part) {
+  const bool has_peaks = run.continuous.has_value();
+  const auto size = [&](const ShockRow& row) { return has_peaks ? row.value.peak_size : row.value.delta_v_size; };
+  const auto worst = std::ranges::max_element(run.rows(), {}, size);
+  if (worst == run.rows().end()) {
+    if (!run.continuous) return {"no probe was named", Value(Value::Fields{})};
+    const Estimated peak = totals(run_of(run.continuous->planned.run)).largest_peak;
+    return {fmt::format("the largest force is {} N", said(peak.value)), Value::Fields{{"peak_force", peak.value}}};
+  }
+  const std::string& probe = run.probes[worst->probe].name;
+  const double g = worst->value.peak_size / standard_gravity, velocity = worst->value.delta_v_size;
+  Answer answer{.fields = Value::Fields{{"probe", probe}, {"impact", worst->impact}, {"delta_v", velocity}}};
+  if (!has_peaks) {
+    answer.words = fmt::format("{} is changed by {} m/s in impact {}", probe, said(velocity), worst->impact);
+    return answer;
+  }
+  answer.fields["peak_g"] = g;
+  answer.fields["width"] = worst->value.width;
+  answer.words = fmt::format("{} takes {} g in impact {}, {} m/s within {} ms", probe, said(g), worst->impact,
+                             said(velocity), said(1e3 * worst->value.width));
+  if (!part) return answer;
+  double least = std::numeric_limits<double>::infinity();
+  for (const PulseShape shape : {PulseShape::half_sine, PulseShape::rectangle})
+    least = std::fmin(least, margin(*part, shape, velocity, worst->value.peak_size));
+  answer.fields["margin"] = least;
+  const std::string bears =
+      fmt::format("a part of {} Hz that bears {} g", said(part->frequency), said(part->fragility / standard_gravity));
+  answer.words += least > 1 ? fmt::format("; {} holds, margin {}", bears, said(least))
+                            : fmt::format("; {} fails, margin {}", bears, said(least));
+  return answer;
+}
+
+std::vector<std::string> assumptions(const Scene& scene, Model model, const KeyNames& unsettled) {
+  std::vector<std::string> items = scene_head(scene, model, {}, unsettled);
   items.emplace_back("the body is rigid, the ground level; air is left out");
   if (model == Model::continuous && scene.world.ground.modulus > 0) {
     items.emplace_back(
@@ -359,31 +496,97 @@ void require_worst_attitudes(const ReportInput& input, const Scene& scene) {
   refuse("--rank-by", input.rank_by.empty() ? std::nullopt : std::optional(input.rank_by), false);
 }
 
-/// The page, and the exit status of the run that it is about.
+/// Whether file or flags say how the body is turned.
+bool gives_attitude(const ReportInput& input) {
+  const SceneValues values = scene_values(input.scene.source);
+  return std::ranges::any_of(all_keys(), [&](const Key& key) {
+    return turns_body(key.name) && (values.has(key.name) || (*key.flag != '\0' && is_given(input.scene, key.flag)));
+  });
+}
+
+bool is_of_box(const ReportInput& input) {
+  const SceneValues values = scene_values(input.scene.source);
+  const bool is_typed = is_given(input.scene, "--body");
+  return (is_typed                   ? input.scene.texts.at("--body")
+          : values.has("body.shape") ? values.text("body.shape")
+                                     : "") == "box";
+}
+
+/// Keys of which a page about a drop of many says nothing: its attitude has a name there.
+const KeyNames attitude_keys{"drop.attitude", "drop.angle_deg", "drop.orientation", "drop.tilt_deg"};
+
+/// The page, what it says for other programs, and the exit status of the run that it is about.
 struct ReportPage {
+  Report report;
   std::string html;
   int status = 0;
 };
 
-ReportPage page_of(const ReportInput& input, const CooperativeInterrupt& interrupt) {
-  const Scene scene = shock_scene(input);
+ReportPage page_of(ReportInput input, const CooperativeInterrupt& interrupt) {
+  const bool is_turned = gives_attitude(input), looks_at_all = is_of_box(input) && input.drops != 0;
+  if (!is_turned && looks_at_all) input.scene.texts["--orientation"] = "1";  // some one: the sweep has its own
+  const Scene given = shock_scene(input);
   const Model model = model_of(input);
   const std::vector<Probe> probes = probes_of(input);
   Attitudes attitudes;
-  require_worst_attitudes(input, scene);
+  require_worst_attitudes(input, given);
   attitudes.drops = input.drops.value_or(attitudes.drops);
   attitudes.scatter = input.scatter.value_or(attitudes.scatter);
   const ShockView view = view_of(input);
-  const ShockRun run =
-      run_shock(scene, probes, request_of(input), {.progress = [&](int, long) { return !interrupt.requested(); }});
-  const std::string words = scene_words(input);
-  std::vector<std::string> commands{"clatter sequence" + words};
-  std::vector<HandoutPart> parts{{"Assumptions", handout_list(assumptions(scene, model))}};
-  if (model == Model::continuous && !interrupt.requested()) {
-    commands.push_back("clatter simulate" + words);
-    parts.push_back({"What happens: the continuous model", continuous_html(scene, run)});
+  std::optional<AllAttitudes> all;
+  if (looks_at_all) all = all_attitudes(input, attitudes, interrupt);
+  if (interrupt.requested()) return {.report = {}, .html = {}, .status = interrupted_status};
+  const Scene& scene = all ? all->scene : given;
+  const auto watch = [&](int, long) { return !interrupt.requested(); };
+  const ShockRun run = run_shock(scene, probes, request_of(input), {.progress = watch});
+  if (interrupt.requested()) return {.report = {}, .html = {}, .status = interrupted_status};
+
+  Report report = begun_report("report", input.scene.source.empty() ? "a drop" : input.scene.source);
+  Value& fields = report.fields;
+  fields["model"] = name_of(model);
+  fields["scene"] = scene_value(scene, model);
+  const Answer answer = answer_of(run, view.part);
+  fields["answer"] = answer.fields;
+  std::string lead = answer.words;
+  if (all) {
+    const RankedDrop& worst = all->drops[all->worst];
+    fields["answer"]["attitude"] = all->name;
+    fields["answer"]["ranked_by"] = all->column.name;
+    fields["answer"]["largest"] = worst.value;
+    if (probes.empty()) lead = fmt::format("its {} is {} {}", all->column.name, said(worst.value), all->column.unit);
+    lead = fmt::format("Worst of {} drops: {}: {}", attitudes.drops, all->name, lead);
+    if (is_turned && !probes.empty()) {
+      ShockRequest plain = request_of(input);
+      plain.sensitivity = false;
+      const Answer own = answer_of(run_shock(given, probes, plain, {.progress = watch}), {});
+      const char* const number = run.continuous ? "peak_g" : "delta_v";
+      const Value *of_own = own.fields.find(number), *of_worst = answer.fields.find(number);
+      const bool is_worse = of_own && of_worst && *of_own->number() > *of_worst->number();
+      lead += fmt::format(". The drop as given{}: {}", is_worse ? " is worse" : "", own.words);
+      fields["as_given"] = own.fields;
+    }
   }
-  parts.push_back({"What happens: the discrete model", discrete_html(input)});
+  const numeric::Body body = scene.make_body();
+  const Vector3 centre = body_properties(scene, Model::continuous).centre;
+  std::string pictures =
+      fmt::format("<div class=\"beside\"><figure>{}<figcaption>{}</figcaption></figure>\n",
+                  body_picture(body, scene.touch_attitude(), probes, centre), "The body as it touches.");
+  if (all) {
+    pictures += fmt::format(
+        "<figure>{}<figcaption>All drops by the direction that is down in the body; the ring is the "
+        "worst.</figcaption></figure>",
+        attitude_map(all->drops, all->worst, all->column.name + " [" + all->column.unit + "]"));
+  }
+  std::vector<HandoutPart> parts{
+      {"", fmt::format("<p class=\"answer\">{}.</p>\n{}</div>\n", html_escaped(lead), pictures)}};
+  const std::string words = scene_words(input, all ? scene.attitude : std::vector<double>{});
+  std::vector<std::string> commands;
+  if (all && !all->command.empty()) commands.push_back(all->command);
+  if (all) {
+    parts.push_back({"Attitudes", attitudes_html(*all, attitudes)});
+    fields["attitudes"] = all->report.fields.at("attitudes");
+    fields["summary"] = row_objects(all->report.grid);
+  }
   if (probes.empty()) {
     parts.push_back({"Shock at points of the body",
                      "<p>No probe was named: give --probe NAME:X,Y,Z, or [[probe]] in the "
@@ -391,27 +594,47 @@ ReportPage page_of(const ReportInput& input, const CooperativeInterrupt& interru
   } else {
     commands.push_back("clatter shock" + words + probe_words(input));
     parts.push_back({"Shock at points of the body", shock_html(run, view)});
+    fields["shock"] = shock_report(run, view).fields;
   }
-  if (scene.body.shape == BodyScene::Shape::box && attitudes.drops > 0 && !interrupt.requested())
-    parts.push_back({"Worst attitudes", worst_html(input, attitudes, interrupt, commands)});
+  std::string impacts;
+  if (run.continuous) {
+    const Report simulated = simulation_report(scene, run.continuous->planned);
+    impacts = handout_table(simulated);
+    fields["simulation"] = simulated.fields;
+    commands.push_back("clatter simulate" + words);
+  } else {
+    add_discrete(scene, impacts, fields);
+    commands.push_back("clatter sequence" + words);
+  }
+  parts.push_back({fmt::format("The impacts, {} model", name_of(model)), impacts});
   parts.push_back({"Accuracy", accuracy_html(scene, run)});
+  parts.push_back({"Assumptions", handout_list(assumptions(scene, model, all ? attitude_keys : KeyNames{}))});
   parts.push_back({"What the model leaves out", handout_list(left_out())});
   parts.push_back({"Commands that give these numbers again", handout_commands(commands)});
-  return {handout_page(headline("report", input.scene.source.empty() ? "a drop" : input.scene.source),
-                       scene.summary(model), parts),
-          interrupt.requested() ? interrupted_status : status_of(scene, run)};
+  fields["commands"] = commands;
+  std::string html = handout_page(report.title, scene.summary(model, all ? attitude_keys : KeyNames{}), parts);
+  return {std::move(report), std::move(html), status_of(scene, run)};
 }
 
 int run_report(const ReportInput& input) {
-  if (input.output.empty()) throw BadInput("--output: required, the page's file");
-  if (!input.output.ends_with(".html")) throw BadInput(fmt::format("--output '{}': must end in .html", input.output));
-  require_gnuplot("report");
-  Sink sink(input.output);
+  if (!input.json) {
+    if (input.output.empty()) throw BadInput("--output: required, the page's file");
+    if (!input.output.ends_with(".html")) throw BadInput(fmt::format("--output '{}': must end in .html", input.output));
+    require_gnuplot("report");
+  }
+  const OutputChoice choice{.style = {.format = Format::json}, .path = input.output};
+  if (input.json) check_files(choice);
+  std::optional<Sink> sink;
+  if (!input.json) sink.emplace(input.output);
   const CooperativeInterrupt interrupt;
   const ReportPage page = page_of(input, interrupt);
-  if (interrupt.requested()) return interrupted_status;
-  sink.write(page.html);
-  sink.commit();
+  if (page.status == interrupted_status) return interrupted_status;
+  if (input.json) {
+    write_report(choice, page.report);
+  } else {
+    sink->write(page.html);
+    sink->commit();
+  }
   return page.status;
 }
 
@@ -429,7 +652,12 @@ Command report_command() {
                      "of clatter sweep's rows, by which they are ranked (the first probe's peak or change of velocity)",
                      group);
     command.add(threads_argument(input.threads, "for them (all cores)", group));
-    command.add({.name = "--output", .target = &input.output, .type = "FILE", .help = "the page", .group = "Output"});
+    command.add({.name = "--output",
+                 .target = &input.output,
+                 .type = "FILE",
+                 .help = "the page, or its JSON (stdout)",
+                 .group = "Output"});
+    command.add(choice_argument("--format", input.json, {"html", "json"}, "(html)", "Output"));
     command.footer =
         "Example: clatter report phone-damped --impacts 2 --probe camera:0.048,0.016,0.0095 --part 300:500 --output "
         "phone.html\n"

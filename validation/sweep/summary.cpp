@@ -119,19 +119,20 @@ void Summary::add_number(Report& report, std::size_t column, const std::string& 
   report.grid.rows.push_back(std::move(row));
 }
 
-void Summary::add_attitudes(Report& report, const std::function<std::string(long long)>& name) const {
-  const auto column_named = [&](std::string_view wanted) {
-    return static_cast<std::size_t>(
-        std::find_if(columns_.begin(), columns_.end(), [&](const Column& one) { return one.name == wanted; }) -
-        columns_.begin());
-  };
+std::optional<std::size_t> Summary::ranking() const {
   // By which blows are hard: for the first of the probes, if there are any.
-  std::size_t by = columns_.size();
   for (const std::string& wanted : {rank_by_, std::string("largest_peak_force"), std::string("hardest_impulse_normal"),
                                     std::string("total_normal_impulse")}) {
-    if (by == columns_.size()) by = column_named(wanted);
+    const auto column = std::ranges::find(columns_, wanted, &Column::name);
+    if (column != columns_.end()) return static_cast<std::size_t>(column - columns_.begin());
   }
-  if (by == columns_.size()) return;
+  return {};
+}
+
+void Summary::add_attitudes(Report& report, const std::function<std::string(long long)>& name) const {
+  const std::optional<std::size_t> found = ranking();
+  if (!found) return;
+  const std::size_t by = *found;
   std::vector<std::size_t> order(largest_.size());
   std::iota(order.begin(), order.end(), 0U);
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <unordered_map>
@@ -61,6 +62,8 @@ class Summary {
     if (points_->attitudes() > 0) add_attitudes(report, attitude);
     add_texts(report);
   }
+  /// Place, among the rows' columns, of the one by which attitudes are ranked; none if the rows have none that tells.
+  [[nodiscard]] std::optional<std::size_t> ranking() const;
   /// The columns of fill()'s rows.
   [[nodiscard]] static std::vector<Column> columns();
 

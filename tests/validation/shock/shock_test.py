@@ -3,6 +3,7 @@
 
 import math
 import re
+import shlex
 import unittest
 
 from run_folder import EmptyFolder, json_of, printed, rows_of, run
@@ -163,10 +164,11 @@ class Handout(EmptyFolder):
         found = run("report", "phone-damped", *FEW, *PROBE, "--part", "300:500", "--drops", "26", "--output", path)
         self.assertEqual((found.returncode, found.stdout), (0, ""), found.stderr)
         page = self.read("phone.html")
-        for part in ("Assumptions", "continuous model", "discrete model", "Shock at points", "Worst attitudes", "Accuracy",
-                     "leaves out", "clatter shock phone-damped"):
+        for part in ("Worst of 26 drops", "The drop as given", "Attitudes", "Shock at points", "continuous model", "Accuracy",
+                     "Assumptions", "leaves out", "clatter shock phone-damped"):
             self.assertIn(part, page)
         self.assertGreaterEqual(page.count("<svg"), 4)
+        self.assertNotRegex(page.split("Commands that give")[0], r"0\.\d{12}", "Euler parameters stand in the commands alone")
         links = set(re.findall(r"(?:https?:)?//[^\s\"'<>]+", page))
         self.assertLessEqual(links, {"http://www.w3.org/2000/svg", "http://www.w3.org/1999/xlink"})
         self.assertNotRegex(page, r"<script|<link rel=\"style|@import|url\(http")
@@ -177,7 +179,32 @@ class Handout(EmptyFolder):
             self.assertEqual(run("report", "phone-damped", *FEW, *arguments, "--drops", "0", "--output", path).returncode, 0)
             page = self.read("phone.html")
             self.assertIn("all 2 impacts listed can be predicted", page)
-            self.assertNotIn("Worst attitudes", page)
+            self.assertNotIn("Worst of", page)
+
+    def test_its_answer_is_the_hardest_row_of_the_sweep_and_what_its_command_says(self):
+        """Also without an attitude of its own; one of all dots is the worst, and the page has its three digits."""
+        box = ["--body", "box", "--size", "0.1x0.05x0.01", "--mass", "0.1", "--clearance", "1", "--stiffness", "1e9", "--damping", "2e8",
+               "--impacts", "2", *PROBE]
+        found = json_of("report", *box, "--part", "300:500", "--drops", "52")
+        answer, largest = found["answer"], [one["peak_g_camera"]["largest"] for one in found["attitudes"]]
+        self.assertEqual(len(largest), 26)
+        self.assertEqual(answer["largest"], max(largest))
+        self.assertAlmostEqual(answer["peak_g"] / answer["largest"], 1, delta=2e-3)  # of three digits in the sweep
+        self.assertRegex(answer["attitude"], r"\A(face|edge|corner) \S+ down, \S+° off\Z")
+        again = json_of(*shlex.split(found["commands"][0])[1:])
+        rows = [row for row in again["impacts"] if row["probe"] == answer["probe"]]
+        self.assertEqual(max(row["peak_g"] for row in rows), answer["peak_g"])
+        hardest = next(row for row in rows if row["peak_g"] == answer["peak_g"])
+        self.assertEqual((hardest["n"], hardest["width"]), (answer["impact"], answer["width"]))
+        # An undamped part bears a pulse if neither its change of velocity nor its peak fails it (ASTM D3332).
+        omega, limit = 2 * math.pi * 300, 500 * 9.80665
+        bearable = max(limit / (omega * hardest["delta_v"]), limit / (2 * answer["peak_g"] * 9.80665))
+        self.assertGreaterEqual(answer["margin"], 0.99 * bearable / (math.pi / 2))
+        self.assertLessEqual(answer["margin"], bearable * math.pi / 2)
+        self.run_program("report", *box, "--part", "300:500", "--drops", "52", "--output", "page.html")
+        page = self.read("page.html")
+        self.assertEqual(page.count("° off: "), 1 + 52)
+        self.assertIn(f"camera takes {float(format(answer['peak_g'], '.3g')):.0f} g in impact {answer['impact']}", page)
 
     def test_without_a_file_nothing_is_written(self):
         self.refused("--output", "report", "phone-damped")
