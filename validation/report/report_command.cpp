@@ -482,6 +482,25 @@ std::string accuracy_html(const Scene& scene, const ShockRun& run) {
   return handout_list(items);
 }
 
+/// That the discrete model's hardest blow and the one beside it overlap on the scene's ground, whose first contact
+/// lasts longer than the time between them; empty: they do not, or there is no ground.
+std::string overlap_words(const Scene& scene, const ShockRun& run) {
+  if (run.continuous || !scene.has_ground() || run.discrete_run->impacts.size() < 2) return "";
+  const std::vector<Impact>& impacts = run.discrete_run->impacts;
+  const auto hardest = std::ranges::max_element(run.rows(), {}, [](const ShockRow& r) { return r.value.delta_v_size; });
+  const int second = hardest == run.rows().end() ? 2 : std::max(hardest->impact, 2);
+  const auto start = [&](int impact) { return impacts[static_cast<std::size_t>(impact - 1)].value.start; };
+  const double apart = start(second) - start(second - 1);
+  const numeric::Body body = scene.make_body();
+  const numeric::Simulation first =
+      numeric::simulate(body, scene.world, scene.start(body),
+                        {.impacts = 1, .error_estimates = false, .amplification = false}, {.digits = 3});
+  if (first.impacts.empty() || !(first.impacts.front().value.duration > apart)) return "";
+  return fmt::format(
+      "impacts {} and {} are {} ms apart, but the first contact with this floor lasts {} ms: there they overlap",
+      second - 1, second, said(1e3 * apart), said(1e3 * first.impacts.front().value.duration));
+}
+
 /// Refuses options of the worst attitudes where the page has none.
 void require_worst_attitudes(const ReportInput& input, const Scene& scene) {
   const bool is_box = scene.body.shape == BodyScene::Shape::box, has_none = input.drops == 0;
@@ -565,6 +584,10 @@ ReportPage page_of(ReportInput input, const CooperativeInterrupt& interrupt) {
       lead += fmt::format(". The drop as given{}: {}", is_worse ? " is worse" : "", own.words);
       fields["as_given"] = own.fields;
     }
+  }
+  if (const std::string overlap = overlap_words(scene, run); !overlap.empty()) {
+    lead += "; " + overlap;
+    fields["overlap"] = overlap;
   }
   const numeric::Body body = scene.make_body();
   const Vector3 centre = body_properties(scene, Model::continuous).centre;

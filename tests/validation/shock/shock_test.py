@@ -206,6 +206,14 @@ class Handout(EmptyFolder):
         self.assertEqual(page.count("° off: "), 1 + 52)
         self.assertIn(f"camera takes {float(format(answer['peak_g'], '.3g')):.0f} g in impact {answer['impact']}", page)
 
+    def test_blows_of_the_discrete_model_that_overlap_on_the_floor_are_told(self):
+        """The contact of a phone that lands flat on springs of 1e8 N/m³ lasts at least pi sqrt(m/(k A))."""
+        found = json_of("report", "phone-damped", *FEW[:4], *PROBE, "--model", "discrete", "--drops", "26")
+        apart, lasts = (float(number) for number in re.search(r"are (\S+) ms apart, .* lasts (\S+) ms", found["overlap"]).groups())
+        self.assertGreater(lasts, 1e3 * math.pi * math.sqrt(0.08814 / (1e8 * 0.10566 * 0.04394)))
+        starts = [impact["start"] for impact in found["sequence"]["impacts"]]
+        self.assertAlmostEqual(apart, 1e3 * (starts[1] - starts[0]), delta=0.005 * apart)
+
     def test_without_a_file_nothing_is_written(self):
         self.refused("--output", "report", "phone-damped")
 
