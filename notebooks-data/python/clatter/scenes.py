@@ -37,6 +37,8 @@ def toml_value(key: str, value: Any) -> str:
         return number_text(value)
     if is_list(value):
         return "[" + ", ".join(toml_value(key, item) for item in value) + "]"
+    if isinstance(value, Mapping):  # in a list, as probes are
+        return "{ " + ", ".join(toml_lines(value)) + " }"
     raise BadArgument(f"{key} = {shown(value)}: must be a number, a truth, a text or a list")
 
 
