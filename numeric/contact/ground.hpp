@@ -58,10 +58,11 @@ struct Ground {
   /// E* of an elastic half-space [Pa], >= 0; 0: none.  1/E* = (1 − ν₁²)/E₁ + (1 − ν₂²)/E₂ of ground and body.  Its area
   /// is `projected`.
   double modulus = 0;
-  double dissipation = 0;  ///< τ of Hunt and Crossley's factor 1 + τ δ̇ on a half-space's or a pad's pressure [s/m], >= 0
+  double dissipation =
+      0;  ///< τ of Hunt and Crossley's factor 1 + τ δ̇ on a half-space's or a pad's pressure [s/m], >= 0
   std::vector<Kink> kinks = {};  ///< of a pad, by growing depth; the stiffness between them is never negative
-  double static_friction = 0;   ///< μ_s, >= sliding_friction
-  double sliding_friction = 0;  ///< μ_k, >= 0
+  double static_friction = 0;    ///< μ_s, >= sliding_friction
+  double sliding_friction = 0;   ///< μ_k, >= 0
   AreaMeasure area = AreaMeasure::surface;
   FrictionLaw friction = FrictionLaw::coulomb;
   double regularisation_speed = 1e-3;  ///< v_r of the regularised law [m/s], > 0

@@ -11,10 +11,11 @@ namespace clatter::numeric {
 
 /// The load of a pad (Ground::kinks) on any surface: the sum of those of beds of springs that begin at the depths d of
 /// the kinks,
-///     f_n = Σ s (1 + τδ̇)₊ (δ − d)₊,   s = k_G of the first bed, at d = 0, and k_G change of the others, of either sign.
+///     f_n = Σ s (1 + τδ̇)₊ (δ − d)₊,   s = k_G of the first bed, at d = 0, and k_G change of the others, of either
+///     sign.
 /// A bed's load is that of the body over a ground sunk by d, with the integrals, friction and energy of springs, exact
-/// as those are; all beds press where 1 + τδ̇ > 0, and their sum never pulls.  A pad of one piece has the bits of springs
-/// of c_G = τ k_G.  An evaluation takes the time of as many beds as the deepest point has reached.
+/// as those are; all beds press where 1 + τδ̇ > 0, and their sum never pulls.  A pad of one piece has the bits of
+/// springs of c_G = τ k_G.  An evaluation takes the time of as many beds as the deepest point has reached.
 class PadContact final : public ContactSurface {
  public:
   PadContact(const Body& body, const Ground& ground);

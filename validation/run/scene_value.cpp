@@ -11,6 +11,7 @@
 #include "validation/run/discrete_scene.hpp"
 #include "validation/scene/body_properties.hpp"
 #include "validation/scene/keys.hpp"
+#include "validation/scene/pad.hpp"
 
 namespace clatter::validation {
 namespace {
@@ -195,15 +196,19 @@ std::vector<std::string> Scene::summary(Model model, const KeyNames& unsettled) 
   Phrases drop(unsettled), springs(unsettled), contact(unsettled);
   add_gravity(*this, drop.add(drop_words(unsettled)));
   drop.add(world.planar ? "kept in its plane" : "");
-  if (ground.modulus > 0) {
+  if (ground.is_half_space()) {
     contact.add(fmt::format("elastic half-space of E* = {} Pa", in_powers(ground.modulus)), {"ground.modulus"});
-    contact.add(fmt::format("dissipation {} s/m", in_powers(ground.dissipation)), {"ground.dissipation"});
+  } else if (ground.is_pad()) {
+    springs.add(pad_words(*this), {"ground.curve", "ground.thickness", "ground.under"});
   } else {
     springs.add(fmt::format("k = {} N/m³", in_powers(ground.stiffness)), {"ground.stiffness"});
     springs.add(fmt::format("c = {} N·s/m⁴", in_powers(ground.damping)), {"ground.damping"});
+  }
+  if (!ground.is_half_space())
     contact.add(
         after(springs.text(), fmt::format("over the {} area", area_names()[static_cast<std::size_t>(ground.area)])));
-  }
+  if (ground.has_dissipation())
+    contact.add(fmt::format("dissipation {} s/m", in_powers(ground.dissipation)), {"ground.dissipation"});
   contact.add(sweeps_friction ? fmt::format("friction μ = {} to {}", shortest(sweep->from), shortest(sweep->to))
                               : friction_words(ground),
               {"ground.static_friction", "ground.sliding_friction", "ground.regularisation_speed"});

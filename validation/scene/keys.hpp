@@ -3,6 +3,7 @@
 // echo, what a sweep may set, and the arguments of Python and of the page.
 #pragma once
 
+#include <array>
 #include <functional>
 #include <map>
 #include <optional>
@@ -59,8 +60,15 @@ struct ListValue {
   const char* example;  ///< as a scene file has it
   const Range* wide = nullptr;
 };
-using KeyValue =
-    std::variant<NumberValue, OptionalNumber, WholeNumber, LongNumber, TruthValue, TextValue, NameValue, ListValue>;
+/// A list of pairs, or the file that has them.
+struct CurveValue {
+  std::vector<std::array<double, 2>>& (*points)(Scene& scene);
+  std::string& (*file)(Scene& scene);
+  const char* words;
+  const char* example;
+};
+using KeyValue = std::variant<NumberValue, OptionalNumber, WholeNumber, LongNumber, TruthValue, TextValue, NameValue,
+                              ListValue, CurveValue>;
 
 /// How a key stands in the JSON echo of a scene.
 enum class Echo { value, null, absent };

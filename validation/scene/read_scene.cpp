@@ -19,6 +19,7 @@
 #include "validation/scene/body_properties.hpp"
 #include "validation/scene/keys.hpp"
 #include "validation/scene/orientation.hpp"
+#include "validation/scene/pad.hpp"
 #include "validation/scene/scene.hpp"
 #include "validation/scene/scene_values.hpp"
 
@@ -182,17 +183,25 @@ void check_body(const SceneValues& values, BodyScene& body) {
   if (!(body.length >= 2 * body.radius)) values.refuse("body.length", "at least twice body.radius");
 }
 
-void check_ground(const SceneValues& values, numeric::Ground& ground, Model model) {
-  const bool is_half_space = values.has("ground.modulus");
-  if (model == Model::continuous && !is_half_space)
+void check_ground(const SceneValues& values, Scene& scene, Model model) {
+  numeric::Ground& ground = scene.world.ground;
+  const bool is_half_space = values.has("ground.modulus"), is_pad = values.has("ground.curve");
+  const bool is_springs = !is_half_space && !is_pad;
+  if (!is_pad) only_for(values, {"ground.curve_units", "ground.thickness", "ground.under"}, "a pad with a curve");
+  if (model == Model::continuous && is_springs)
     values.require("ground.stiffness",
-                   "k_G in N/m3, such as 1e11, which clatter ground finds; or ground.modulus of an elastic half-space");
-  if (!values.has("ground.stiffness") && !is_half_space) {
+                   "k_G in N/m3, such as 1e11, which clatter ground finds; or ground.modulus of an elastic half-space, "
+                   "or ground.curve of a pad");
+  if (!values.has("ground.stiffness") && is_springs) {
     only_for(values, {"ground.damping", "ground.static_friction", "ground.sliding_friction"},
              "a ground with a stiffness");
   }
-  if (is_half_space) ground.area = numeric::AreaMeasure::projected;
-  else only_for(values, {"ground.dissipation"}, "a ground with a modulus");
+  if (is_springs) only_for(values, {"ground.dissipation"}, "a ground with a modulus or a curve");
+  else if (is_half_space || !values.has("ground.area")) ground.area = numeric::AreaMeasure::projected;
+  if (is_pad) {
+    read_pad(values, scene.pad);
+    settle_pad(scene.pad, ground);
+  }
   // One coefficient given is both.
   if (!values.has("ground.sliding_friction")) ground.sliding_friction = ground.static_friction;
   if (!values.has("ground.static_friction")) ground.static_friction = ground.sliding_friction;
@@ -314,7 +323,7 @@ Scene read_values(SceneValues values, const std::vector<SceneOverride>& override
   check_accuracy(values, scene.accuracy);
   values.exclude("impact.impulse_ratio", "impact.friction");
   check_body(values, scene.body);
-  check_ground(values, scene.world.ground, model);
+  check_ground(values, scene, model);
   check_impact(values, scene);
   return scene;
 }
@@ -342,6 +351,7 @@ void Scene::settle() {
     attitude = orientation_attitude(number, body.size);
   }
   if (!attitude.empty()) angle_deg = inclination_of(attitude);
+  if (has_ground()) settle_pad(pad, world.ground);  // else it is not read yet
   if (!topple) return;
   const TouchMotion touch = toppled(*this);
   velocity.assign(touch.velocity.begin(), touch.velocity.end());

@@ -2,6 +2,7 @@
 // A scene: what falls, how, on what ground, and what is asked of either model.
 #pragma once
 
+#include <array>
 #include <memory>
 #include <optional>
 #include <string>
@@ -88,6 +89,17 @@ struct BodyScene {
   [[nodiscard]] bool is_smooth() const { return is_round() && sectors == 0 && rings == 0; }
 };
 
+/// A pad by its curve, from which settle_pad() makes the ground's springs.
+struct PadScene {
+  using Points = std::vector<std::array<double, 2>>;
+  /// Depth [m], or with `thickness` and no other unit strain, and pressure [Pa]; empty: no pad.
+  Points curve;
+  std::string file;                 ///< that has the curve: resolved; empty: the scene has it
+  std::string units;                ///< of both, "%,kPa"; of a settled curve "m,Pa" or "1,Pa"; empty: as said elsewhere
+  std::optional<double> thickness;  ///< [m]
+  std::optional<double> under;      ///< stiffness beyond the last point [Pa/m]; none: that before it
+};
+
 /// Values of one quantity for which the drop is repeated: a list, or those from `from` to `to` by equal steps, equal
 /// distances or equal ratios.
 struct SceneSweep {
@@ -131,7 +143,8 @@ struct Scene {
   std::vector<double> angular_velocity;  ///< at the first touch, world components [rad/s]; empty: (0, spin, 0)
   DiscreteImpact impact;
   BodyScene body;
-  numeric::World world;  ///< a ground of stiffness 0: none given, for the discrete model
+  numeric::World world;       ///< a ground of stiffness 0: none given, for the discrete model
+  PadScene pad;               ///< what a ground with kinks was made of
   numeric::Request request;
   numeric::Accuracy accuracy;
   bool until_rest = false;      ///< the discrete model goes on until nothing follows, whatever request.impacts is
@@ -147,8 +160,8 @@ struct Scene {
   /// The scene with the swept quantity at one value, and no sweep.
   [[nodiscard]] Scene at(double value) const;
   [[nodiscard]] numeric::Body make_body() const;
-  /// Takes `attitude` from `orientation`, `angle_deg` from the attitude, and the velocities from `topple`, where they
-  /// are given.
+  /// Takes `attitude` from `orientation`, `angle_deg` from the attitude, the velocities from `topple`, and the ground
+  /// from the pad, where they are given.
   /// @throws BadInput if the orientation is no whole number, or the body no box; as toppled().
   void settle();
   /// Body → world; unit.

@@ -148,9 +148,16 @@ Report material_report(const std::vector<MaterialGround>& grounds, const std::st
 struct GroundInput {
   SceneFlags scene;
   std::array<std::optional<double>, measure_count> measured;  ///< in the order of DropMeasure
-  std::optional<double> modulus, poisson, thickness, footprint;
+  std::optional<double> modulus, poisson, footprint;
   std::optional<std::size_t> floor;  ///< of floors()
   OutputChoice output;
+
+  [[nodiscard]] bool has(const char* flag) const { return is_given(scene, flag); }
+  /// The thickness of a layer, which has no curve.
+  [[nodiscard]] std::optional<double> thickness() const {
+    if (!has("--thickness") || has("--curve")) return std::nullopt;
+    return read_number_option("--thickness", scene.texts.at("--thickness"), positive_number);
+  }
 };
 
 std::vector<MeasuredNumber> measured_of(const GroundInput& input) {
@@ -171,7 +178,7 @@ std::vector<MaterialGround> materials_of(const GroundInput& input) {
   if (!input.modulus) throw BadInput("--modulus: required with --poisson, --thickness and --footprint, or --floor");
   if (!input.poisson) throw BadInput("--poisson: required with --modulus");
   constexpr double of_layer = 0.4999;
-  if (input.thickness && !(*input.poisson <= of_layer))
+  if (input.thickness() && !(*input.poisson <= of_layer))
     throw BadInput(fmt::format("--poisson '{}': must be from 0 to {}", shortest(*input.poisson), of_layer));
   return {{*input.modulus, *input.poisson, 0}};
 }
@@ -181,23 +188,26 @@ std::optional<MaterialLoss> loss_of(const GroundInput& input, const std::vector<
   if (measured.empty()) return {};
   if (measured.size() > 1 || measured.front().measure != DropMeasure::restitution)
     throw BadInput("--contact-time and the like: exclude a material, beside which --measured-e alone may stand");
-  return MaterialLoss{measured.front().value, first_approach_speed(read_discrete_flags(input.scene).drop)};
+  SceneFlags drop = input.scene;
+  drop.texts.at("--thickness").clear();
+  return MaterialLoss{measured.front().value, first_approach_speed(read_discrete_flags(drop).drop)};
 }
 
 Report material_report_of(const GroundInput& input, const std::optional<MaterialLoss>& loss) {
   std::vector<MaterialGround> grounds = materials_of(input);
-  if (input.thickness.has_value() == input.footprint.has_value()) {
+  const std::optional<double> thickness = input.thickness();
+  if (thickness.has_value() == input.footprint.has_value()) {
     throw BadInput(fmt::format("{}: takes --thickness H of a layer, or --footprint A on a half-space; give one of them",
                                input.floor ? "--floor" : "--modulus"));
   }
-  const double size = input.thickness ? *input.thickness : *input.footprint;
+  const double size = thickness ? *thickness : *input.footprint;
   for (MaterialGround& ground : grounds) {
-    ground.stiffness = input.thickness ? layer_stiffness(ground.modulus, ground.poisson, size)
-                                       : half_space_stiffness(ground.modulus, ground.poisson, size);
+    ground.stiffness = thickness ? layer_stiffness(ground.modulus, ground.poisson, size)
+                                 : half_space_stiffness(ground.modulus, ground.poisson, size);
   }
   const std::string source = input.floor ? floors()[*input.floor].source : "";
   return material_report(grounds,
-                         input.thickness
+                         thickness
                              ? "a confined layer, E (1 - ν)/((1 + ν)(1 - 2 ν) h): wide beside its thickness, bonded to "
                                "a rigid base, unable to bulge"
                              : "a half-space under a rigid flat footprint, as under a disc of its area, 2 E/((1 - ν²) "
@@ -208,7 +218,7 @@ Report material_report_of(const GroundInput& input, const std::optional<Material
 /// The scene takes any stiffness: that is sought.
 Scene scene_of(const GroundInput& input) {
   SceneFlags flags = input.scene;
-  for (const char* const flag : {"--stiffness", "--damping", "--ground-modulus", "--dissipation"}) {
+  for (const char* const flag : {"--stiffness", "--damping", "--ground-modulus", "--dissipation", "--curve"}) {
     if (is_given(flags, flag)) throw BadInput(fmt::format("{}: must be left out: it is what is sought", flag));
   }
   flags.texts.at("--stiffness") = "1e9";
@@ -222,7 +232,7 @@ Scene scene_of(const GroundInput& input) {
 int run_ground(const GroundInput& input) {
   const OutputChoice& choice = input.output;
   const std::vector<MeasuredNumber> measured = measured_of(input);
-  if (input.modulus || input.poisson || input.floor || input.thickness || input.footprint) {
+  if (input.modulus || input.poisson || input.floor || input.thickness() || input.footprint) {
     const Report report = material_report_of(input, loss_of(input, measured));
     check_files(choice);
     write_report(choice, report);
@@ -269,8 +279,10 @@ Command ground_command() {
                          material),
          choice_argument("--floor", input.floor, names, "its material by name: published numbers, least and largest",
                          material),
-         number_argument("--thickness", input.thickness, positive_number, "M", "of a layer on a rigid base", material),
-         number_argument("--footprint", input.footprint, positive_number, "M2", "area on a half-space", material)});
+         number_argument("--footprint", input.footprint, positive_number, "M2",
+                         "area on a half-space; or --thickness of a layer on a "
+                         "rigid base",
+                         material)});
     add_output_options(command, input.output);
     command.footer =
         "Example: clatter ground --body box --size 0.1057x0.0439x0.0191 --mass 0.088 --angle 0 --measured-e 0.5 "

@@ -75,8 +75,7 @@ CornerLoad corner_load(const Curve& curve, const Vector3& up, double depth, Area
         const double left = depth - a * up[j];
         std::vector<double> inner;
         for (const double d : curve.depths) inner.push_back((left - d) / up[k]);
-        return integral(0, left / up[k], inner,
-                        [&](double b) { return weight(a, b) * curve.at(left - b * up[k]); });
+        return integral(0, left / up[k], inner, [&](double b) { return weight(a, b) * curve.at(left - b * up[k]); });
       });
     };
     const double size = area == AreaMeasure::projected ? up[face] : 1;
@@ -169,8 +168,7 @@ BOOST_AUTO_TEST_CASE(restitution_follows_from_dissipation_alone) {
     }
     const double speed = 1.3;
     for (const Body& body : {box_body({0.2, 0.1, 0.04}, 0.7), ball()}) {
-      const Simulation run =
-          dropped(body, weightless(foam(0.02).pad(number / speed)), 0, speed, {.tolerance = 1e-11});
+      const Simulation run = dropped(body, weightless(foam(0.02).pad(number / speed)), 0, speed, {.tolerance = 1e-11});
       BOOST_TEST(run.impacts.at(0).value.restitution == low, boost::test_tools::tolerance(1e-7));
     }
   }
@@ -205,8 +203,8 @@ BOOST_AUTO_TEST_CASE(rates_of_the_load_are_those_of_its_motion) {
 BOOST_AUTO_TEST_CASE(the_ledger_of_drops_on_pads_closes) {
   Random random(5);
   for (int i = 0; i < 8; ++i) {
-    Ground pad = foam(random(0.002, 0.02)).pad(i % 2 == 0 ? 0 : random(0.05, 1),
-                                               i % 3 == 0 ? AreaMeasure::surface : AreaMeasure::projected);
+    Ground pad = foam(random(0.002, 0.02))
+                     .pad(i % 2 == 0 ? 0 : random(0.05, 1), i % 3 == 0 ? AreaMeasure::surface : AreaMeasure::projected);
     if (i % 4 > 1) pad = with_friction(pad, random(0.05, 0.8));
     if (i > 4) pad.friction = i == 6 ? FrictionLaw::regularised : FrictionLaw::local;
     const Body body = i % 4 == 0 ? ball() : phone();
