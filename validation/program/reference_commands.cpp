@@ -135,6 +135,7 @@ std::string example(const Key& key) {
   if (const auto* list = std::get_if<ListValue>(&key.value)) return list->example;
   if (const auto* curve = std::get_if<CurveValue>(&key.value)) return curve->example;
   if (std::holds_alternative<TextValue>(key.value)) return "\"name\"";
+  if (const auto* choice = std::get_if<NameValue>(&key.value)) return compact_json(Value(choice->names->front()));
   if (key.is_truth()) return "true";
   const std::string_view name = key.name;
   return name == "run.tolerance" || name == "run.step" ? "1e-6" : "1";

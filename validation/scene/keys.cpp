@@ -8,6 +8,7 @@
 #include <array>
 
 #include "validation/output/json.hpp"
+#include "validation/scene/floors.hpp"
 #include "validation/scene/orientation.hpp"
 
 namespace clatter::validation {
@@ -47,6 +48,13 @@ constexpr std::array all_of_motion{"drop.speed",    "drop.height", "drop.clearan
 constexpr std::array springs{"ground.stiffness", "ground.damping"};
 constexpr std::array springs_and_area{"ground.stiffness", "ground.damping", "ground.area"};
 constexpr std::array springs_and_half_space{"ground.stiffness", "ground.damping", "ground.modulus"};
+constexpr std::array springs_and_pad{"ground.stiffness",   "ground.damping",   "ground.area", "ground.curve",
+                                     "ground.curve_units", "ground.thickness", "ground.under"};
+constexpr std::array all_but_floor{"ground.stiffness", "ground.damping",     "ground.area",      "ground.modulus",
+                                   "ground.curve",     "ground.curve_units", "ground.thickness", "ground.under"};
+constexpr std::array all_but_half_space{"ground.stiffness", "ground.damping",      "ground.area",
+                                        "ground.curve",     "ground.curve_units",  "ground.thickness",
+                                        "ground.under",     "ground.body_material"};
 constexpr std::array turn_of_plane{"drop.spin"};
 constexpr std::array parts_of_velocity{"drop.speed", "drop.height", "drop.clearance", "drop.tangential_velocity"};
 
@@ -72,7 +80,6 @@ bool has_impulse_ratio(const Scene& scene) {
 }
 /// The discrete model has no use for keys of a ground that is not there.
 Echo of_ground(const Scene& scene, Model model) { return only_if(model == Model::continuous || scene.has_ground()); }
-Echo of_half_space(const Scene& scene, Model) { return only_if(scene.world.ground.is_half_space()); }
 Echo of_pad(const Scene& scene, Model) { return only_if(scene.world.ground.is_pad()); }
 Echo of_dissipation(const Scene& scene, Model) { return only_if(scene.world.ground.has_dissipation()); }
 Echo of_springs(const Scene& scene, Model model) {
@@ -275,8 +282,8 @@ void append_ground(std::vector<Key>& keys) {
       keys.end(),
       {
           {"ground.stiffness", Use::both, "--stiffness", "N/M3", "N/m³",
-           "k_G, pressure of the ground for each metre of depth; clatter ground finds it; or ground.modulus or "
-           "ground.curve",
+           "k_G, pressure of the ground for each metre of depth; clatter ground finds it; or ground.modulus, "
+           "ground.floor or ground.curve",
            NumberValue{[](Scene& s) -> double& { return s.world.ground.stiffness; }, positive_number},
            [](const Scene& s, Model model) {
              if (s.world.ground.has_dissipation()) return Echo::absent;
@@ -289,8 +296,28 @@ void append_ground(std::vector<Key>& keys) {
           {"ground.modulus", Use::both, "--ground-modulus", "PA", "Pa",
            "E* of an elastic half-space, 1/E* = (1 - nu1^2)/E1 + (1 - nu2^2)/E2 of ground and body: it is harder under "
            "small patches than under large ones",
-           NumberValue{[](Scene& s) -> double& { return s.world.ground.modulus; }, positive_number}, of_half_space,
-           false, springs_and_area},
+           NumberValue{[](Scene& s) -> double& { return s.half_space.modulus; }, positive_number},
+           [](const Scene& s, Model) { return only_if(s.half_space.modulus > 0); }, false, springs_and_area},
+          {"ground.floor", Use::both, "--floor", "", "",
+           "or a named floor, a half-space of published numbers (clatter ground shows them) under a body of "
+           "ground.body_material",
+           NameValue{&floor_names(), [](const Scene& s) { return s.half_space.floor.value_or(0); },
+                     [](Scene& s, std::size_t i) { s.half_space.floor = i; }},
+           [](const Scene& s, Model) { return only_if(s.half_space.floor.has_value()); }, false, all_but_floor},
+          {"ground.body_modulus", Use::both, "--body-modulus", "PA", "Pa",
+           "E/(1 - nu^2) of the body on a half-space, whose modulus is then the ground's alone",
+           OptionalNumber{[](Scene& s) -> std::optional<double>& { return s.half_space.body_modulus; },
+                          positive_number},
+           [](const Scene& s, Model) { return only_if(s.half_space.body_modulus.has_value()); }, false,
+           all_but_half_space},
+          {"ground.body_material", Use::both, "--body-material", "", "",
+           "or what the body is made of, by name; on a named floor abs without it",
+           NameValue{&body_material_names(), [](const Scene& s) { return s.half_space.body_material.value_or(0); },
+                     [](Scene& s, std::size_t i) { s.half_space.body_material = i; }},
+           [](const Scene& s, Model) {
+             return only_if(s.half_space.body_material || (s.half_space.floor && !s.half_space.body_modulus));
+           },
+           false, springs_and_pad},
           {"ground.dissipation", Use::both, "--dissipation", "S/M", "s/m",
            "of a half-space or a pad: Hunt and Crossley's factor on its pressure, 1 + dissipation times the speed at "
            "which the depth grows",

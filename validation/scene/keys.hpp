@@ -124,6 +124,8 @@ struct Alternative {
 [[nodiscard]] const std::vector<Alternative>& alternatives();
 /// Whether one of two keys takes the place of the other.
 [[nodiscard]] bool are_alternatives(std::string_view one, std::string_view other);
+/// Keys of which a scene has one that has a ground.
+inline constexpr std::array ground_keys{"ground.stiffness", "ground.modulus", "ground.floor", "ground.curve"};
 /// Names of the keys, and of those that a file's sweep has.
 [[nodiscard]] const std::vector<std::string>& scene_keys();
 

@@ -17,6 +17,7 @@
 #include "validation/output/number.hpp"
 #include "validation/output/sink.hpp"
 #include "validation/scene/body_properties.hpp"
+#include "validation/scene/floors.hpp"
 #include "validation/scene/keys.hpp"
 #include "validation/scene/orientation.hpp"
 #include "validation/scene/pad.hpp"
@@ -185,13 +186,17 @@ void check_body(const SceneValues& values, BodyScene& body) {
 
 void check_ground(const SceneValues& values, Scene& scene, Model model) {
   numeric::Ground& ground = scene.world.ground;
-  const bool is_half_space = values.has("ground.modulus"), is_pad = values.has("ground.curve");
+  const bool is_half_space = values.has("ground.modulus") || values.has("ground.floor"),
+             is_pad = values.has("ground.curve");
   const bool is_springs = !is_half_space && !is_pad;
+  if (!is_half_space)
+    only_for(values, {"ground.body_modulus", "ground.body_material"}, "a ground with a modulus or a floor");
   if (!is_pad) only_for(values, {"ground.curve_units", "ground.thickness", "ground.under"}, "a pad with a curve");
   if (model == Model::continuous && is_springs)
     values.require("ground.stiffness",
                    "k_G in N/m3, such as 1e11, which clatter ground finds; or ground.modulus of an elastic half-space, "
-                   "or ground.curve of a pad");
+                   "ground.floor by name, or ground.curve of a pad");
+  settle_half_space(scene.half_space, ground);
   if (!values.has("ground.stiffness") && is_springs) {
     only_for(values, {"ground.damping", "ground.static_friction", "ground.sliding_friction"},
              "a ground with a stiffness");
@@ -351,6 +356,7 @@ void Scene::settle() {
     attitude = orientation_attitude(number, body.size);
   }
   if (!attitude.empty()) angle_deg = inclination_of(attitude);
+  settle_half_space(half_space, world.ground);
   if (has_ground()) settle_pad(pad, world.ground);  // else it is not read yet
   if (!topple) return;
   const TouchMotion touch = toppled(*this);

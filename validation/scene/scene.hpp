@@ -100,6 +100,15 @@ struct PadScene {
   std::optional<double> under;      ///< stiffness beyond the last point [Pa/m]; none: that before it
 };
 
+/// An elastic half-space by the moduli E/(1 − ν²) of ground and body, from which settle_half_space() makes E*.
+struct HalfSpaceScene {
+  double modulus = 0;                  ///< of the ground, or E* where the body has none [Pa]; 0: none
+  std::optional<std::size_t> floor;    ///< of floors(), in its place
+  std::optional<double> body_modulus;  ///< [Pa]
+  /// One of body_materials(), in its place; beside a floor the first unless the body is named.
+  std::optional<std::size_t> body_material;
+};
+
 /// Values of one quantity for which the drop is repeated: a list, or those from `from` to `to` by equal steps, equal
 /// distances or equal ratios.
 struct SceneSweep {
@@ -145,6 +154,7 @@ struct Scene {
   BodyScene body;
   numeric::World world;       ///< a ground of stiffness 0: none given, for the discrete model
   PadScene pad;               ///< what a ground with kinks was made of
+  HalfSpaceScene half_space;  ///< what a ground with a modulus was made of
   numeric::Request request;
   numeric::Accuracy accuracy;
   bool until_rest = false;      ///< the discrete model goes on until nothing follows, whatever request.impacts is
@@ -161,7 +171,7 @@ struct Scene {
   [[nodiscard]] Scene at(double value) const;
   [[nodiscard]] numeric::Body make_body() const;
   /// Takes `attitude` from `orientation`, `angle_deg` from the attitude, the velocities from `topple`, and the ground
-  /// from the pad, where they are given.
+  /// from half-space or pad, where they are given.
   /// @throws BadInput if the orientation is no whole number, or the body no box; as toppled().
   void settle();
   /// Body → world; unit.
