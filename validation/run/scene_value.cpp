@@ -199,8 +199,9 @@ std::vector<std::string> Scene::summary(Model model, const KeyNames& unsettled) 
   drop.add(world.planar ? "kept in its plane" : "");
   if (ground.is_half_space()) {
     const std::string materials = material_words(half_space);
-    contact.add(fmt::format("elastic half-space of E* = {} Pa{}", in_powers(ground.modulus),
-                            materials.empty() ? "" : fmt::format(" ({})", materials)),
+    contact.add(materials.empty()
+                    ? fmt::format("elastic half-space of E* = {} Pa", in_powers(ground.modulus))
+                    : fmt::format("elastic half-space of E* = {} Pa ({})", significant(ground.modulus, 4), materials),
                 {"ground.modulus", "ground.floor", "ground.body_modulus", "ground.body_material"});
   } else if (ground.is_pad()) {
     springs.add(pad_words(*this), {"ground.curve", "ground.thickness", "ground.under"});
