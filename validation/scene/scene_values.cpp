@@ -153,10 +153,21 @@ class SceneParser {
     else if (const auto whole = node.value_exact<std::int64_t>()) entry.value = static_cast<long long>(*whole);
     else if (const auto real = node.value_exact<double>()) entry.value = *real;
     else if (const auto words = node.value_exact<std::string>()) entry.value = *words;
-    else if (const toml::array* list = node.as_array(); list && pairs_of(*list)) entry.value = *pairs_of(*list);
+    else if (const toml::array* list = node.as_array(); list && pairs_of(*list))
+      entry = pairs_entry(*list, entry.where);
     else if (list) entry.value = numbers_of(*list, entry.where, entry.shown);
     else throw BadInput(fmt::format("{} = {}: must be a number, a text or a list", entry.where, entry.shown));
     values_.entries_[key] = std::move(entry);
+  }
+
+  static SceneValues::Entry pairs_entry(const toml::array& list, const std::string& where) {
+    constexpr std::size_t most_shown = 60;
+    const SceneValues::Pairs pairs = *pairs_of(list);
+    std::string shown;
+    for (const auto& [x, y] : pairs)
+      shown += fmt::format("{}[{}, {}]", shown.empty() ? "[" : ", ", shortest(x), shortest(y));
+    if (shown.size() > most_shown) shown = shown.substr(0, most_shown) + "...";
+    return {pairs, shown + "]", where};
   }
 
   static std::vector<double> numbers_of(const toml::array& list, const std::string& where, const std::string& shown) {

@@ -169,6 +169,11 @@ Report material_report(const std::vector<MaterialGround>& grounds, const std::st
            : "c_G does not follow from a material: --measured-e beside it gives c_G, of the scene's drop"};
   if (!source.empty()) report.notes.push_back("least and largest numbers of the floor's material: " + source);
   report.fields["solutions"] = row_objects(report.grid);
+  if (grounds.size() == 1) {
+    std::vector<SceneOverride> keys{{"ground.stiffness", "", significant(grounds.front().stiffness, 6)}};
+    if (loss) keys.push_back({"ground.damping", "", significant(grounds.front().stiffness * damping_per_stiffness, 6)});
+    add_ground_block(keys, report);
+  }
   report.fields["approximation"] = approximation;
   report.fields["source"] = text_or_nothing(source);
   return report;

@@ -133,6 +133,8 @@ dissipation = 0.3
         for words, text in (("a unit of pressure", "strain,stress\n0,0\n1,2\n"), (":4:1: must be", "strain [%],stress [kPa]\n0,0\n1,2\n2,1\n"),
                             ("no rows", "strain [%],stress [kPa]\n1,2\n"), ("finite number", "strain [%],stress [kPa]\n0,0\n1,2\n2,x\n")):
             self.refused(words, "simulate", *PHONE, "--curve", self.write("bad.csv", text), *thick)
+        both = self.write("both.toml", "[drop]\nangle_deg = 9\n[ground]\nstiffness = 1e7\ncurve = [[0, 0], [0.1, 2e4]]\n")
+        self.refused("both.toml:5:9: ground.curve = [[0, 0], [0.1, 20000]]: excludes ground.stiffness", "simulate", both)
         self.refused("cannot be read", "simulate", *PHONE, "--curve", self.path("none.csv"), *thick)
         self.refused("give one of them, not both", "simulate", *PHONE, "--stiffness", "1e7", "--under", "1e9")
         self.refused("only for a pad", "simulate", *PHONE, "--under", "1e9")
