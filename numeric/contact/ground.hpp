@@ -2,6 +2,8 @@
 // The ground: a distributed viscoelastic foundation with Coulomb friction.
 #pragma once
 
+#include <vector>
+
 namespace clatter::numeric {
 
 /// Over which area the distributed load is integrated.
@@ -38,18 +40,29 @@ enum class FrictionLaw {
   local,
 };
 
+/// A depth from which on the springs have another stiffness.
+struct Kink {
+  double depth = 0;   ///< d [m], > 0
+  double change = 0;  ///< of the stiffness, over k_G
+};
+
 /// The load of Eq. 4 of Shan et al. (2005): f_n = (k_G + c_G δ̇) δ per unit area where the surface lies δ > 0 below z =
-/// 0, clamped at zero: the ground never pulls.  With `modulus` the ground is an elastic half-space in place of a bed of
-/// springs, and stiffness and damping do not count (HalfSpaceContact).
+/// 0, clamped at zero: the ground never pulls.  With `kinks` it is a pad, PadContact, whose pressure p goes along
+/// straight pieces and is damped by Hunt and Crossley's factor,
+///     f_n = p(δ) (1 + τ δ̇)₊,   p(δ) = k_G [δ + Σ change (δ − d)₊].                                       (1)
+/// With `modulus` it is an elastic half-space, HalfSpaceContact, in place of springs, and stiffness does not count.
+/// `damping` is that of springs without kinks alone.
 struct Ground {
   double stiffness = 1e9;  ///< k_G [N/m³], > 0
   double damping = 0;      ///< c_G [N·s/m⁴], >= 0
   /// E* of an elastic half-space [Pa], >= 0; 0: none.  1/E* = (1 − ν₁²)/E₁ + (1 − ν₂²)/E₂ of ground and body.  Its area
   /// is `projected`.
   double modulus = 0;
-  double dissipation = 0;  ///< τ of Hunt and Crossley's factor 1 + τ δ̇ on the half-space's pressure [s/m], >= 0
-  double static_friction = 0;   ///< μ_s, >= sliding_friction
-  double sliding_friction = 0;  ///< μ_k, >= 0
+  double dissipation =
+      0;  ///< τ of Hunt and Crossley's factor 1 + τ δ̇ on a half-space's or a pad's pressure [s/m], >= 0
+  std::vector<Kink> kinks = {};  ///< of a pad, by growing depth; the stiffness between them is never negative
+  double static_friction = 0;    ///< μ_s, >= sliding_friction
+  double sliding_friction = 0;   ///< μ_k, >= 0
   AreaMeasure area = AreaMeasure::surface;
   FrictionLaw friction = FrictionLaw::coulomb;
   double regularisation_speed = 1e-3;  ///< v_r of the regularised law [m/s], > 0
@@ -62,9 +75,15 @@ struct Ground {
     damping *= factor;
     modulus *= factor;
   }
-  /// c_G/k_G, or the half-space's dissipation [s/m]: what restitution at a speed follows from.
-  [[nodiscard]] double damping_per_stiffness() const { return modulus > 0 ? dissipation : damping / stiffness; }
-  [[nodiscard]] bool is_damped() const { return modulus > 0 ? dissipation > 0 : damping > 0; }
+  [[nodiscard]] bool is_half_space() const { return modulus > 0; }
+  [[nodiscard]] bool is_pad() const { return !is_half_space() && !kinks.empty(); }
+  /// Whether it is damped by the factor 1 + τ δ̇, and not by c_G.
+  [[nodiscard]] bool has_dissipation() const { return is_half_space() || is_pad(); }
+  /// c_G/k_G, or the dissipation [s/m]: what restitution at a speed follows from.
+  [[nodiscard]] double damping_per_stiffness() const { return has_dissipation() ? dissipation : damping / stiffness; }
+  [[nodiscard]] bool is_damped() const { return has_dissipation() ? dissipation > 0 : damping > 0; }
+  /// p/k_G of (1) at a depth [m], >= 0.
+  [[nodiscard]] double pressed_depth(double depth) const;
   [[nodiscard]] bool has_friction() const { return static_friction > 0 || sliding_friction > 0; }
 };
 

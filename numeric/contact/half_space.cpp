@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "numeric/contact/pad_contact.hpp"
 #include "numeric/contact/smooth_contact.hpp"
 
 namespace clatter::numeric {
@@ -120,7 +121,8 @@ SlipRange HalfSpaceContact::slip_range(const GroundView& view, const SlipField& 
 }
 
 std::unique_ptr<ContactSurface> contact_on(const Body& body, const Ground& ground) {
-  if (ground.modulus > 0) return std::make_unique<HalfSpaceContact>(body, ground);
+  if (ground.is_half_space()) return std::make_unique<HalfSpaceContact>(body, ground);
+  if (ground.is_pad()) return std::make_unique<PadContact>(body, ground);
   return contact_surface(body, ground, nullptr);
 }
 

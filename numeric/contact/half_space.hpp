@@ -43,8 +43,8 @@ class HalfSpaceContact final : public ContactSurface {
   Bed bed_, beside_;
 };
 
-/// What presses on a ground: on springs, the body's surface, smooth where its shape is, else its facets; on a
-/// half-space, that over a patch of the same.
+/// What presses on a ground: on springs, the body's surface, smooth where its shape is, else its facets; on a pad, that
+/// on each of its beds; on a half-space, that over a patch of the same.
 [[nodiscard]] std::unique_ptr<ContactSurface> contact_on(const Body& body, const Ground& ground);
 
 }  // namespace clatter::numeric

@@ -32,7 +32,7 @@ ContactScales contact_scales(ContactSystem& system, const MotionState& touch, co
   const double kinetic = 0.5 * effective_mass(body, touch, point) * speed * speed;
   const Ground& ground = system.ground();
   const double stiffening =
-      1 + (ground.modulus > 0 ? ground.dissipation * speed : ground.damping * speed / ground.stiffness);
+      1 + (ground.has_dissipation() ? ground.dissipation * speed : ground.damping * speed / ground.stiffness);
   const auto takes_it_up = [&](double depth) {
     return stiffening * system.pressed(depth).energy >= kinetic + body.mass() * g * depth;
   };

@@ -253,7 +253,7 @@ class SweepsAsTheProgram(unittest.TestCase):
         self.assertIn("'surface', 'projected'", str(parameters["area"]))
 
     def test_documentation_tells_each_key_with_unit_and_range(self):
-        self.assertIn("    stiffness [N/m³]: k_G, pressure of the ground for each metre of depth; clatter ground finds it; or ground.modulus; a number, greater than 0\n", clatter.simulate.__doc__)
+        self.assertIn("    stiffness [N/m³]: k_G, pressure of the ground for each metre of depth; clatter ground finds it; or ground.modulus, ground.floor or ground.curve; a number, greater than 0\n", clatter.simulate.__doc__)
         self.assertIn("    angle [°]: inclination at the first impact", clatter.sequence.__doc__)
 
     def test_keyword_arguments_complete_in_a_notebook(self):

@@ -76,6 +76,8 @@ SAME = [
                               step=2e-5, impacts=1, planar=True, gravity=1.5, contact_gravity=False),
      "simulate rod-45 --angle 30 --stiffness 1e9 --damping 1e7 --sliding-friction 0.2 --static-friction 0.25 --method tvd-rk3 "
      "--step 2e-5 --impacts 1 --planar --gravity 1.5 --no-contact-gravity".split(), FORMS),
+    (lambda: clatter.simulate(angle=0, curve=[(0, 0), (0.1, 2e4), (0.6, 5e4)], thickness=0.02, impacts=1),
+     "simulate --angle 0 --curve [[0,0],[0.1,2e4],[0.6,5e4]] --thickness 0.02 --impacts 1".split(), ()),
     (lambda: clatter.sequence(**POSE), ["sequence", *typed(POSE)], FORMS), (lambda: clatter.gradient(**POSE), ["gradient", *typed(POSE)], FORMS),
     (lambda: clatter.explain(1, **POSE), ["explain", "1", *typed(POSE)], FORMS), (lambda: clatter.explain(2, 10), ["explain", "2", "--angle", "10"], FORMS),
     (clatter.regimes, ["regimes"], FORMS), (lambda: clatter.regimes("restitution", from_=0.5, to=1, step=0.25),

@@ -107,7 +107,7 @@ bool is_given(const SceneFlags& given, const std::string& name) { return !given.
 
 bool names_ground(const SceneFlags& given) {
   const SceneValues values = scene_values(given.source);
-  return std::ranges::any_of(std::array{"ground.stiffness", "ground.modulus"},
+  return std::ranges::any_of(ground_keys,
                              [&](const char* key) { return values.has(key) || is_given(given, key_named(key).flag); });
 }
 

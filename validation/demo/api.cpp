@@ -113,8 +113,9 @@ Value compare(NamedTexts texts) {
 
 /// For the model that it is for: without a ground the discrete one.
 Scene read_for_page(const SceneValues& values, const NamedTexts& texts) {
-  const bool has_ground = values.has("ground.stiffness") || values.has("ground.modulus") ||
-                          texts.count("stiffness") != 0 || texts.count("ground_modulus") != 0;
+  const bool has_ground = std::any_of(ground_keys.begin(), ground_keys.end(), [&](const char* key) {
+    return values.has(key) || texts.count(key_named(key).argument()) != 0;
+  });
   return read_scene(values, scene_overrides(texts), has_ground ? Model::continuous : Model::discrete);
 }
 

@@ -104,12 +104,14 @@ void write_law(StepWriter& writer, const Scene& scene, const analytic::ImpactLaw
   if (law.law == analytic::RestitutionLaw::viscoelastic) {
     const double stiffness = scene.world.ground.stiffness, damping = scene.world.ground.damping;
     const Quantity tau = number("τ", law.damping_per_stiffness, "s/m");
-    if (stiffness > 0 && damping / stiffness == law.damping_per_stiffness) {
+    if (!scene.world.ground.has_dissipation() && stiffness > 0 && damping / stiffness == law.damping_per_stiffness) {
       const Quantity k = writer.given(number("k_G", stiffness, "N/m³"), {"stiffness of the ground"});
       const Quantity c = writer.given(number("c_G", damping, "N·s/m⁴"), {"its damping"});
       given.damping_time = writer.found(tau, c / k, {"from which the restitution follows at each speed"});
-    } else if (scene.world.ground.modulus > 0) {
-      given.damping_time = writer.given(tau, {"dissipation of the ground, an elastic half-space"});
+    } else if (scene.world.ground.has_dissipation()) {
+      given.damping_time =
+          writer.given(tau, {scene.world.ground.is_pad() ? "dissipation of the ground, a pad"
+                                                         : "dissipation of the ground, an elastic half-space"});
     } else {
       given.damping_time = writer.given(tau, {"damping over stiffness of the ground, c_G/k_G"});
     }

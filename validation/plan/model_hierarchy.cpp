@@ -217,8 +217,9 @@ const char* level_assumption(ModelLevel level, const numeric::Ground& ground) {
     case ModelLevel::discrete_in_space: return "contacts take no time and no depth";
     case ModelLevel::planar: return "the body stays in the plane of its motion";
     case ModelLevel::spatial:
-      return ground.modulus > 0 ? "the body is rigid, the ground an elastic half-space"
-                                : "the body is rigid, the ground a bed of springs and dampers";
+      return ground.is_half_space() ? "the body is rigid, the ground an elastic half-space"
+             : ground.is_pad()      ? "the body is rigid, the ground a pad without shear"
+                                    : "the body is rigid, the ground a bed of springs and dampers";
   }
   return "";
 }

@@ -311,8 +311,8 @@ Overrides chosen_keys(const Plan& plan) {
       for (const char* key : {"ground.static_friction", "ground.sliding_friction"}) keys.push_back({key, "", "0"});
     }
     if (part.left_out && part.part == Part::damping) {
-      const bool is_half_space = plan.scene.world.ground.modulus > 0;
-      keys.push_back({is_half_space ? "ground.dissipation" : "ground.damping", "", "0"});
+      const bool has_dissipation = plan.scene.world.ground.has_dissipation();
+      keys.push_back({has_dissipation ? "ground.dissipation" : "ground.damping", "", "0"});
     }
   }
   return keys;

@@ -15,6 +15,7 @@
 #include "validation/run/shortfall.hpp"
 #include "validation/scene/facet_words.hpp"
 #include "validation/scene/names.hpp"
+#include "validation/scene/pad.hpp"
 
 namespace clatter::validation {
 namespace {
@@ -315,17 +316,23 @@ double least_extent(const numeric::Body& body) {
 constexpr double deep_part = 0.1;  ///< of the least extent: deeper, the body and not its skin is in the ground
 
 /// A warning that tells the deepest impact where it is deep against the body; empty: none is.
-std::string depth_warning(const numeric::Body& body, const numeric::Ground& ground, const Simulation& run) {
+std::string depth_warning(const numeric::Body& body, const Scene& scene, const Simulation& run) {
   const auto deepest =
       std::ranges::max_element(run.impacts, {}, [](const numeric::ImpactRecord& row) { return row.value.indentation; });
   if (deepest == run.impacts.end()) return "";
-  const double depth = deepest->value.indentation, extent = least_extent(body);
+  const double depth = deepest->value.indentation;
+  const auto impact = deepest - run.impacts.begin() + 1;
+  if (scene.world.ground.is_pad()) {
+    const std::string words = pad_warning(scene, depth);
+    return words.empty() ? "" : fmt::format("the body goes into the pad in impact {} by {}", impact, words);
+  }
+  const double extent = least_extent(body);
   if (!(depth > deep_part * extent)) return "";
   return fmt::format(
       "the body goes {} m into the ground in impact {}, more than a tenth of its least extent, {} m: a {} "
       "is no model of that",
-      significant(depth, 3), deepest - run.impacts.begin() + 1, significant(extent, 3),
-      ground.modulus > 0 ? "half-space" : "bed of springs");
+      significant(depth, 3), impact, significant(extent, 3),
+      scene.world.ground.is_half_space() ? "half-space" : "bed of springs");
 }
 
 }  // namespace
@@ -354,7 +361,7 @@ PlannedRun run_to_digits(const Scene& scene, const numeric::Body& body, const nu
   judge(body, planned);
   const std::string out_of_plane = planar_warning(body, world, start);
   if (!out_of_plane.empty()) planned.warnings.push_back(out_of_plane);
-  const std::string sunk = submersion_warning(planned.run), deep = depth_warning(body, world.ground, planned.run);
+  const std::string sunk = submersion_warning(planned.run), deep = depth_warning(body, scene, planned.run);
   if (!sunk.empty()) planned.warnings.push_back(sunk);
   else if (!deep.empty()) planned.warnings.push_back(deep);
   return planned;

@@ -35,7 +35,7 @@ Scene begun_scene(BodyScene::Shape shape) {
 /// "required", or the value that a scene file has without the key; empty: none.
 std::string default_words(const Key& key) {
   if (key.is_required) return "required";
-  if (std::holds_alternative<ListValue>(key.value)) return "";
+  if (std::holds_alternative<ListValue>(key.value) || std::holds_alternative<CurveValue>(key.value)) return "";
   for (std::size_t shape = 0; shape < shape_names().size(); ++shape) {
     Scene scene;
     scene.body.shape = static_cast<BodyScene::Shape>(shape);
@@ -133,7 +133,9 @@ std::string keys_text() {
 /// A value to begin with, for a key that has none by itself.
 std::string example(const Key& key) {
   if (const auto* list = std::get_if<ListValue>(&key.value)) return list->example;
+  if (const auto* curve = std::get_if<CurveValue>(&key.value)) return curve->example;
   if (std::holds_alternative<TextValue>(key.value)) return "\"name\"";
+  if (const auto* choice = std::get_if<NameValue>(&key.value)) return compact_json(Value(choice->names->front()));
   if (key.is_truth()) return "true";
   const std::string_view name = key.name;
   return name == "run.tolerance" || name == "run.step" ? "1e-6" : "1";

@@ -484,7 +484,8 @@ Value law_fields(const Scene& scene, std::optional<double> approach) {
     fields["restitution"] = ground_restitution(found, *approach);
     fields["approach_speed"] = *approach;
   }
-  fields["restitution_from"] = source_name(found.restitution_from, "ground.damping");
+  fields["restitution_from"] = source_name(
+      found.restitution_from, scene.world.ground.has_dissipation() ? "ground.dissipation" : "ground.damping");
   switch (law.friction) {
     case analytic::FrictionKind::none: fields["friction_law"] = "none"; break;
     case analytic::FrictionKind::coulomb: fields["friction_law"] = "coulomb"; break;

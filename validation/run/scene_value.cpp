@@ -10,7 +10,9 @@
 #include "validation/output/number.hpp"
 #include "validation/run/discrete_scene.hpp"
 #include "validation/scene/body_properties.hpp"
+#include "validation/scene/floors.hpp"
 #include "validation/scene/keys.hpp"
+#include "validation/scene/pad.hpp"
 
 namespace clatter::validation {
 namespace {
@@ -195,15 +197,25 @@ std::vector<std::string> Scene::summary(Model model, const KeyNames& unsettled) 
   Phrases drop(unsettled), springs(unsettled), contact(unsettled);
   add_gravity(*this, drop.add(drop_words(unsettled)));
   drop.add(world.planar ? "kept in its plane" : "");
-  if (ground.modulus > 0) {
-    contact.add(fmt::format("elastic half-space of E* = {} Pa", in_powers(ground.modulus)), {"ground.modulus"});
-    contact.add(fmt::format("dissipation {} s/m", in_powers(ground.dissipation)), {"ground.dissipation"});
+  if (ground.is_half_space()) {
+    const std::string materials = material_words(half_space);
+    contact.add(materials.empty()
+                    ? fmt::format("elastic half-space of E* = {} Pa", in_powers(ground.modulus))
+                    : fmt::format("elastic half-space of E* = {} Pa ({})", significant(ground.modulus, 4), materials),
+                {"ground.modulus", "ground.floor", "ground.body_modulus", "ground.body_material"});
+  } else if (ground.is_pad()) {
+    springs.add(pad_words(*this), {"ground.curve", "ground.thickness", "ground.under"});
   } else {
     springs.add(fmt::format("k = {} N/m³", in_powers(ground.stiffness)), {"ground.stiffness"});
     springs.add(fmt::format("c = {} N·s/m⁴", in_powers(ground.damping)), {"ground.damping"});
+  }
+  if (!ground.is_half_space())
     contact.add(
         after(springs.text(), fmt::format("over the {} area", area_names()[static_cast<std::size_t>(ground.area)])));
-  }
+  if (half_space.floor && !ground.is_damped())
+    contact.add("undamped, e = 1 of 0 to 1: no source gives a restitution", {"ground.dissipation"});
+  else if (ground.has_dissipation())
+    contact.add(fmt::format("dissipation {} s/m", in_powers(ground.dissipation)), {"ground.dissipation"});
   contact.add(sweeps_friction ? fmt::format("friction μ = {} to {}", shortest(sweep->from), shortest(sweep->to))
                               : friction_words(ground),
               {"ground.static_friction", "ground.sliding_friction", "ground.regularisation_speed"});
@@ -214,6 +226,13 @@ Value scene_value(const Scene& scene, Model model, std::optional<double> approac
   Value fields;
   if (!scene.path.empty()) fields["file"] = scene.path;
   add_keys(scene, model, fields);
+  if (!material_words(scene.half_space).empty()) {
+    const ModulusRange range = reduced_modulus(scene.half_space);
+    fields["ground"]["reduced_modulus"] = Value::Fields{{"value", range.middle},
+                                                        {"least", range.least},
+                                                        {"largest", range.largest},
+                                                        {"sources", material_sources(scene.half_space)}};
+  }
   if (scene.sweep) fields["sweep"][scene.sweep->name()] = scene.sweep->fields();
   if (model == Model::discrete || approach) fields["discrete_law"] = law_fields(scene, approach);
   return fields;

@@ -40,6 +40,10 @@ void put_given(const SceneValues& values, const Key& key, Scene& scene, Model mo
           [&](const ListValue& v) {
             v.put(scene, values.numbers(name, v.sizes, allowed(v.range, v.wide, model), v.words));
           },
+          [&](const CurveValue& v) {
+            if (const auto points = values.pairs(name, v.words)) v.points(scene) = *points;
+            else v.file(scene) = values.file(name);
+          },
       },
       key.value);
 }
@@ -62,6 +66,11 @@ Value value_of(const Key& key, Scene& scene) {
                         [&](const ListValue& v) {
                           const std::vector<double> numbers = v.get(scene);
                           return numbers.empty() ? Value() : Value(numbers);
+                        },
+                        [&](const CurveValue& v) {
+                          Value list;
+                          for (const auto& [x, y] : v.points(scene)) list.push_back(Value::List{x, y});
+                          return list;
                         },
                         [&](const auto& v) { return Value(v.at(scene)); },
                     },
@@ -112,6 +121,7 @@ std::string Key::allowed() const {
           [](const TextValue&) { return std::string("a text"); },
           [](const NameValue& v) { return fmt::format("one of {}", fmt::join(*v.names, ", ")); },
           [](const ListValue& v) { return std::string(v.words); },
+          [](const CurveValue& v) { return std::string(v.words); },
           [](const auto& v) {
             return std::string(v.range.words) + (v.wide ? fmt::format("; discrete model: {}", v.wide->words) : "");
           },
@@ -152,6 +162,7 @@ bool Key::is_given(const Scene& scene) const {
   return std::visit(Overloaded{
                         [&](const OptionalNumber& v) { return v.at(shown).has_value(); },
                         [&](const ListValue& v) { return !v.get(shown).empty(); },
+                        [&](const CurveValue& v) { return !v.points(shown).empty(); },
                         [](const auto&) { return true; },
                     },
                     value);

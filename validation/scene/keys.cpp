@@ -8,6 +8,7 @@
 #include <array>
 
 #include "validation/output/json.hpp"
+#include "validation/scene/floors.hpp"
 #include "validation/scene/orientation.hpp"
 
 namespace clatter::validation {
@@ -55,6 +56,14 @@ constexpr std::array all_of_motion{"drop.speed",    "drop.height", "drop.clearan
                                    "drop.velocity", "drop.spin",   "drop.angular_velocity"};
 constexpr std::array springs{"ground.stiffness", "ground.damping"};
 constexpr std::array springs_and_area{"ground.stiffness", "ground.damping", "ground.area"};
+constexpr std::array springs_and_half_space{"ground.stiffness", "ground.damping", "ground.modulus"};
+constexpr std::array springs_and_pad{"ground.stiffness",   "ground.damping",   "ground.area", "ground.curve",
+                                     "ground.curve_units", "ground.thickness", "ground.under"};
+constexpr std::array all_but_floor{"ground.stiffness", "ground.damping",     "ground.area",      "ground.modulus",
+                                   "ground.curve",     "ground.curve_units", "ground.thickness", "ground.under"};
+constexpr std::array all_but_half_space{"ground.stiffness", "ground.damping",      "ground.area",
+                                        "ground.curve",     "ground.curve_units",  "ground.thickness",
+                                        "ground.under",     "ground.body_material"};
 constexpr std::array turn_of_plane{"drop.spin"};
 constexpr std::array parts_of_velocity{"drop.speed", "drop.height", "drop.clearance", "drop.tangential_velocity"};
 
@@ -81,9 +90,13 @@ bool has_impulse_ratio(const Scene& scene) {
 }
 /// The discrete model has no use for keys of a ground that is not there.
 Echo of_ground(const Scene& scene, Model model) { return only_if(model == Model::continuous || scene.has_ground()); }
-Echo of_half_space(const Scene& scene, Model) { return only_if(scene.world.ground.modulus > 0); }
+Echo of_pad(const Scene& scene, Model) { return only_if(scene.world.ground.is_pad()); }
+Echo of_dissipation(const Scene& scene, Model) { return only_if(scene.world.ground.has_dissipation()); }
 Echo of_springs(const Scene& scene, Model model) {
-  return scene.world.ground.modulus > 0 ? Echo::absent : of_ground(scene, model);
+  return scene.world.ground.has_dissipation() ? Echo::absent : of_ground(scene, model);
+}
+Echo of_area(const Scene& scene, Model model) {
+  return scene.world.ground.is_half_space() ? Echo::absent : of_ground(scene, model);
 }
 
 template <class Enum>
@@ -375,10 +388,11 @@ void append_ground(std::vector<Key>& keys) {
       keys.end(),
       {
           {"ground.stiffness", Use::both, "--stiffness", "N/M3", "N/m³",
-           "k_G, pressure of the ground for each metre of depth; clatter ground finds it; or ground.modulus",
+           "k_G, pressure of the ground for each metre of depth; clatter ground finds it; or ground.modulus, "
+           "ground.floor or ground.curve",
            NumberValue{[](Scene& s) -> double& { return s.world.ground.stiffness; }, positive_number},
            [](const Scene& s, Model model) {
-             if (s.world.ground.modulus > 0) return Echo::absent;
+             if (s.world.ground.has_dissipation()) return Echo::absent;
              return s.has_ground() ? Echo::value : model == Model::continuous ? Echo::null : Echo::absent;
            },
            true},
@@ -388,14 +402,56 @@ void append_ground(std::vector<Key>& keys) {
           {"ground.modulus", Use::both, "--ground-modulus", "PA", "Pa",
            "E* of an elastic half-space, 1/E* = (1 - nu1^2)/E1 + (1 - nu2^2)/E2 of ground and body: it is harder under "
            "small patches than under large ones",
-           NumberValue{[](Scene& s) -> double& { return s.world.ground.modulus; }, positive_number}, of_half_space,
-           false, springs_and_area},
+           NumberValue{[](Scene& s) -> double& { return s.half_space.modulus; }, positive_number},
+           [](const Scene& s, Model) { return only_if(s.half_space.modulus > 0); }, false, springs_and_area},
+          {"ground.floor", Use::both, "--floor", "", "",
+           "or a named floor, a half-space of published numbers (clatter ground shows them) under a body of "
+           "ground.body_material",
+           NameValue{&floor_names(), [](const Scene& s) { return s.half_space.floor.value_or(0); },
+                     [](Scene& s, std::size_t i) { s.half_space.floor = i; }},
+           [](const Scene& s, Model) { return only_if(s.half_space.floor.has_value()); }, false, all_but_floor},
+          {"ground.body_modulus", Use::both, "--body-modulus", "PA", "Pa",
+           "E/(1 - nu^2) of the body on a half-space, whose modulus is then the ground's alone",
+           OptionalNumber{[](Scene& s) -> std::optional<double>& { return s.half_space.body_modulus; },
+                          positive_number},
+           [](const Scene& s, Model) { return only_if(s.half_space.body_modulus.has_value()); }, false,
+           all_but_half_space},
+          {"ground.body_material", Use::both, "--body-material", "NAME", "",
+           "or what the body is made of: abs, steel, glass and others of clatter keys; on a named floor abs without it",
+           NameValue{&body_material_names(), [](const Scene& s) { return s.half_space.body_material.value_or(0); },
+                     [](Scene& s, std::size_t i) { s.half_space.body_material = i; }},
+           [](const Scene& s, Model) {
+             return only_if(s.half_space.body_material || (s.half_space.floor && !s.half_space.body_modulus));
+           },
+           false, springs_and_pad},
           {"ground.dissipation", Use::both, "--dissipation", "S/M", "s/m",
-           "of the half-space: Hunt and Crossley's factor on its pressure, 1 + dissipation times the speed at which "
-           "the "
-           "depth grows",
+           "of a half-space or a pad: Hunt and Crossley's factor on its pressure, 1 + dissipation times the speed at "
+           "which the depth grows",
            NumberValue{[](Scene& s) -> double& { return s.world.ground.dissipation; }, not_negative_number},
-           of_half_space, false, springs},
+           of_dissipation, false, springs},
+          {"ground.curve", Use::both, "--curve", "CURVE", "",
+           "or a pad by what its data sheet has: strain (with ground.thickness) or depth, and pressure, straight "
+           "between the points and from 0, 0 to the first",
+           CurveValue{
+               [](Scene& s) -> PadScene::Points& { return s.pad.curve; },
+               [](Scene& s) -> std::string& { return s.pad.file; },
+               "a CSV file whose header states units, or two or more points [[x, pressure], ...], x strain or m, "
+               "pressure in Pa, neither of which falls",
+               "[[0, 0], [0.1, 2e4], [0.6, 5e4]]"},
+           of_pad, false, springs_and_half_space},
+          {"ground.curve_units", Use::both, "--curve-units", "X,P", "",
+           "of the curve's two columns, as %,kPa; without it those of a file's header, or m, or 1 with a thickness, "
+           "and "
+           "Pa",
+           TextValue{[](Scene& s) -> std::string& { return s.pad.units; }}, of_pad, false, springs_and_half_space},
+          {"ground.thickness", Use::both, "--thickness", "M", "m",
+           "of the pad, by which strain becomes depth; in clatter ground of a layer",
+           OptionalNumber{[](Scene& s) -> std::optional<double>& { return s.pad.thickness; }, positive_number}, of_pad,
+           false, springs_and_half_space},
+          {"ground.under", Use::both, "--under", "PA/M", "Pa/m",
+           "stiffness of the pad beyond its curve's last point, where it bottoms out; without it that before the point",
+           OptionalNumber{[](Scene& s) -> std::optional<double>& { return s.pad.under; }, positive_number}, of_pad,
+           false, springs_and_half_space},
           {"ground.static_friction", Use::both, "--static-friction", "MU", "",
            "of the ground; without it sliding_friction",
            NumberValue{[](Scene& s) -> double& { return s.world.ground.static_friction; }, not_negative_number},
@@ -404,10 +460,11 @@ void append_ground(std::vector<Key>& keys) {
            "of the ground; without it static_friction",
            NumberValue{[](Scene& s) -> double& { return s.world.ground.sliding_friction; }, not_negative_number},
            of_ground},
-          {"ground.area", Use::both, "--area", "", "", "area over which the load is integrated",
+          {"ground.area", Use::both, "--area", "", "",
+           "area over which the load is integrated; of a pad projected without it",
            NameValue{&area_names(), [](const Scene& s) { return index_of(s.world.ground.area); },
                      [](Scene& s, std::size_t i) { s.world.ground.area = static_cast<numeric::AreaMeasure>(i); }},
-           of_springs},
+           of_area},
           {"ground.friction_law", Use::both, "", "NAME", "", "what friction does where the face slips unevenly",
            NameValue{&friction_law_names(), [](const Scene& s) { return index_of(s.world.ground.friction); },
                      [](Scene& s, std::size_t i) { s.world.ground.friction = static_cast<numeric::FrictionLaw>(i); }},

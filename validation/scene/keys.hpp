@@ -3,6 +3,7 @@
 // echo, what a sweep may set, and the arguments of Python and of the page.
 #pragma once
 
+#include <array>
 #include <functional>
 #include <map>
 #include <optional>
@@ -59,8 +60,15 @@ struct ListValue {
   const char* example;  ///< as a scene file has it
   const Range* wide = nullptr;
 };
-using KeyValue =
-    std::variant<NumberValue, OptionalNumber, WholeNumber, LongNumber, TruthValue, TextValue, NameValue, ListValue>;
+/// A list of pairs, or the file that has them.
+struct CurveValue {
+  std::vector<std::array<double, 2>>& (*points)(Scene& scene);
+  std::string& (*file)(Scene& scene);
+  const char* words;
+  const char* example;
+};
+using KeyValue = std::variant<NumberValue, OptionalNumber, WholeNumber, LongNumber, TruthValue, TextValue, NameValue,
+                              ListValue, CurveValue>;
 
 /// How a key stands in the JSON echo of a scene.
 enum class Echo { value, null, absent };
@@ -116,6 +124,8 @@ struct Alternative {
 [[nodiscard]] const std::vector<Alternative>& alternatives();
 /// Whether one of two keys takes the place of the other.
 [[nodiscard]] bool are_alternatives(std::string_view one, std::string_view other);
+/// Keys of which a scene has one that has a ground.
+inline constexpr std::array ground_keys{"ground.stiffness", "ground.modulus", "ground.floor", "ground.curve"};
 /// Names of the keys, and of those that a file's sweep has.
 [[nodiscard]] const std::vector<std::string>& scene_keys();
 

@@ -17,8 +17,10 @@
 #include "validation/output/number.hpp"
 #include "validation/output/sink.hpp"
 #include "validation/scene/body_properties.hpp"
+#include "validation/scene/floors.hpp"
 #include "validation/scene/keys.hpp"
 #include "validation/scene/orientation.hpp"
+#include "validation/scene/pad.hpp"
 #include "validation/scene/scene.hpp"
 #include "validation/scene/scene_values.hpp"
 
@@ -182,17 +184,29 @@ void check_body(const SceneValues& values, BodyScene& body) {
   if (!(body.length >= 2 * body.radius)) values.refuse("body.length", "at least twice body.radius");
 }
 
-void check_ground(const SceneValues& values, numeric::Ground& ground, Model model) {
-  const bool is_half_space = values.has("ground.modulus");
-  if (model == Model::continuous && !is_half_space)
+void check_ground(const SceneValues& values, Scene& scene, Model model) {
+  numeric::Ground& ground = scene.world.ground;
+  const bool is_half_space = values.has("ground.modulus") || values.has("ground.floor"),
+             is_pad = values.has("ground.curve");
+  const bool is_springs = !is_half_space && !is_pad;
+  if (!is_half_space)
+    only_for(values, {"ground.body_modulus", "ground.body_material"}, "a ground with a modulus or a floor");
+  if (!is_pad) only_for(values, {"ground.curve_units", "ground.thickness", "ground.under"}, "a pad with a curve");
+  if (model == Model::continuous && is_springs)
     values.require("ground.stiffness",
-                   "k_G in N/m3, such as 1e11, which clatter ground finds; or ground.modulus of an elastic half-space");
-  if (!values.has("ground.stiffness") && !is_half_space) {
+                   "k_G in N/m3, such as 1e11, which clatter ground finds; or ground.modulus of an elastic half-space, "
+                   "ground.floor by name, or ground.curve of a pad");
+  settle_half_space(scene.half_space, ground);
+  if (!values.has("ground.stiffness") && is_springs) {
     only_for(values, {"ground.damping", "ground.static_friction", "ground.sliding_friction"},
              "a ground with a stiffness");
   }
-  if (is_half_space) ground.area = numeric::AreaMeasure::projected;
-  else only_for(values, {"ground.dissipation"}, "a ground with a modulus");
+  if (is_springs) only_for(values, {"ground.dissipation"}, "a ground with a modulus or a curve");
+  else if (is_half_space || !values.has("ground.area")) ground.area = numeric::AreaMeasure::projected;
+  if (is_pad) {
+    read_pad(values, scene.pad);
+    settle_pad(scene.pad, ground);
+  }
   // One coefficient given is both.
   if (!values.has("ground.sliding_friction")) ground.sliding_friction = ground.static_friction;
   if (!values.has("ground.static_friction")) ground.static_friction = ground.sliding_friction;
@@ -325,7 +339,7 @@ Scene read_values(SceneValues values, const std::vector<SceneOverride>& override
   check_accuracy(values, scene.accuracy);
   values.exclude("impact.impulse_ratio", "impact.friction");
   check_body(values, scene.body);
-  check_ground(values, scene.world.ground, model);
+  check_ground(values, scene, model);
   check_impact(values, scene);
   return scene;
 }
@@ -360,6 +374,8 @@ void Scene::settle() {
     attitude = orientation_attitude(number, body.size);
   }
   if (!attitude.empty()) angle_deg = inclination_of(attitude);
+  settle_half_space(half_space, world.ground);
+  if (has_ground()) settle_pad(pad, world.ground);  // else it is not read yet
   if (!topple) return;
   const TouchMotion touch = toppled(*this);
   velocity.assign(touch.velocity.begin(), touch.velocity.end());

@@ -2,6 +2,7 @@
 // A scene: what falls, how, on what ground, and what is asked of either model.
 #pragma once
 
+#include <array>
 #include <memory>
 #include <optional>
 #include <string>
@@ -88,6 +89,26 @@ struct BodyScene {
   [[nodiscard]] bool is_smooth() const { return is_round() && sectors == 0 && rings == 0; }
 };
 
+/// A pad by its curve, from which settle_pad() makes the ground's springs.
+struct PadScene {
+  using Points = std::vector<std::array<double, 2>>;
+  /// Depth [m], or with `thickness` and no other unit strain, and pressure [Pa]; empty: no pad.
+  Points curve;
+  std::string file;                 ///< that has the curve: resolved; empty: the scene has it
+  std::string units;                ///< of both, "%,kPa"; of a settled curve "m,Pa" or "1,Pa"; empty: as said elsewhere
+  std::optional<double> thickness;  ///< [m]
+  std::optional<double> under;      ///< stiffness beyond the last point [Pa/m]; none: that before it
+};
+
+/// An elastic half-space by the moduli E/(1 − ν²) of ground and body, from which settle_half_space() makes E*.
+struct HalfSpaceScene {
+  double modulus = 0;                  ///< of the ground, or E* where the body has none [Pa]; 0: none
+  std::optional<std::size_t> floor;    ///< of floors(), in its place
+  std::optional<double> body_modulus;  ///< [Pa]
+  /// One of body_materials(), in its place; beside a floor the first unless the body is named.
+  std::optional<std::size_t> body_material;
+};
+
 /// Values of one quantity for which the drop is repeated: a list, or those from `from` to `to` by equal steps, equal
 /// distances or equal ratios.
 struct SceneSweep {
@@ -142,7 +163,9 @@ struct Scene {
   Release release;  ///< with a height or clearance: attitude and velocities are those at release, by settle()
   DiscreteImpact impact;
   BodyScene body;
-  numeric::World world;  ///< a ground of stiffness 0: none given, for the discrete model
+  numeric::World world;       ///< a ground of stiffness 0: none given, for the discrete model
+  PadScene pad;               ///< what a ground with kinks was made of
+  HalfSpaceScene half_space;  ///< what a ground with a modulus was made of
   numeric::Request request;
   numeric::Accuracy accuracy;
   bool until_rest = false;      ///< the discrete model goes on until nothing follows, whatever request.impacts is
@@ -160,8 +183,8 @@ struct Scene {
   /// The scene with the swept quantity at one value, and no sweep.
   [[nodiscard]] Scene at(double value) const;
   [[nodiscard]] numeric::Body make_body() const;
-  /// Takes `attitude` from `orientation`, `angle_deg` from the attitude, the velocities from `topple`, and all three
-  /// from `release`, where they are given.
+  /// Takes `attitude` from `orientation`, `angle_deg` from the attitude, the velocities from `topple`, all three from
+  /// `release`, and the ground from half-space or pad, where they are given.
   /// @throws BadInput if the orientation is no whole number, or the body no box; as toppled().
   void settle();
   /// Body → world; unit.  Here and in the velocities: at the release, where there is one.

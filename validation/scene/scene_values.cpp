@@ -64,6 +64,18 @@ toml::table parse(const std::string& path) {
   return parse(path, text_of(path));
 }
 
+/// [[1, 2], [3, 4]]; none: something else.
+std::optional<std::vector<std::array<double, 2>>> pairs_of(const toml::array& list) {
+  std::vector<std::array<double, 2>> pairs;
+  for (const toml::node& node : list) {
+    const toml::array* const pair = node.as_array();
+    if (!pair || pair->size() != 2 || !pair->get(0)->is_number() || !pair->get(1)->is_number()) return std::nullopt;
+    pairs.push_back({*pair->get(0)->value<double>(), *pair->get(1)->value<double>()});
+  }
+  if (pairs.empty()) return std::nullopt;
+  return pairs;
+}
+
 }  // namespace
 
 /// Flattens the tables of a file.
@@ -141,9 +153,21 @@ class SceneParser {
     else if (const auto whole = node.value_exact<std::int64_t>()) entry.value = static_cast<long long>(*whole);
     else if (const auto real = node.value_exact<double>()) entry.value = *real;
     else if (const auto words = node.value_exact<std::string>()) entry.value = *words;
-    else if (const toml::array* list = node.as_array()) entry.value = numbers_of(*list, entry.where, entry.shown);
+    else if (const toml::array* list = node.as_array(); list && pairs_of(*list))
+      entry = pairs_entry(*list, entry.where);
+    else if (list) entry.value = numbers_of(*list, entry.where, entry.shown);
     else throw BadInput(fmt::format("{} = {}: must be a number, a text or a list", entry.where, entry.shown));
     values_.entries_[key] = std::move(entry);
+  }
+
+  static SceneValues::Entry pairs_entry(const toml::array& list, const std::string& where) {
+    constexpr std::size_t most_shown = 60;
+    const SceneValues::Pairs pairs = *pairs_of(list);
+    std::string shown;
+    for (const auto& [x, y] : pairs)
+      shown += fmt::format("{}[{}, {}]", shown.empty() ? "[" : ", ", shortest(x), shortest(y));
+    if (shown.size() > most_shown) shown = shown.substr(0, most_shown) + "...";
+    return {pairs, shown + "]", where};
   }
 
   static std::vector<double> numbers_of(const toml::array& list, const std::string& where, const std::string& shown) {
@@ -246,6 +270,29 @@ std::string SceneValues::text(const std::string& key) const {
   const auto* words = std::get_if<std::string>(&at(key).value);
   if (!words || words->empty()) refuse(key, "a text in quotes, not empty");
   return *words;
+}
+
+std::optional<SceneValues::Pairs> SceneValues::pairs(const std::string& key, const std::string& words) const {
+  const Entry& entry = at(key);
+  if (const auto* list = std::get_if<Pairs>(&entry.value)) return *list;
+  const auto* const text = std::get_if<std::string>(&entry.value);
+  if (!text || text->empty()) refuse(key, words);
+  if (!entry.is_flag || text->front() != '[') return std::nullopt;
+  std::optional<Pairs> list;
+  try {
+    const toml::table table = toml::parse("list = " + *text);
+    if (const toml::array* array = table["list"].as_array()) list = pairs_of(*array);
+  } catch (const toml::parse_error&) {
+    list.reset();
+  }
+  if (!list) refuse(key, words);
+  return list;
+}
+
+std::string SceneValues::file(const std::string& key) const {
+  const std::filesystem::path file = text(key);
+  return at(key).is_flag || file.is_absolute() ? file.string()
+                                               : (std::filesystem::path(path_).parent_path() / file).string();
 }
 
 std::size_t SceneValues::name(const std::string& key, std::size_t fallback,

@@ -2,7 +2,9 @@
 // The values of a scene file, with the flags that override them, each knowing where it stands.
 #pragma once
 
+#include <array>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -47,6 +49,12 @@ class SceneValues {
   [[nodiscard]] std::vector<double> numbers(const std::string& key, const std::vector<std::size_t>& sizes,
                                             const Range& range, const std::string& words) const;
 
+  /// A list of pairs, "[[0, 0], [1, 2]]", that a file or a flag has; none: a text, as of a file's name.
+  [[nodiscard]] std::optional<std::vector<std::array<double, 2>>> pairs(const std::string& key,
+                                                                        const std::string& words) const;
+  /// A text that names a file: of a scene file, from its folder.
+  [[nodiscard]] std::string file(const std::string& key) const;
+
   /// A list of the file with at least one number.
   [[nodiscard]] std::vector<double> number_list(const std::string& key, const Range& range) const;
 
@@ -55,9 +63,10 @@ class SceneValues {
   [[nodiscard]] const std::string& path() const { return path_; }
 
  private:
-  /// A text is a flag's or a string of the file; a list holds the file's array.
+  using Pairs = std::vector<std::array<double, 2>>;
+  /// A text is a flag's or a string of the file; a list holds the file's array, of numbers or of pairs of them.
   struct Entry {
-    std::variant<bool, double, long long, std::string, std::vector<double>> value;
+    std::variant<bool, double, long long, std::string, std::vector<double>, Pairs> value;
     std::string shown;  ///< as given
     std::string where;  ///< "file:line:column: key" or "--flag"
     bool is_flag = false;

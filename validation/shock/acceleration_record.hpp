@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Accelerations over time that a logger or a drop tower wrote.
 //
-// A file is a text with a row of numbers for each instant; fields are divided by semicolons, tabs, commas or blanks.
-// Above the rows may stand the names of the columns, a line of their units, and other lines, of which a sampling rate
-// is taken.  Where a comma does not divide fields it may be the decimal sign.  Blank lines and those that begin with #,
-// % or // are skipped.
+// A file is a text with a row of numbers for each instant, read by TextRows; a sampling rate is taken from the lines
+// above the rows.
 #pragma once
 
 #include <optional>

@@ -16,6 +16,8 @@
 #include "validation/run/scene_value.hpp"
 #include "validation/scene/body_properties.hpp"
 #include "validation/scene/failure.hpp"
+#include "validation/scene/floors.hpp"
+#include "validation/scene/keys.hpp"
 #include "validation/scene/scene.hpp"
 #include "validation/shock/damage_boundary.hpp"
 #include "validation/shock/ground_fit.hpp"
@@ -63,6 +65,20 @@ Row row_of(const FittedGround& ground) {
   return row;
 }
 
+/// Notes that a scene file can take, and the flags that say the same.
+void add_ground_block(const std::vector<SceneOverride>& keys, Report& report) {
+  report.notes.emplace_back("[ground]");
+  for (const SceneOverride& key : keys) {
+    const std::string name = key.key.substr(key.key.find('.') + 1);
+    const bool is_name = std::holds_alternative<NameValue>(key_named(key.key).value);
+    report.notes.push_back(is_name ? fmt::format("{} = \"{}\"", name, key.text)
+                                   : fmt::format("{} = {}", name, key.text));
+    double number = 0;
+    report.fields["ground"][name] = read_number(key.text, number) ? Value(number) : Value(key.text);
+  }
+  report.notes.push_back("or as flags:" + flag_words(keys));
+}
+
 /// A row for each ground.
 std::vector<Column> ground_columns() {
   std::vector<Column> columns{
@@ -101,6 +117,13 @@ Report ground_report(const Scene& scene, const MeasuredNumber& first, const Meas
       "δ: depth under the body at rest; ∂k/∂1, ∂k/∂2: by how many per cent k_G changes with one per cent of the first "
       "or the second measured number");
   report.notes.emplace_back(area_words(scene.world.ground.area));
+  if (fit.solutions.size() == 1) {
+    const FittedGround& ground = fit.solutions.front();
+    add_ground_block({{"ground.stiffness", "", significant(ground.stiffness, 6)},
+                      {"ground.damping", "", significant(ground.damping, 6)},
+                      {"ground.area", "", area_names()[static_cast<std::size_t>(scene.world.ground.area)]}},
+                     report);
+  }
   report.fields["scene"] = scene_value(scene);
   report.fields["body"] = body_value(scene);
   report.fields["measured"] =
@@ -109,6 +132,12 @@ Report ground_report(const Scene& scene, const MeasuredNumber& first, const Meas
   report.fields["solutions"] = row_objects(report.grid);
   report.fields["cost"] = Value::Fields{{"runs", fit.runs}};
   return report;
+}
+
+/// A row for the ground that is known by its modulus or its curve, or for each end of a floor's range.
+std::vector<Column> dissipative_columns() {
+  return {{"reduced_modulus", "E*", "Pa", "of an elastic half-space: 1/E* = (1 - ν²)/E of ground and body added"},
+          {"dissipation", "τ", "s/m", "of a half-space or a pad, with a measured restitution"}};
 }
 
 /// A row for each material or end of a floor's range; the last column with a measured restitution alone.
@@ -140,17 +169,78 @@ Report material_report(const std::vector<MaterialGround>& grounds, const std::st
            : "c_G does not follow from a material: --measured-e beside it gives c_G, of the scene's drop"};
   if (!source.empty()) report.notes.push_back("least and largest numbers of the floor's material: " + source);
   report.fields["solutions"] = row_objects(report.grid);
+  if (grounds.size() == 1) {
+    std::vector<SceneOverride> keys{{"ground.stiffness", "", significant(grounds.front().stiffness, 6)}};
+    if (loss) keys.push_back({"ground.damping", "", significant(grounds.front().stiffness * damping_per_stiffness, 6)});
+    add_ground_block(keys, report);
+  }
   report.fields["approximation"] = approximation;
   report.fields["source"] = text_or_nothing(source);
+  return report;
+}
+
+/// What a half-space by name or modulus, or a pad, is in numbers: E*, if it has one, and what gives a measured
+/// restitution.
+Report dissipative_report(const Scene& scene, const std::optional<MaterialLoss>& loss) {
+  Report report =
+      begun_report("ground", scene.world.ground.is_pad() ? "the dissipation of a pad" : "the ground as a half-space");
+  if (const std::string materials = material_words(scene.half_space); !materials.empty()) report.head = {materials};
+  const numeric::Ground& ground = scene.world.ground;
+  const double dissipation =
+      loss ? analytic::damping_of_restitution(loss->restitution) / loss->approach_speed : ground.dissipation;
+  const ModulusRange range = reduced_modulus(scene.half_space);
+  report.grid.columns = dissipative_columns();
+  if (ground.is_pad()) report.grid.columns.erase(report.grid.columns.begin());
+  if (!loss) report.grid.columns.pop_back();
+  std::vector<double> moduli{range.middle};
+  if (range.least < range.largest) moduli = {range.least, range.middle, range.largest};
+  for (const double modulus : moduli) {
+    Row row;
+    if (ground.is_half_space()) row.emplace_back(modulus, 6);
+    if (loss) row.emplace_back(dissipation, 6);
+    report.grid.rows.push_back(std::move(row));
+  }
+  if (range.least < range.largest)
+    report.notes.emplace_back("E*: least and largest by the sources, and their geometric mean, which a scene takes");
+  report.notes.push_back(
+      loss ? fmt::format("τ gives e = {} where the first contact approaches at {} m/s, exact for a flat or upright "
+                         "landing without friction",
+                         shortest(loss->restitution), significant(loss->approach_speed, 6))
+           : "no source gives a restitution: e is 1 undamped, and anything from 0 to 1 may be true; --measured-e "
+             "beside a drop gives τ");
+  const std::vector<std::string> sources = material_sources(scene.half_space);
+  for (const std::string& source : sources) report.notes.push_back("source: " + source);
+  std::vector<SceneOverride> keys;
+  const Scene bare;
+  for (const Key& key : all_keys()) {
+    const std::string_view name = key.name;
+    if (ground.is_pad() || !name.starts_with("ground.") || name == "ground.dissipation") continue;
+    const Value value = key.get(scene);
+    if (!value.is_nothing() && value.text() != key.get(bare).text()) keys.push_back({key.name, "", value.text()});
+  }
+  if (dissipation > 0) keys.push_back({"ground.dissipation", "", significant(dissipation, 6)});
+  add_ground_block(keys, report);
+  report.fields["solutions"] = row_objects(report.grid);
+  report.fields["sources"] = sources;
   return report;
 }
 
 struct GroundInput {
   SceneFlags scene;
   std::array<std::optional<double>, measure_count> measured;  ///< in the order of DropMeasure
-  std::optional<double> modulus, poisson, thickness, footprint;
-  std::optional<std::size_t> floor;  ///< of floors()
+  std::optional<double> modulus, poisson, footprint;
   OutputChoice output;
+
+  [[nodiscard]] bool has(const char* flag) const { return is_given(scene, flag); }
+  /// The thickness of a layer, which has no curve.
+  [[nodiscard]] std::optional<double> thickness() const {
+    if (!has("--thickness") || has("--curve")) return std::nullopt;
+    return read_number_option("--thickness", scene.texts.at("--thickness"), positive_number);
+  }
+  [[nodiscard]] std::optional<std::size_t> floor() const {
+    if (!has("--floor")) return std::nullopt;
+    return read_name_option("--floor", scene.texts.at("--floor"), floor_names());
+  }
 };
 
 std::vector<MeasuredNumber> measured_of(const GroundInput& input) {
@@ -163,41 +253,48 @@ std::vector<MeasuredNumber> measured_of(const GroundInput& input) {
 
 /// The material that was given or named: one, or the ends of its range.
 std::vector<MaterialGround> materials_of(const GroundInput& input) {
-  if (input.floor) {
+  if (const auto named = input.floor()) {
     if (input.modulus || input.poisson) throw BadInput("--floor: excludes --modulus and --poisson; it has its own");
-    const Floor& floor = floors()[*input.floor];
+    const Material& floor = floors()[*named];
     return {{floor.least_modulus, floor.least_poisson, 0}, {floor.largest_modulus, floor.largest_poisson, 0}};
   }
   if (!input.modulus) throw BadInput("--modulus: required with --poisson, --thickness and --footprint, or --floor");
   if (!input.poisson) throw BadInput("--poisson: required with --modulus");
   constexpr double of_layer = 0.4999;
-  if (input.thickness && !(*input.poisson <= of_layer))
+  if (input.thickness() && !(*input.poisson <= of_layer))
     throw BadInput(fmt::format("--poisson '{}': must be from 0 to {}", shortest(*input.poisson), of_layer));
   return {{*input.modulus, *input.poisson, 0}};
 }
 
 /// The restitution beside a material, of the scene's drop; none: none was given.
-std::optional<MaterialLoss> loss_of(const GroundInput& input, const std::vector<MeasuredNumber>& measured) {
+/// @param with_ground  whether the scene's ground is that of the material
+std::optional<MaterialLoss> loss_of(const GroundInput& input, const std::vector<MeasuredNumber>& measured,
+                                    bool with_ground) {
   if (measured.empty()) return {};
   if (measured.size() > 1 || measured.front().measure != DropMeasure::restitution)
     throw BadInput("--contact-time and the like: exclude a material, beside which --measured-e alone may stand");
-  return MaterialLoss{measured.front().value, first_approach_speed(read_discrete_flags(input.scene).drop)};
+  SceneFlags drop = input.scene;
+  for (const char* const of_material : {"--thickness", "--floor"}) {
+    if (!with_ground) drop.texts.at(of_material).clear();
+  }
+  return MaterialLoss{measured.front().value, first_approach_speed(read_discrete_flags(drop).drop)};
 }
 
 Report material_report_of(const GroundInput& input, const std::optional<MaterialLoss>& loss) {
   std::vector<MaterialGround> grounds = materials_of(input);
-  if (input.thickness.has_value() == input.footprint.has_value()) {
+  const std::optional<double> thickness = input.thickness();
+  if (thickness.has_value() == input.footprint.has_value()) {
     throw BadInput(fmt::format("{}: takes --thickness H of a layer, or --footprint A on a half-space; give one of them",
-                               input.floor ? "--floor" : "--modulus"));
+                               input.floor() ? "--floor" : "--modulus"));
   }
-  const double size = input.thickness ? *input.thickness : *input.footprint;
+  const double size = thickness ? *thickness : *input.footprint;
   for (MaterialGround& ground : grounds) {
-    ground.stiffness = input.thickness ? layer_stiffness(ground.modulus, ground.poisson, size)
-                                       : half_space_stiffness(ground.modulus, ground.poisson, size);
+    ground.stiffness = thickness ? layer_stiffness(ground.modulus, ground.poisson, size)
+                                 : half_space_stiffness(ground.modulus, ground.poisson, size);
   }
-  const std::string source = input.floor ? floors()[*input.floor].source : "";
+  const std::string source = input.floor() ? floors()[*input.floor()].source : "";
   return material_report(grounds,
-                         input.thickness
+                         thickness
                              ? "a confined layer, E (1 - ν)/((1 + ν)(1 - 2 ν) h): wide beside its thickness, bonded to "
                                "a rigid base, unable to bulge"
                              : "a half-space under a rigid flat footprint, as under a disc of its area, 2 E/((1 - ν²) "
@@ -208,7 +305,8 @@ Report material_report_of(const GroundInput& input, const std::optional<Material
 /// The scene takes any stiffness: that is sought.
 Scene scene_of(const GroundInput& input) {
   SceneFlags flags = input.scene;
-  for (const char* const flag : {"--stiffness", "--damping", "--ground-modulus", "--dissipation"}) {
+  for (const char* const flag :
+       {"--stiffness", "--damping", "--ground-modulus", "--dissipation", "--curve", "--floor"}) {
     if (is_given(flags, flag)) throw BadInput(fmt::format("{}: must be left out: it is what is sought", flag));
   }
   flags.texts.at("--stiffness") = "1e9";
@@ -219,13 +317,35 @@ Scene scene_of(const GroundInput& input) {
   return scene;
 }
 
+/// A half-space that flags name by themselves, without a drop.
+Scene named_half_space(const GroundInput& input) {
+  SceneFlags flags = input.scene;
+  flags.source.clear();
+  for (auto& [flag, text] : flags.texts) text.clear();
+  for (const char* const flag : {"--floor", "--body-modulus", "--body-material"})
+    flags.texts[flag] = input.scene.texts.at(flag);
+  flags.texts.at("--angle") = "0";
+  return read_scene_flags(flags);
+}
+
+/// The report on a ground that needs no search; none: two measured numbers are to give it.
+std::optional<Report> known_ground_report(const GroundInput& input, const std::vector<MeasuredNumber>& measured) {
+  if (input.modulus || input.poisson || input.thickness() || input.footprint)
+    return material_report_of(input, loss_of(input, measured, false));
+  if (measured.empty() && input.has("--floor")) return dissipative_report(named_half_space(input), {});
+  if (measured.size() != 1 || !names_ground(input.scene)) return std::nullopt;
+  const Scene scene = read_scene_flags(input.scene);
+  if (!scene.world.ground.has_dissipation()) return std::nullopt;
+  if (input.has("--dissipation")) throw BadInput("--dissipation: must be left out: it is what is sought");
+  return dissipative_report(scene, loss_of(input, measured, true));
+}
+
 int run_ground(const GroundInput& input) {
   const OutputChoice& choice = input.output;
   const std::vector<MeasuredNumber> measured = measured_of(input);
-  if (input.modulus || input.poisson || input.floor || input.thickness || input.footprint) {
-    const Report report = material_report_of(input, loss_of(input, measured));
+  if (const auto report = known_ground_report(input, measured)) {
     check_files(choice);
-    write_report(choice, report);
+    write_report(choice, *report);
     return 0;
   }
   if (measured.size() != 2) {
@@ -255,8 +375,6 @@ Command ground_command() {
                                                               "Or the material, --measured-e beside it or not";
     add_scene_flags(command, input.scene);
     auto& [restitution, time, force, indentation] = input.measured;
-    std::vector<std::string> names;
-    for (const Floor& floor : floors()) names.emplace_back(floor.name);
     command.add(
         {number_argument("--measured-e", restitution, {0, 1, true, "greater than 0 and at most 1"}, "E",
                          "restitution of the drop's first impact", measured),
@@ -267,17 +385,20 @@ Command ground_command() {
          number_argument("--modulus", input.modulus, positive_number, "PA", "Young's modulus of the ground", material),
          number_argument("--poisson", input.poisson, {0, 0.5, false, "from 0 to 0.5"}, "NU", "its Poisson's ratio",
                          material),
-         choice_argument("--floor", input.floor, names, "its material by name: published numbers, least and largest",
-                         material),
-         number_argument("--thickness", input.thickness, positive_number, "M", "of a layer on a rigid base", material),
-         number_argument("--footprint", input.footprint, positive_number, "M2", "area on a half-space", material)});
+         number_argument("--footprint", input.footprint, positive_number, "M2",
+                         "area on a half-space; or --thickness of a layer on a "
+                         "rigid base, or --floor for --modulus and --poisson",
+                         material)});
     add_output_options(command, input.output);
     command.footer =
         "Example: clatter ground --body box --size 0.1057x0.0439x0.0191 --mass 0.088 --angle 0 --measured-e 0.5 "
         "--contact-time 5e-4\n"
         "The drop is the scene's: flat, or on one corner, with the speed that was measured.\n"
+        "With --floor, --ground-modulus or --curve --measured-e alone gives the dissipation; --floor alone shows "
+        "the numbers of its material.\n"
         "Exit status 3 if no ground gives both numbers.";
-    command.columns = {{"ground", [] { return with_more(ground_columns(), material_columns()); }}};
+    command.columns = {
+        {"ground", [] { return with_more(with_more(ground_columns(), material_columns()), dissipative_columns()); }}};
   });
 }
 

@@ -279,17 +279,4 @@ double half_space_stiffness(double modulus, double poisson, double area) {
   return 2 * modulus / ((1 - poisson * poisson) * std::numbers::pi * std::sqrt(area / std::numbers::pi));
 }
 
-const std::vector<Floor>& floors() {
-  constexpr const char* joinery = "Advances in Difference Equations (2019), doi 10.1186/s13662-019-2158-5, Table 1";
-  constexpr const char* joinery_and_plate =
-      "Advances in Difference Equations (2019), doi 10.1186/s13662-019-2158-5, Table 1, after Murray (2007) and Luecke "
-      "et al. (2005); Acta Acustica (2021), aacus200084, Table 1";
-  static const std::vector<Floor> all{
-      {"concrete", 10e9, 23e9, 0.15, 0.33, joinery_and_plate},
-      {"steel", 200e9, 205e9, 0.288, 0.33, joinery_and_plate},
-      {"asphalt", 0.698e9, 2.17e9, 0.4, 0.4, joinery},
-      {"wood", 0.403e9, 1.037e9, 0.029, 0.438, "Acta Acustica (2025), aacus240113, Table 5: spruce across its grain"}};
-  return all;
-}
-
 }  // namespace clatter::validation

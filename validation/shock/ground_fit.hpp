@@ -68,14 +68,4 @@ struct GroundFit {
 /// the rim.  @throws std::domain_error naming the number: E, A > 0, ν in [0, 0.5].
 [[nodiscard]] double half_space_stiffness(double modulus, double poisson, double area);
 
-/// A floor by name: the range of its material's numbers, and where they are from.
-struct Floor {
-  const char* name;
-  double least_modulus, largest_modulus;  ///< Young's [Pa]
-  double least_poisson, largest_poisson;
-  const char* source;
-};
-/// Those for which published numbers were found; of vinyl, rubber and foam there are none.
-[[nodiscard]] const std::vector<Floor>& floors();
-
 }  // namespace clatter::validation

@@ -73,15 +73,25 @@ struct PiecePolynomials {
   }
 };
 
-/// Where a function that rises and then falls is largest, between 0 and 1.
+/// Largest value, between `low` and `high`, of a function that rises and then falls.
 template <class Function>
-double largest_of(Function&& function) {
-  double low = 0, high = 1;
+double largest_of(Function&& function, double low = 0, double high = 1) {
   for (int i = 0; i < 80; ++i) {
     const double one = (2 * low + high) / 3, other = (low + 2 * high) / 3;
     (function(one) < function(other) ? low : high) = function(one) < function(other) ? one : other;
   }
   return function((low + high) / 2);
+}
+
+constexpr int pad_parts = 16;  ///< of the arc, each with one hump of a pad's pressure
+
+/// c_G of springs, or of a pad at its surface.
+double damping_of(const numeric::Ground& ground) {
+  return ground.is_pad() ? ground.dissipation * ground.stiffness : ground.damping;
+}
+
+double pressure_at(const numeric::Ground& ground, double depth, double rate) {
+  return (ground.stiffness + damping_of(ground) * rate) * ground.pressed_depth(depth);
 }
 
 /// Along the arc from the lowest point of each section to where the ground presses fastest: depth and k + c δ̇ are
@@ -98,9 +108,18 @@ double largest_pressure_on(const numeric::SmoothShape& shape, const numeric::Mot
     const Vector3 place = shape.end_centre(0) + Vector3(along * shape.straight, 0, 0) +
                           shape.semiaxes.cwiseProduct(lowest * std::cos(angle) + towards * std::sin(angle));
     const double depth = -(state.centre.z() + up.dot(place)), rate = -numeric::point_velocity(state, place).z();
-    return depth > 0 ? std::max((ground.stiffness + ground.damping * rate) * depth, 0.0) : std::min(depth, 0.0);
+    return depth > 0 ? std::max(pressure_at(ground, depth, rate), 0.0) : std::min(depth, 0.0);
   };
-  const auto over_section = [&](double along) { return largest_of([&](double part) { return at(along, part); }); };
+  const auto over_section = [&](double along) {
+    const auto here = [&](double part) { return at(along, part); };
+    double largest = -std::numeric_limits<double>::infinity();
+    const int humps = ground.is_pad() ? pad_parts : 1;
+    for (int i = 0; i < humps; ++i) {
+      const double low = static_cast<double>(i) / humps, high = static_cast<double>(i + 1) / humps;
+      largest = std::max(largest, largest_of(here, low, high));
+    }
+    return largest;
+  };
   return std::max(shape.straight > 0 ? largest_of(over_section) : over_section(0), 0.0);
 }
 
@@ -142,8 +161,8 @@ std::vector<Wanted> wanted_times(const ContinuousShock& shock, double end, doubl
   return all;
 }
 
-/// Largest (k_G + c_G δ̇) δ >= 0 over the body's points below the ground, each face with its full area: of a product of
-/// two linear functions it lies on an edge, where it is a quadratic's.
+/// Largest (k_G + c_G δ̇) δ, or of a pad p (1 + τ δ̇), >= 0 over the body's points below the ground, each face with its
+/// full area: it lies on an edge, where it is a quadratic's, piece by piece.
 double largest_pressure(const numeric::Body& body, const numeric::MotionState& state, const numeric::Ground& ground) {
   if (body.smooth()) return largest_pressure_on(*body.smooth(), state, ground);
   const numeric::Facets& facets = body.facets();
@@ -152,6 +171,7 @@ double largest_pressure(const numeric::Body& body, const numeric::MotionState& s
     return std::pair{-(state.centre + state.attitude * u).z(),
                      -(state.velocity + state.attitude * state.angular_velocity.cross(u)).z()};
   };
+  const double damping = damping_of(ground);
   double largest = 0;
   for (const numeric::Loop& loop : facets.loops) {
     for (int c = loop.begin; c < loop.end; ++c) {
@@ -161,14 +181,24 @@ double largest_pressure(const numeric::Body& body, const numeric::MotionState& s
       const double depth = d0, deeper = d1 - d0, rate = r0, faster = r1 - r0;
       const auto pressure = [&](double x) {
         const double d = depth + x * deeper;
-        return d > 0 ? (ground.stiffness + ground.damping * (rate + x * faster)) * d : 0;
+        return d > 0 ? pressure_at(ground, d, rate + x * faster) : 0;
       };
       largest = std::max({largest, pressure(0), pressure(1)});
-      // (k + c r)' d + (k + c r) d' = 0
-      const double curvature = 2 * ground.damping * faster * deeper;
-      const double x =
-          -((ground.stiffness + ground.damping * rate) * deeper + ground.damping * faster * depth) / curvature;
-      if (x > 0 && x < 1) largest = std::max(largest, pressure(x));
+      // (k + c r)' p + (k + c r) p' = 0 in each piece p = base + slope d of the ground's pressed depth.
+      double base = 0, slope = 1;
+      const auto look = [&] {
+        const double curvature = 2 * damping * faster * slope * deeper;
+        const double x =
+            -((ground.stiffness + damping * rate) * slope * deeper + damping * faster * (base + slope * depth)) /
+            curvature;
+        if (x > 0 && x < 1) largest = std::max(largest, pressure(x));
+      };
+      look();
+      for (const numeric::Kink& kink : ground.kinks) {
+        base -= kink.change * kink.depth;
+        slope += kink.change;
+        look();
+      }
     }
   }
   return largest;

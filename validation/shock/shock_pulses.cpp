@@ -13,7 +13,7 @@ namespace {
 
 constexpr PulseShape shapes[] = {PulseShape::rectangle, PulseShape::half_sine};
 constexpr const char* shape_words[] = {"rectangle", "half sine"};
-constexpr const char* shape_names[] = {"rectangle", "half_sine"};
+constexpr const char* pulse_names[] = {"rectangle", "half_sine"};
 
 double relative(double error, double value) { return std::fabs(error / value); }
 
@@ -154,7 +154,7 @@ Value pulse_fields(const Grid& grid, const std::optional<FragilePart>& part) {
   Value boundary(Value::Fields{{"frequency", part->frequency}, {"fragility", part->fragility}});
   for (std::size_t i = 0; i < 2; ++i) {
     const DamageBoundary of_shape = damage_boundary(*part, shapes[i]);
-    boundary[shape_names[i]] = Value::Fields{{"critical_velocity", of_shape.critical_velocity},
+    boundary[pulse_names[i]] = Value::Fields{{"critical_velocity", of_shape.critical_velocity},
                                              {"critical_acceleration", of_shape.critical_acceleration},
                                              {"corner_velocity", of_shape.corner_velocity}};
   }

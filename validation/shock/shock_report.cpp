@@ -329,10 +329,12 @@ std::vector<std::string> notes_of(const ShockRun& run, const ShockView& view) {
   std::vector<std::string> notes;
   if (view.rows == ShockRows::pulses || view.part) notes = pulse_notes(view.part);
   if (run.continuous) {
-    const bool by_modulus = run.scene.world.ground.modulus > 0;
+    const numeric::Ground& ground = run.scene.world.ground;
     notes.push_back(
         fmt::format("peaks are properties of the floor: ∂ ln(peak)/∂ ln {} held, stands beside them; |ΔV| hardly is",
-                    by_modulus ? "E*, dissipation" : "k_G, c_G/k_G"));
+                    ground.is_half_space() ? "E*, dissipation"
+                    : ground.is_pad()      ? "pressure of the pad, its curve's depths and dissipation"
+                                           : "k_G, c_G/k_G"));
   }
   for (std::size_t probe = 0; probe < run.probes.size(); ++probe) {
     if (view.rows == ShockRows::impacts) add_spectrum_notes(run, probe, notes);

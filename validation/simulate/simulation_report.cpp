@@ -175,7 +175,7 @@ std::vector<Column> columns_of(const Scene& scene) {
                                  "velocity_after_z",
                                  "angular_velocity_after_y"};
   if (friction) shown.emplace_back("impulse_tangential");
-  if (friction || scene.world.ground.damping > 0) shown.emplace_back("energy_loss");
+  if (friction || scene.world.ground.is_damped()) shown.emplace_back("energy_loss");
   return impact_columns(RunModel::continuous, shown);
 }
 

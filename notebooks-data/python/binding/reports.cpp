@@ -68,12 +68,13 @@ std::string text_of(const Report& report, const std::string& format, bool ascii)
   });
 }
 
-/// "number", "whole", "truth", "text", "name" or "list".
+/// "number", "whole", "truth", "text", "name", "list" or "curve".
 const char* kind_of(const Key& key) {
   if (key.is_truth()) return "truth";
   if (key.is_whole() || key.allowed().starts_with("a whole number")) return "whole";
   if (key.is_number()) return "number";
   if (std::holds_alternative<validation::NameValue>(key.value)) return "name";
+  if (std::holds_alternative<validation::CurveValue>(key.value)) return "curve";
   return std::holds_alternative<validation::ListValue>(key.value) ? "list" : "text";
 }
 

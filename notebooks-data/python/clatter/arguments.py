@@ -34,7 +34,7 @@ class Key(NamedTuple):
 
     argument: str
     key: str
-    kind: str  # "number", "whole", "truth", "text", "name" or "list"
+    kind: str  # "number", "whole", "truth", "text", "name", "list" or "curve"
     names: list[str]
     unit: str
     allowed: str
@@ -45,7 +45,8 @@ class Key(NamedTuple):
         """As stubs have it."""
         if self.kind == "name":
             return f"Literal[{', '.join(map(repr, self.names))}]"
-        return {"number": "float", "whole": "int", "truth": "bool", "text": "str", "list": "Iterable[float]"}[self.kind]
+        return {"number": "float", "whole": "int", "truth": "bool", "text": "str", "list": "Iterable[float]",
+                "curve": "str | Iterable[Iterable[float]]"}[self.kind]
 
     def parameter(self) -> inspect.Parameter:
         """In a signature."""
@@ -106,6 +107,9 @@ def text_of(name: str, key: Key | None, value: Any) -> str:
         return "true" if value else "false"
     if is_number(value) and kind in ("number", "whole", "any"):
         return number_text(int(value) if kind == "whole" and value == value // 1 else value)
+    if kind == "curve" and is_list(value):
+        points = [_vector(plain(point)) or [] for point in value]
+        return f"[{','.join('[' + ','.join(point) + ']' for point in points)}]"
     vector = _vector(value) if kind in ("list", "any") else None
     if vector is None:
         raise BadArgument(f"{name} {shown(value)}: must be {key.requirement() if key else 'a number, a text or a list of numbers'}")

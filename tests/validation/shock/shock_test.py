@@ -34,7 +34,7 @@ BAD_GROUND = {
         "--measured-e 0.5 --contact-time 0": "--contact-time", "--stiffness 1e9 --measured-e 0.5 --contact-time 1e-3": "--stiffness",
         "--peak-force 5 --floor steel": "exclude",
         **{f"{STEEL} {other} 0.5": "--measured-e alone" for other in ("--contact-time", "--peak-force", "--indentation")}}.items()},
-    "--modulus 1e6": "--poisson", "--floor steel": "--floor", "--floor lava --footprint 1e-3": "--floor",
+    "--modulus 1e6": "--poisson", "--floor lava --footprint 1e-3": "--floor",
     "--floor steel --modulus 1e6 --footprint 1": "--floor", "--thickness 1": "--modulus",
     "--modulus 1e6 --poisson 0.3 --thickness 1 --footprint 1": "--modulus"}
 

@@ -6,6 +6,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <memory>
 #include <set>
 #include <sstream>
@@ -315,7 +316,13 @@ BOOST_AUTO_TEST_CASE(a_list_of_attitudes_is_an_axis_whose_values_are_four_number
 BOOST_AUTO_TEST_CASE(every_number_of_a_scene_can_be_put_where_the_reader_puts_it) {
   const std::string ground = "\n[ground]\nstiffness = 1e8\nsliding_friction = 0\nstatic_friction = 0.1\n";
   const std::string tilted = "[drop]\nangle_deg = 10" + ground, lying = "[drop]\nangle_deg = 0" + ground,
-                    on_half_space = "[drop]\nangle_deg = 10\n[ground]\nmodulus = 1e8\n";
+                    on_half_space = "[drop]\nangle_deg = 10\n[ground]\nmodulus = 1e8\n",
+                    on_pad = "[drop]\nangle_deg = 10\n[ground]\ncurve = [[0.5, 1e4], [0.7, 2e4]]\nthickness = 1\n";
+  const std::map<std::string, std::string> grounds{{"drop.topple", lying},
+                                                   {"ground.dissipation", on_half_space},
+                                                   {"ground.body_modulus", on_half_space},
+                                                   {"ground.thickness", on_pad},
+                                                   {"ground.under", on_pad}};
   const std::vector<std::string> shapes{"[body]\nshape = 'rod'\n", "[body]\nshape = 'box'\nsize = [1, 1, 1]\n",
                                         "[body]\nshape = 'mesh'\nmesh = { file = 'a.msh' }\n"};
   int put = 0;
@@ -327,7 +334,7 @@ BOOST_AUTO_TEST_CASE(every_number_of_a_scene_can_be_put_where_the_reader_puts_it
     const std::vector<SceneOverride> overrides{{key, "--set", text}};
     bool read = false;
     for (const std::string& shape : shapes) {
-      const std::string& drop = key == "drop.topple" ? lying : key == "ground.dissipation" ? on_half_space : tilted;
+      const std::string& drop = grounds.contains(key) ? grounds.at(key) : tilted;
       const SceneValues values("scene.toml", drop + shape, scene_keys());
       try {
         const Scene expected = read_scene(values, overrides, Model::continuous);

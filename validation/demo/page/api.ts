@@ -21,7 +21,8 @@ function asArguments(message: string): string {
 
 /** As the program takes them: texts. */
 function textOf(argument: Argument): string {
-  return Array.isArray(argument) ? argument.join("x") : String(argument);
+  if (!Array.isArray(argument)) return String(argument);
+  return Array.isArray(argument[0]) ? JSON.stringify(argument) : argument.join("x");
 }
 
 interface Job {

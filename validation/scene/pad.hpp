@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A pad's curve, as data sheets have it, and the ground that it makes.
+#pragma once
+
+#include "validation/scene/scene.hpp"
+
+namespace clatter::validation {
+
+/// Reads the curve's file, if it has one, and turns the curve to the SI's units.
+/// @throws BadInput naming file and line, or key: a file that states no units, or strain without a thickness; fewer
+/// than
+///         two points; x that does not rise from 0, pressure that falls, is 0 at the first point beyond 0 or not 0
+///         there; strain of 1 or more.
+void read_pad(const SceneValues& values, PadScene& pad);
+
+/// Makes of a pad that was read the ground's stiffness and kinks, of which the last stands at the curve's end.  Slopes
+/// that differ by less than 1e-12 of the larger are one piece.  Nothing without a curve.
+void settle_pad(const PadScene& pad, numeric::Ground& ground);
+
+/// "pad 0.02 m thick by foam.csv, 3 points up to 0.012 m and 50000 Pa (its last slope beyond),".
+[[nodiscard]] std::string pad_words(const Scene& scene);
+
+/// What to say of a pad into which a body went so deep [m]; empty: nothing, or the scene has none.
+[[nodiscard]] std::string pad_warning(const Scene& scene, double depth);
+
+}  // namespace clatter::validation
