@@ -10,9 +10,9 @@ namespace clatter::analytic::space {
 
 namespace {
 
-/// Forecasts of a stop this near to one another, relative to the impulse of the slip, differ by the errors of steps;
-constexpr double stop_agreement = 16 * detail::epsilon;
-/// those of a slip that began at first_slip and is below `little` times that need only say that it dies out.
+/// Forecasts of a stop as near to one another, relative to the impulse of the slip, as the error of a step differ by no
+/// more than such errors; those of a slip that began at first_slip and is below `little` times that need only say that
+/// it dies out.
 constexpr double little = 1e6, little_agreement = 1e-6;
 /// A stop forecast within this part of the impulse that is left will come, whatever turn slip takes.
 constexpr double sure_stop = 1e-4;
@@ -20,8 +20,10 @@ constexpr double sure_stop = 1e-4;
 constexpr double shortest_step = 1e-13;
 /// A step that changes no more of the slip than this may pass a jump of the rate.
 constexpr double at_once = 1e-10;
-/// Slip that has fallen to this part of the largest, turning or not, has stopped: its direction is rounding.
-constexpr double stopped_part = 1e-13, little_stopped_part = 1e-6;
+/// Slip that has fallen to so many errors of a step, turning or not, has stopped: its direction is rounding;
+constexpr double stopped_errors = 25;
+/// so has a slip that dies out at this part of the largest.
+constexpr double little_stopped_part = 1e-6;
 
 /// Nothing goes along with slip.
 bool is_alone(const SlipMotion::Values& rates) { return rates.tail(rates.size() - 3).isZero(0); }
@@ -102,9 +104,9 @@ SlipMotion::End SlipMotion::slide(bool from_rest) {
     }
     const double size = y_.head<3>().norm(), growth = y_.head<3>().dot(now.head<3>()) / size;
     scale = std::fmax(scale, size);
-    if (scale > most_little) forecast.agreement = stop_agreement;
+    if (scale > most_little) forecast.agreement = step_error_;
     const double stop = spent_ - size / growth;
-    const bool is_rounding = size <= (scale > most_little ? stopped_part : little_stopped_part) * scale;
+    const bool is_rounding = size <= (scale > most_little ? stopped_errors * step_error_ : little_stopped_part) * scale;
     if (growth < 0 && (is_rounding || forecast.agrees(spent_, left, size, stop, is_alone(now) && only_friction_))) {
       go_straight_to(stop, now);
       return End::stopped;
@@ -119,7 +121,7 @@ SlipMotion::End SlipMotion::slide(bool from_rest) {
     if (is_shortest && !next.allFinite()) return End::no_pressure;
     if (!(wrong <= 1 || is_shortest)) {
       go_back();
-    } else if (const Values then = rate(next); is_shortest || may_step_to(next, then, taken)) {
+    } else if (const Values then = rate(next); is_shortest || (then.allFinite() && may_step_to(next, then, taken))) {
       y_ = next;
       spent_ += taken;
       now = then;

@@ -37,6 +37,7 @@ FacePressure::FacePressure(const ContactArea& area, const PressedFace& face)
 
 void FacePressure::begin() {
   now_ = {};
+  largest_slip_ = 0;
   now_.place = {.point = without_friction_, .pressure = Vector3(1 / whole_moments_(0, 0), 0, 0)};
   kept_ = now_;
 }
@@ -157,10 +158,15 @@ bool FacePressure::settle(std::optional<std::size_t> on_side) {
   return false;
 }
 
+double FacePressure::most_share() const {
+  const double growth = largest_slip_ > 0 ? slip_size() / largest_slip_ : 1;
+  return std::fmin(kept_.place.share * std::fmax(growth, 1), 1);
+}
+
 /// From a place near the solution, with the share that it had at the last kept one, or less.
 bool FacePressure::settle_within() {
   Place& now = now_.place;
-  const double most_share = kept_.place.share;
+  const double most_share = this->most_share();
   now.is_at_side = is_bounded_ && now.is_at_side && now.share <= most_share;
   if (!now.is_at_side) {
     now.share = most_share;
@@ -197,7 +203,7 @@ bool FacePressure::settle_within() {
 void FacePressure::grow_from_no_friction() {
   constexpr int most_steps = 1000;
   constexpr double longest = 0.5, shortest = 1e-10;
-  const double most_share = kept_.place.share;
+  const double most_share = this->most_share();
   Place& now = now_.place;
   now = {without_friction_, 0, Vector3(1 / whole_moments_(0, 0), 0, 0)};
   Vector3 x(now.point.x(), now.point.y(), 0), way = tangent_at(x);
@@ -293,6 +299,7 @@ FacePressure::Push FacePressure::against(const Vector2& slip, double spin, bool 
 
 void FacePressure::keep() {
   kept_ = now_;
+  largest_slip_ = std::fmax(largest_slip_, slip_size());
   has_jumped_ = false;
 }
 

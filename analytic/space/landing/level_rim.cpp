@@ -64,7 +64,7 @@ bool LevelRim::whole() {
   const Motion before = motion();
   if (!(slowest_rise(before) < -rounding_)) return false;
   const auto face = struck_.face_rebound(-arm_.z(), {.corners = {arm_.head<2>()}, .radius = radius_});
-  if (!face || face->tilts) return false;
+  if (!face || face->is_lost || face->tilts) return false;
   const Vector2 x = face->pressure_point - arm_.head<2>();
   const bool all_approach = before.rise + radius_ * before.slope.norm() <= rounding_;
   if (!(x.norm() <= radius_) || !(all_approach || before.at(x) <= 0)) return false;
