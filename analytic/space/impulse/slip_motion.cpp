@@ -14,6 +14,8 @@ namespace {
 /// more than such errors; those of a slip that began at first_slip and is below `little` times that need only say that
 /// it dies out.
 constexpr double little = 1e6, little_agreement = 1e-6;
+/// What goes along with slip that turns less than this before it stops goes straight on.
+constexpr double little_turn = 1e-11;
 /// A stop forecast within this part of the impulse that is left will come, whatever turn slip takes.
 constexpr double sure_stop = 1e-4;
 /// A step that may change no more of the slip than this is taken whatever its error: the rate has a kink there.
@@ -31,13 +33,17 @@ bool is_alone(const SlipMotion::Values& rates) { return rates.tail(rates.size() 
 /// Where slip will stop, by its size and growth now and as it was when it was at least twice as large.
 struct StopForecast {
   double begin, size_then, agreement, stop_then = -1;
+  Eigen::Vector3d direction_then = Eigen::Vector3d::Zero();
 
   /// Whether slip stops at `stop` and does so before the stage ends.
-  bool agrees(double spent, double left, double size, double stop, bool is_sure_early) {
+  /// @param direction  of slip, which must not turn; zero if it may
+  bool agrees(double spent, double left, double size, double stop, const Eigen::Vector3d& direction,
+              bool is_sure_early) {
     const double rounding = agreement * (stop - begin);
-    const bool agree = std::fabs(stop - stop_then) <= rounding && size <= size_then / 2;
+    const bool agree = std::fabs(stop - stop_then) <= rounding && size <= size_then / 2 &&
+                       (stop - spent) * (direction - direction_then).norm() <= little_turn * (stop - begin);
     if ((agree && stop - spent < left) || stop - spent <= (is_sure_early ? sure_stop * left : rounding)) return true;
-    if (!(size > size_then / 2 && stop_then >= 0)) stop_then = stop, size_then = size;
+    if (!(size > size_then / 2 && stop_then >= 0)) stop_then = stop, size_then = size, direction_then = direction;
     return false;
   }
 };
@@ -87,9 +93,9 @@ SlipMotion::End SlipMotion::slide(bool from_rest) {
   constexpr int most_steps = 20000;
   double scale = y_.head<3>().norm(), length = std::numeric_limits<double>::infinity();
   const double most_little = from_rest ? little * scale : 0;
-  StopForecast forecast{.begin = spent_, .size_then = scale, .agreement = little_agreement};
   at_once_ = true;
   Values now = rate(y_);
+  StopForecast forecast{.begin = spent_, .size_then = scale, .agreement = little_agreement};
   keep();
   for (int i = 0; i < most_steps; ++i) {
     if (!now.allFinite()) return End::no_pressure;
@@ -107,7 +113,10 @@ SlipMotion::End SlipMotion::slide(bool from_rest) {
     if (scale > most_little) forecast.agreement = step_error_;
     const double stop = spent_ - size / growth;
     const bool is_rounding = size <= (scale > most_little ? stopped_errors * step_error_ : little_stopped_part) * scale;
-    if (growth < 0 && (is_rounding || forecast.agrees(spent_, left, size, stop, is_alone(now) && only_friction_))) {
+    const bool alone = is_alone(now);
+    Eigen::Vector3d direction = Eigen::Vector3d::Zero();
+    if (!alone) direction = y_.head<3>() / size;
+    if (growth < 0 && (is_rounding || forecast.agrees(spent_, left, size, stop, direction, alone && only_friction_))) {
       go_straight_to(stop, now);
       return End::stopped;
     }

@@ -199,14 +199,12 @@ bool slides_straight(const SlidingFace& face, const ContactArea& area) {
   const double turns = std::fabs(face.spin) + face.normal_impulse * std::fabs(turning.drift);
   if (!(turns * radius <= rounding * face.velocity_scale)) return false;
   const Vector2 line = face.slip.norm() > rounding * face.velocity_scale ? face.slip : drift;
-  // A disc has no pushes beside its rebound as a whole: whether it lands so is for its caller to see.
-  const auto may_push = [&](const Vector2& point) { return area.radius > 0 || area.contains(point); };
-  if (line == Vector2::Zero()) return may_push(turning.point);
+  if (line == Vector2::Zero()) return area.contains(turning.point);
   const auto off = [&](const Vector2& v) { return std::fabs(cross(line, v)) / line.norm(); };
   const Vector2 shift = face.friction * face.depth * line.normalized();
   return face.normal_impulse * off(drift) <= rounding * face.velocity_scale &&
-         off(turning.point) <= rounding * (turning.point.norm() + radius) && may_push(turning.point + shift) &&
-         may_push(turning.point - shift);
+         off(turning.point) <= rounding * (turning.point.norm() + radius) && area.contains(turning.point + shift) &&
+         area.contains(turning.point - shift);
 }
 
 FaceFriction face_friction(const SlidingFace& face, const ContactArea& area) { return FacePath(face, area).follow(); }

@@ -10,7 +10,7 @@
 // the point nearest to it of C shrunk about its middle by the part η: pressure at an edge or a corner alone would have
 // a friction that changes at once with slip. So friction does not lead by more than C has room for, slip whose
 // direction turns again and again has no corner of its path after the first turn, and slip of rounding is forgotten. If
-// R₀ is outside, or C is a disc, λ stays 1, and no pressure is had where R is outside. A solution goes on from the last
+// R₀ is outside, λ stays 1, and no pressure is had where R is outside. A solution goes on from the last
 // one. At the start, and where that one ends, it is the one that the solution without friction becomes as λ grows from
 // 0: f, x̂ and λ depend on no index of a corner.
 #pragma once

@@ -15,6 +15,9 @@ namespace clatter::analytic::space {
 
 namespace {
 
+/// A landing that gains more of the energy than this whatever its restitution is none.
+constexpr double without_gain = 1e-12;
+
 /// Where the pushes act in the ground, if its friction has the moment of a force below the centre of mass.
 Vector2 point_of_pushes(const Vector3& impulse, const Vector3& moment, const Vector3& below) {
   const Vector2 of_pushes = (moment - below.cross(impulse)).head<2>();
@@ -137,7 +140,9 @@ std::optional<FaceRebound> StrikingBody::face_rebound(double depth, const Contac
     const auto face = some == e ? rebound : face_rebound_by(some, depth, area);
     return face && !face->is_lost ? energy_loss(*face) : energy;
   });
-  return least < e ? face_rebound_by(least, depth, area) : rebound;
+  if (least < e) rebound = face_rebound_by(least, depth, area);
+  if (rebound && energy_loss(*rebound) < -without_gain * energy) rebound->is_lost = true;
+  return rebound;
 }
 
 EdgeContact StrikingBody::edge_contact(const Vector3& from, const Vector3& to) const {
