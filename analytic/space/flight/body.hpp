@@ -121,6 +121,8 @@ struct Corner {
 
 /// The component of a × b along z.
 inline double cross(const Vector2& a, const Vector2& b) { return a.x() * b.y() - a.y() * b.x(); }
+/// a turned by a right angle to the left.
+inline Vector2 quarter_turn(const Vector2& a) { return {-a.y(), a.x()}; }
 
 /// V×, such that (V×) a = V × a.
 inline Matrix3 cross_matrix(const Vector3& v) {

@@ -23,7 +23,6 @@ constexpr double longest_piece = std::numbers::pi / 2, shortest_piece = 1e-15;
 /// Four points do on a side shorter than this, in units of what is pushed, seen from a pole that is not near.
 constexpr double short_side = 0.1;
 
-Vector2 quarter_turn(const Vector2& a) { return {-a.y(), a.x()}; }
 Vector2 on_circle(double angle) { return {std::cos(angle), std::sin(angle)}; }
 
 /// Gauss's rule on [0, 1].

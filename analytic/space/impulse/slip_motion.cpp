@@ -10,18 +10,22 @@ namespace clatter::analytic::space {
 
 namespace {
 
-/// Forecasts of a stop this near to one another, relative to the impulse of the slip, differ by the errors of steps;
-constexpr double stop_agreement = 16 * detail::epsilon;
-/// those of a slip that began at first_slip and is below `little` times that need only say that it dies out.
+/// Forecasts of a stop as near to one another, relative to the impulse of the slip, as the error of a step differ by no
+/// more than such errors; those of a slip that began at first_slip and is below `little` times that need only say that
+/// it dies out.
 constexpr double little = 1e6, little_agreement = 1e-6;
+/// What goes along with slip that turns less than this before it stops goes straight on.
+constexpr double little_turn = 1e-11;
 /// A stop forecast within this part of the impulse that is left will come, whatever turn slip takes.
 constexpr double sure_stop = 1e-4;
 /// A step that may change no more of the slip than this is taken whatever its error: the rate has a kink there.
 constexpr double shortest_step = 1e-13;
 /// A step that changes no more of the slip than this may pass a jump of the rate.
 constexpr double at_once = 1e-10;
-/// Slip that has fallen to this part of the largest, turning or not, has stopped: its direction is rounding.
-constexpr double stopped_part = 1e-13, little_stopped_part = 1e-6;
+/// Slip that has fallen to so many errors of a step, turning or not, has stopped: its direction is rounding;
+constexpr double stopped_errors = 25;
+/// so has a slip that dies out at this part of the largest.
+constexpr double little_stopped_part = 1e-6;
 
 /// Nothing goes along with slip.
 bool is_alone(const SlipMotion::Values& rates) { return rates.tail(rates.size() - 3).isZero(0); }
@@ -29,13 +33,17 @@ bool is_alone(const SlipMotion::Values& rates) { return rates.tail(rates.size() 
 /// Where slip will stop, by its size and growth now and as it was when it was at least twice as large.
 struct StopForecast {
   double begin, size_then, agreement, stop_then = -1;
+  Eigen::Vector3d direction_then = Eigen::Vector3d::Zero();
 
   /// Whether slip stops at `stop` and does so before the stage ends.
-  bool agrees(double spent, double left, double size, double stop, bool is_sure_early) {
+  /// @param direction  of slip, which must not turn; zero if it may
+  bool agrees(double spent, double left, double size, double stop, const Eigen::Vector3d& direction,
+              bool is_sure_early) {
     const double rounding = agreement * (stop - begin);
-    const bool agree = std::fabs(stop - stop_then) <= rounding && size <= size_then / 2;
+    const bool agree = std::fabs(stop - stop_then) <= rounding && size <= size_then / 2 &&
+                       (stop - spent) * (direction - direction_then).norm() <= little_turn * (stop - begin);
     if ((agree && stop - spent < left) || stop - spent <= (is_sure_early ? sure_stop * left : rounding)) return true;
-    if (!(size > size_then / 2 && stop_then >= 0)) stop_then = stop, size_then = size;
+    if (!(size > size_then / 2 && stop_then >= 0)) stop_then = stop, size_then = size, direction_then = direction;
     return false;
   }
 };
@@ -85,9 +93,9 @@ SlipMotion::End SlipMotion::slide(bool from_rest) {
   constexpr int most_steps = 20000;
   double scale = y_.head<3>().norm(), length = std::numeric_limits<double>::infinity();
   const double most_little = from_rest ? little * scale : 0;
-  StopForecast forecast{.begin = spent_, .size_then = scale, .agreement = little_agreement};
   at_once_ = true;
   Values now = rate(y_);
+  StopForecast forecast{.begin = spent_, .size_then = scale, .agreement = little_agreement};
   keep();
   for (int i = 0; i < most_steps; ++i) {
     if (!now.allFinite()) return End::no_pressure;
@@ -102,10 +110,13 @@ SlipMotion::End SlipMotion::slide(bool from_rest) {
     }
     const double size = y_.head<3>().norm(), growth = y_.head<3>().dot(now.head<3>()) / size;
     scale = std::fmax(scale, size);
-    if (scale > most_little) forecast.agreement = stop_agreement;
+    if (scale > most_little) forecast.agreement = step_error_;
     const double stop = spent_ - size / growth;
-    const bool is_rounding = size <= (scale > most_little ? stopped_part : little_stopped_part) * scale;
-    if (growth < 0 && (is_rounding || forecast.agrees(spent_, left, size, stop, is_alone(now) && only_friction_))) {
+    const bool is_rounding = size <= (scale > most_little ? stopped_errors * step_error_ : little_stopped_part) * scale;
+    const bool alone = is_alone(now);
+    Eigen::Vector3d direction = Eigen::Vector3d::Zero();
+    if (!alone) direction = y_.head<3>() / size;
+    if (growth < 0 && (is_rounding || forecast.agrees(spent_, left, size, stop, direction, alone && only_friction_))) {
       go_straight_to(stop, now);
       return End::stopped;
     }
@@ -119,7 +130,7 @@ SlipMotion::End SlipMotion::slide(bool from_rest) {
     if (is_shortest && !next.allFinite()) return End::no_pressure;
     if (!(wrong <= 1 || is_shortest)) {
       go_back();
-    } else if (const Values then = rate(next); is_shortest || may_step_to(next, then, taken)) {
+    } else if (const Values then = rate(next); is_shortest || (then.allFinite() && may_step_to(next, then, taken))) {
       y_ = next;
       spent_ += taken;
       now = then;

@@ -78,6 +78,7 @@ class SlipLetGo final : SlipMotion {
   /// @param friction  what friction adds, by the direction of slip
   SlipLetGo(const Slip& load, std::function<Slip(const Slip&)> friction)
       : SlipMotion(3), load_(load), friction_(std::move(friction)) {
+    step_error_ = rough;
     y_ = first_slip * load_;
   }
   bool is_held() { return load_ == Slip::Zero() || slide(true) == End::stopped; }
@@ -89,7 +90,8 @@ class SlipLetGo final : SlipMotion {
   double impulse_left(const Values&) override { return trial - spent_; }
   bool end_stage() override { return true; }
 
-  static constexpr double trial = 1e-6;  ///< of the impulse
+  static constexpr double trial = 1e-6;   ///< of the impulse
+  static constexpr double rough = 1e-10;  ///< whether slip dies out is not a matter of rounding
   Slip load_;
   std::function<Slip(const Slip&)> friction_;
 };

@@ -18,8 +18,6 @@ constexpr double error_of_tilting = 1e-10, error_of_jump = 1e-5;
 /// Local error of a step of such a landing.
 constexpr double step_of_tilting = 1e-12;
 
-Vector2 turned_left(const Vector2& a) { return {-a.y(), a.x()}; }
-
 /// What turns a face, of (1) to (3): E, J, α₀, R₀, S, B.
 struct FaceTurning {
   Matrix2 held, metric;
@@ -32,7 +30,7 @@ struct FaceTurning {
     const Vector2 moment = held * face.turn_rate, per_couple = held * mixed;
     inertia = 1 / (face.inverse_inertia(2, 2) - mixed.dot(per_couple));
     drift = mixed.dot(moment);
-    point = turned_left(moment);
+    point = quarter_turn(moment);
     shift << -face.depth, 0, per_couple.y(), 0, -face.depth, -per_couple.x();
     metric = turned(face.inverse_inertia.topLeftCorner<2, 2>());
   }
@@ -40,7 +38,7 @@ struct FaceTurning {
   static Matrix2 turned(const Matrix2& a) { return (Matrix2() << a(1, 1), -a(0, 1), -a(1, 0), a(0, 0)).finished(); }
 };
 
-Vector2 drift_of_slip(const SlidingFace& face) { return face.depth * turned_left(face.turn_rate); }
+Vector2 drift_of_slip(const SlidingFace& face) { return face.depth * quarter_turn(face.turn_rate); }
 
 /// A face that does not slip: where its pushes are asked for and act, and what friction and tilt do to it per P.
 struct HeldFace {
@@ -106,9 +104,9 @@ bool FacePath::may_step_to(const Values& next, const Values& then, double length
   if (pressure_.has_jumped()) return at_once_;
   if (!was_at_side_ || length * speed <= near * size) return true;
   if (!pressure_.is_at_side()) return false;
-  const double share = pressure_.share();
+  const double share = pressure_.share_by_slip();
   (void)rate(next + ahead * size / speed * then);
-  const bool falls = pressure_.share() <= share;
+  const bool falls = pressure_.share_by_slip() <= share;
   (void)rate(next);
   return falls;
 }
@@ -118,19 +116,19 @@ HeldFace FacePath::held() const {
   const Matrix2 own = face_.inverse_inertia.inverse().topLeftCorner<2, 2>();
   const Matrix2 about_ground = own + face_.mass * face_.depth * face_.depth * Matrix2::Identity();
   const Matrix2 tilting = about_ground.inverse();
-  const Vector2 asked = turned_left(about_ground * face_.turn_rate);
+  const Vector2 asked = quarter_turn(about_ground * face_.turn_rate);
   const NearestInArea nearest(pressure_.corners(), FaceTurning::turned(tilting));
   const auto pushed = nearest.to(pressure_.in_units(asked));
   const Vector2 beyond = pressure_.unit() * (pressure_.in_units(asked) - pushed.point);
   Vector2 tilt = Vector2::Zero();
-  if (!pushed.is_inside) tilt = tilting * turned_left(beyond);
+  if (!pushed.is_inside) tilt = tilting * quarter_turn(beyond);
   const Vector2 turn = face_.turn_rate + tilt;
   Vector3 friction = Vector3::Zero();
   if (!only_friction_ || !pushed.is_inside) {
-    friction << -face_.mass * face_.depth * turned_left(turn),
+    friction << -face_.mass * face_.depth * quarter_turn(turn),
         -turning_.inertia * turning_.mixed.dot(turning_.held * turn);
   }
-  return {asked - beyond, -turned_left(turning_.held * tilt), friction};
+  return {asked - beyond, -quarter_turn(turning_.held * tilt), friction};
 }
 
 /// Whether friction can hold the face under the pressure that it then has; else where slip goes.
@@ -184,7 +182,7 @@ FaceFriction FacePath::follow() {
   const Vector3 change = y_.head<3>() - before - face_.normal_impulse * load_ - of_beyond_ * beyond;
   result.impulse = root_[0] * change.head<2>();
   result.couple = root_[2] * change.z();
-  result.moment = turned_left(beyond);
+  result.moment = quarter_turn(beyond);
   result.has_pressure = !is_lost_;
   if (step_error_ == step_of_tilting) result.path_error = jumps_ ? error_of_jump : error_of_tilting;
   result.spin_after = y_[2] / root_[2];
@@ -201,14 +199,12 @@ bool slides_straight(const SlidingFace& face, const ContactArea& area) {
   const double turns = std::fabs(face.spin) + face.normal_impulse * std::fabs(turning.drift);
   if (!(turns * radius <= rounding * face.velocity_scale)) return false;
   const Vector2 line = face.slip.norm() > rounding * face.velocity_scale ? face.slip : drift;
-  // A disc has no pushes beside its rebound as a whole: whether it lands so is for its caller to see.
-  const auto may_push = [&](const Vector2& point) { return area.radius > 0 || area.contains(point); };
-  if (line == Vector2::Zero()) return may_push(turning.point);
+  if (line == Vector2::Zero()) return area.contains(turning.point);
   const auto off = [&](const Vector2& v) { return std::fabs(cross(line, v)) / line.norm(); };
   const Vector2 shift = face.friction * face.depth * line.normalized();
   return face.normal_impulse * off(drift) <= rounding * face.velocity_scale &&
-         off(turning.point) <= rounding * (turning.point.norm() + radius) && may_push(turning.point + shift) &&
-         may_push(turning.point - shift);
+         off(turning.point) <= rounding * (turning.point.norm() + radius) && area.contains(turning.point + shift) &&
+         area.contains(turning.point - shift);
 }
 
 FaceFriction face_friction(const SlidingFace& face, const ContactArea& area) { return FacePath(face, area).follow(); }

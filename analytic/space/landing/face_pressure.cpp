@@ -2,6 +2,7 @@
 #include "analytic/space/landing/face_pressure.hpp"
 
 #include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -27,7 +28,7 @@ Vector3 with_one(const Vector2& x) { return {1, x.x(), x.y()}; }
 
 FacePressure::FacePressure(const ContactArea& area, const PressedFace& face)
     : corners_(corners_in_units(area, PressedArea(area))), pushed_(area), without_friction_(in_units(face.point)),
-      is_bounded_(area.radius == 0 && area.contains(face.point)), shift_(face.shift / pushed_.unit()),
+      is_bounded_(area.contains(face.point)), shift_(face.shift / pushed_.unit()),
       nearest_(corners_, Matrix2::Identity()), whole_moments_(pushed_.moments()), moments_(whole_moments_) {
   const Vector2& centre = pushed_.centre();
   rubbing_ << 1, 0, 0, 0, 1, 0, -centre.y(), centre.x(), pushed_.unit();
@@ -37,6 +38,7 @@ FacePressure::FacePressure(const ContactArea& area, const PressedFace& face)
 
 void FacePressure::begin() {
   now_ = {};
+  largest_slip_ = 0;
   now_.place = {.point = without_friction_, .pressure = Vector3(1 / whole_moments_(0, 0), 0, 0)};
   kept_ = now_;
 }
@@ -150,6 +152,7 @@ bool FacePressure::settle(std::optional<std::size_t> on_side) {
         friction_now_ = b.friction + b.rubs * more;
       }
     }
+    if (!next.allFinite()) return false;
     now.point = next.head<2>();
     now.share = next.z();
     if (is_solved) return true;
@@ -157,17 +160,22 @@ bool FacePressure::settle(std::optional<std::size_t> on_side) {
   return false;
 }
 
+double FacePressure::most_share() const {
+  const double growth = largest_slip_ > 0 ? slip_size() / largest_slip_ : 1;
+  return std::fmin(kept_.place.share * std::fmax(growth, 1), 1);
+}
+
 /// From a place near the solution, with the share that it had at the last kept one, or less.
 bool FacePressure::settle_within() {
   Place& now = now_.place;
-  const double most_share = kept_.place.share;
+  const double most_share = this->most_share();
   now.is_at_side = is_bounded_ && now.is_at_side && now.share <= most_share;
   if (!now.is_at_side) {
     now.share = most_share;
     if (!settle({})) return false;
     if (!is_bounded_) return true;
   }
-  for (std::size_t tried = 0; tried <= corners_.size(); ++tried) {
+  for (std::size_t tried = 0; tried <= std::max<std::size_t>(corners_.size(), 2); ++tried) {
     const std::size_t most = outermost(now.point);
     const double beyond = side(now.point, most).beyond;
     if (!now.is_at_side) {
@@ -197,12 +205,12 @@ bool FacePressure::settle_within() {
 void FacePressure::grow_from_no_friction() {
   constexpr int most_steps = 1000;
   constexpr double longest = 0.5, shortest = 1e-10;
-  const double most_share = kept_.place.share;
+  const double most_share = this->most_share();
   Place& now = now_.place;
   now = {without_friction_, 0, Vector3(1 / whole_moments_(0, 0), 0, 0)};
   Vector3 x(now.point.x(), now.point.y(), 0), way = tangent_at(x);
   double step = 0.1;
-  for (int i = 0; i < most_steps; ++i) {
+  for (int i = 0; i < most_steps && way.allFinite(); ++i) {
     const Place before = now;
     Vector3 next;
     if (!follow(x, way, step, next)) {
@@ -216,10 +224,6 @@ void FacePressure::grow_from_no_friction() {
     }
     const Vector2 point = next.head<2>();
     const bool leaves = side(point, outermost(point)).beyond > 0, is_beyond = is_bounded_ && leaves;
-    if (leaves && corners_.empty()) {
-      now.point = point;
-      return;
-    }
     if (is_beyond || next.z() >= most_share) {
       now.is_at_side = is_beyond;
       now.point = point;
@@ -279,7 +283,7 @@ FacePressure::Push FacePressure::against(const Vector2& slip, double spin, bool 
   if (!settle_within()) {
     now_.place = last;
     if (!settle_within()) {
-      if (!may_jump || corners_.empty()) return none;  // a disc that friction tilts has no pressure here
+      if (!may_jump) return none;
       has_jumped_ = true;
       grow_from_no_friction();
     }
@@ -293,6 +297,7 @@ FacePressure::Push FacePressure::against(const Vector2& slip, double spin, bool 
 
 void FacePressure::keep() {
   kept_ = now_;
+  largest_slip_ = std::fmax(largest_slip_, slip_size());
   has_jumped_ = false;
 }
 

@@ -5,16 +5,17 @@
 //     R = R₀ + S f,   f = (F, K) = −μ (∫q d dA, ∫q x × d dA),                                         (1)
 // which lies up to μh ahead of R₀, h the depth of the ground.  Where that is outside the area C the ground pushes at
 //     x̂ = R₀ + λ S f,                                                                                 (2)
-// λ <= 1 the largest with x̂ in C that is no larger than before; the moment of the rest, R − x̂, tilts the body. Friction
-// is that of the linear pressure without tension whose centre is R₀ + λ² S f, or the point nearest to it of C shrunk
-// about its middle by the part η: pressure at an edge or a corner alone would have a friction that changes at once with
-// slip. So friction does not lead by more than C has room for, and slip whose direction turns again and again has no
-// corner of its path after the first turn.  If R₀ is outside, or C is a disc, λ stays 1, and
-// no pressure is had where R is outside. A solution goes on from the last one.  At the start, and where that one ends,
-// it is the one that the solution without friction becomes as λ grows from 0: f, x̂ and λ depend on no index of a
-// corner.
+// λ <= 1 the largest with x̂ in C such that λ by the largest slip so far is no larger than before; the moment of the
+// rest, R − x̂, tilts the body. Friction is that of the linear pressure without tension whose centre is R₀ + λ² S f, or
+// the point nearest to it of C shrunk about its middle by the part η: pressure at an edge or a corner alone would have
+// a friction that changes at once with slip. So friction does not lead by more than C has room for, slip whose
+// direction turns again and again has no corner of its path after the first turn, and slip of rounding is forgotten. If
+// R₀ is outside, λ stays 1, and no pressure is had where R is outside. A solution goes on from the last
+// one. At the start, and where that one ends, it is the one that the solution without friction becomes as λ grows from
+// 0: f, x̂ and λ depend on no index of a corner.
 #pragma once
 
+#include <cmath>
 #include <optional>
 #include <vector>
 
@@ -58,7 +59,8 @@ class FacePressure {
   [[nodiscard]] bool is_near_side() const;
   /// One of the solutions since the last keep() does not go on from the one before it.
   [[nodiscard]] bool has_jumped() const { return has_jumped_; }
-  [[nodiscard]] double share() const { return now_.place.share; }  ///< λ
+  /// λ by the largest slip so far, which does not grow.
+  [[nodiscard]] double share_by_slip() const { return now_.place.share / std::fmax(largest_slip_, slip_size()); }
 
   /// A pressure that stays, with its centre as near to `point` as η lets it be, and its friction.
   void press_near(const Vector2& point);
@@ -99,6 +101,9 @@ class FacePressure {
   [[nodiscard]] std::size_t outermost(const Vector2& point) const;
   [[nodiscard]] Balance balance(const Vector2& point, double share);
   bool press_at(const Vector2& centre);
+  [[nodiscard]] double slip_size() const { return std::hypot(slip_.x(), slip_.y(), spin_ * unit()); }
+  /// λ of the last kept solution, times what slip has grown beyond the largest so far.
+  [[nodiscard]] double most_share() const;
   bool settle(std::optional<std::size_t> on_side);
   bool settle_within();
   void grow_from_no_friction();
@@ -114,7 +119,7 @@ class FacePressure {
   Matrix3 rubbing_, whole_moments_, moments_;
   bool is_whole_ = true;
   Vector2 slip_ = Vector2::Zero();
-  double spin_ = 0;
+  double spin_ = 0, largest_slip_ = 0;
   Known now_, kept_;
   Vector3 friction_now_ = Vector3::Zero();
 };

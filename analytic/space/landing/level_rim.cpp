@@ -64,14 +64,17 @@ bool LevelRim::whole() {
   const Motion before = motion();
   if (!(slowest_rise(before) < -rounding_)) return false;
   const auto face = struck_.face_rebound(-arm_.z(), {.corners = {arm_.head<2>()}, .radius = radius_});
-  if (!face || face->tilts) return false;
+  if (face && face->is_lost) struck_.leave_open();
+  if (!face || face->is_lost) return false;
   const Vector2 x = face->pressure_point - arm_.head<2>();
   const bool all_approach = before.rise + radius_ * before.slope.norm() <= rounding_;
-  if (!(x.norm() <= radius_) || !(all_approach || before.at(x) <= 0)) return false;
-  StrikingBody struck = struck_;
-  struck.push(*face, {index_});
-  struck_.take(struck);
-  return slowest_rise(motion()) >= -rounding_;
+  if (!face->tilts && !(x.norm() <= radius_)) return false;
+  if (!(all_approach || before.at(x) <= 0)) return false;
+  LevelRim after = *this;
+  after.struck_.push(*face, {index_});
+  if (!face->tilts && !(slowest_rise(after.motion()) >= -rounding_)) return false;
+  struck_.take(after.struck_);
+  return true;
 }
 
 void LevelRim::strike_at(const Vector2& x, const Law& law) {
@@ -88,8 +91,7 @@ void LevelRim::one_after_the_other() {
       strike_at(-radius_ / steepness * m.slope, struck_.law());
       continue;
     }
-    LevelRim level = *this;
-    if (level.whole()) return struck_.take(level.struck_);
+    if (whole()) continue;
     const Vector2 x = struck_.face_rebound(-arm_.z())->pressure_point - arm_.head<2>();
     strike_at(radius_ / x.norm() * x, struck_.law());
   }
@@ -99,15 +101,17 @@ std::optional<GroupImpact> LevelRim::rebound_as_a_whole() const {
   LevelRim rim = *this;
   if (!rim.whole()) return {};
   GroupImpact result = rim.struck_.result();
-  result.is_whole = true;
+  result.is_whole = !result.tilts;
   return result;
 }
 
 GroupImpact LevelRim::strike() const {
-  if (auto whole = rebound_as_a_whole()) return *whole;
   LevelRim rim = *this;
+  const bool is_whole = rim.whole();
   rim.one_after_the_other();
-  return rim.struck_.result();
+  GroupImpact result = rim.struck_.result();
+  result.is_whole = is_whole && !result.tilts;
+  return result;
 }
 
 /// Turns the tilt to what it is when the rim touches again, by (2); false if the rim does not.

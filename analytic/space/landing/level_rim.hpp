@@ -5,7 +5,8 @@
 //     v(x) = w + a·x,   w = V_z + (ω × c)_z,   a = (−ω_y, ω_x),                                       (1)
 // c from the centre of mass to the rim's centre.  The rules of simultaneous.hpp, in closed form for a circle:
 //   as a whole   V_z, ω_x, ω_y → −e times themselves if the pressure point lies in the disc |x| <= ρ, and, should only
-//                an arc approach (e = 0), on that arc's side of its chord, v(x) <= 0;
+//                an arc approach (e = 0), on that arc's side of its chord, v(x) <= 0; where friction alone asks for
+//                pushes outside the disc, they act at its rim, and the rest tilts the body (face_friction.hpp);
 //   otherwise    the point of the rim that approaches fastest, x = −ρ a/|a|, strikes as a corner, then the one that is
 //                fastest thereafter, until none approaches.  Where all are equally fast to rounding and pushes alone
 //                cannot turn them back, the one nearest to the pressure point strikes.

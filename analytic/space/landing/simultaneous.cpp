@@ -154,12 +154,8 @@ bool StrikingGroup::strike_face(const Points& group, const std::vector<int>& hul
   ContactArea area;
   for (const int i : hull) area.corners.emplace_back(group[static_cast<std::size_t>(i)].arm.head<2>());
   const auto face = struck_.face_rebound(depth, area);
-  if (!face) {
-    const auto smooth = struck_.face_rebound(depth);
-    is_lost_ = smooth && struck_.law().law.rubs() &&
-               area.contains(Vector2(-smooth->moment.y(), smooth->moment.x()) / smooth->impulse.z());
-    return false;
-  }
+  is_lost_ = face && face->is_lost;
+  if (!face || is_lost_) return false;
   struck_.push(*face, indices_of(group));
   tilted_ = face->tilts;
   return true;

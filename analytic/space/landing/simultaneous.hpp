@@ -13,7 +13,7 @@
 //          (face_friction.hpp).  The pressure point (−N_y, N_x)/P_z from the centre of mass, N the moment of the
 //          normal impulses, must lie inside the polygon.  Where friction alone asks for pushes outside it, they act
 //          at the polygon's boundary, and the rest of their moment tilts the body; what then still approaches strikes
-//          as it would on its own; an edge or a rim has no such pushes.  A face that slides straight inside
+//          as it would on its own; so does a rim, an edge has no such pushes.  A face that slides straight inside
 //          (slides_straight()) has no couple: friction acts at the point below the centre of mass (FaceContact). (2)
 // The viscoelastic law takes e at the approach speed of the edge's point, and of the pressure point that a face has
 // without friction, −V_z + ω·Mω/(m (−V_z)) with M the inverse of the horizontal part of I⁻¹: there the landing is that

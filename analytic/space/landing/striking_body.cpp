@@ -15,6 +15,9 @@ namespace clatter::analytic::space {
 
 namespace {
 
+/// A landing that gains more of the energy than this whatever its restitution is none.
+constexpr double without_gain = 1e-12;
+
 /// Where the pushes act in the ground, if its friction has the moment of a force below the centre of mass.
 Vector2 point_of_pushes(const Vector3& impulse, const Vector3& moment, const Vector3& below) {
   const Vector2 of_pushes = (moment - below.cross(impulse)).head<2>();
@@ -104,7 +107,10 @@ std::optional<FaceRebound> StrikingBody::face_rebound_by(double e, double depth,
   const FaceFriction friction = face_friction(face, area);
   rebound->tilts = friction.moment != Vector2::Zero();
   const Vector2 without_friction(-rebound->moment.y(), rebound->moment.x());
-  if (!friction.has_pressure || (rebound->tilts && !area.contains(without_friction / rebound->impulse.z()))) return {};
+  const bool pushes_without_friction = area.contains(without_friction / rebound->impulse.z());
+  if (!pushes_without_friction && (rebound->tilts || !friction.has_pressure)) return {};
+  rebound->is_lost = !friction.has_pressure;
+  if (rebound->is_lost) return rebound;
   rebound->path_error = friction.path_error;
   rebound->path = friction.path;
   if (friction.path == PathKind::stick && friction.couple == 0 && !rebound->tilts) return rebound;
@@ -127,14 +133,16 @@ std::optional<FaceRebound> StrikingBody::face_rebound(double depth, const Contac
   if (!(state_.velocity.z() < 0)) return {};
   const double e = face_restitution();
   auto rebound = face_rebound_by(e, depth, area);
-  if (!rebound || !law_.law.rubs() || may_gain_energy(law_.law.law)) return rebound;
+  if (!rebound || rebound->is_lost || !law_.law.rubs() || may_gain_energy(law_.law.law)) return rebound;
   const Vector3 own = axes_.transpose() * state_.angular_velocity;
   const double energy = (body_.mass * state_.velocity.squaredNorm() + own.dot(body_.inertia * own)) / 2;
   const double least = restitution_without_gain(e, energy, [&](double some) {
     const auto face = some == e ? rebound : face_rebound_by(some, depth, area);
-    return face ? energy_loss(*face) : energy;
+    return face && !face->is_lost ? energy_loss(*face) : energy;
   });
-  return least < e ? face_rebound_by(least, depth, area) : rebound;
+  if (least < e) rebound = face_rebound_by(least, depth, area);
+  if (rebound && energy_loss(*rebound) < -without_gain * energy) rebound->is_lost = true;
+  return rebound;
 }
 
 EdgeContact StrikingBody::edge_contact(const Vector3& from, const Vector3& to) const {

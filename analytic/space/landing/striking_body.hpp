@@ -37,6 +37,7 @@ struct FaceRebound {
   std::optional<double> spin_after = {};  ///< ω_z, where friction has a couple about the vertical [rad/s]
   bool tilts = false;                     ///< the turning is not that of the rebound as a whole
   double path_error = 0;                  ///< as GroupImpact's
+  bool is_lost = false;                   ///< its friction could not be followed, or makes energy
 };
 
 /// Bound on the rounding of a point's normal velocity u during an impact [m/s].  With 2E/m = V² + ω·Iω/m, which bounds

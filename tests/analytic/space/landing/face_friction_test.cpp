@@ -481,6 +481,34 @@ BOOST_AUTO_TEST_CASE(a_high_box_that_friction_has_stopped_sticks_however_little_
   }
 }
 
+/// Turning drives the face to slip; the direction that it had before, by rounding, is another.
+BOOST_AUTO_TEST_CASE(a_driven_face_that_friction_tips_lands_as_one_without_slip_if_it_slips_by_rounding) {
+  constexpr double little = 1e-11, tolerance = 1e-7;
+  Random random(8);
+  int tipped = 0;
+  for (int i = 0; i < 40; ++i) {
+    Landing driven = landings().front();
+    driven.depth = 0.12;
+    driven.moments = of_box(0.14, 0.07, 0.24);
+    driven.friction = random.uniform(0.05, 0.4);
+    driven.angular_velocity = Vector3(random.uniform(-5, 5), random.uniform(-5, 5), 0);
+    const Vector3 at_rest = Vector3(0, 0, -1) - driven.angular_velocity.cross(Vector3(0, 0, -driven.depth));
+    driven.velocity = at_rest;
+    const auto still = land(driven);
+    if (!still || !still->tilts || still->path == PathKind::stick) continue;
+    ++tipped;
+    for (const double angle : {0.3, 1.9, 3.5, 5.1}) {
+      driven.velocity = at_rest + little * Vector3(std::cos(angle), std::sin(angle), 0);
+      const auto slipped = land(driven);
+      BOOST_TEST_REQUIRE(slipped.has_value());
+      const double known = tolerance + 3 * (still->path_error + slipped->path_error);
+      BOOST_TEST((slipped->velocity_after - still->velocity_after).norm() <= known);
+      BOOST_TEST((slipped->angular_velocity_after - still->angular_velocity_after).norm() <= 30 * known);
+    }
+  }
+  BOOST_TEST(tipped >= 5);
+}
+
 BOOST_AUTO_TEST_CASE(the_errors_of_a_landing_with_slide_and_spin_are_those_of_its_rounding) {
   const Drop drop{.body = box(mass, {.size = {0.14, 0.07, 0.008}}),
                   .velocity = {0.3, 0, -1},

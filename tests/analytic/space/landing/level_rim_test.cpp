@@ -113,7 +113,7 @@ BOOST_AUTO_TEST_CASE(a_level_rim_on_damped_ground_bounces_as_a_mass_at_its_press
 
 BOOST_AUTO_TEST_CASE(an_upright_cylinder_without_spin_rebounds_flat_with_e_and_slides_or_stops_as_friction_has_it) {
   constexpr double tolerance = 1e-15;
-  for (const double mu : {0.0, 0.1, 0.4, 2.0}) {
+  for (const double mu : {0.0, 0.1, 0.4, 1.2}) {
     const double e = 0.6;
     const Drop drop{.body = cylinder(2, {.length = 0.8, .radius = 0.5}),
                     .attitude = upright(),
@@ -129,6 +129,68 @@ BOOST_AUTO_TEST_CASE(an_upright_cylinder_without_spin_rebounds_flat_with_e_and_s
     BOOST_CHECK_LE(row.impact.angular_velocity_after.norm(), 0);
     BOOST_CHECK_LE(std::fabs(row.impact.velocity_after.z() - e), tolerance);
   }
+}
+
+BOOST_AUTO_TEST_CASE(a_can_so_high_that_friction_tips_it_is_pushed_at_its_rim_while_it_slides) {
+  constexpr double tolerance = 1e-9;
+  Upright can = cylinder_on_its_end(0.1, 1);
+  const double mu = 0.5, normal = 1.5;
+  for (const double direction : {0.0, 0.7, 2.0}) {
+    const Vector3 ahead(std::cos(direction), std::sin(direction), 0);
+    can.before.velocity = 3 * ahead - Vector3::UnitZ();
+    const GroupImpact impact = strike_together(can.body, can.before, std::vector{can.rim}, law_of(0.5, mu));
+    const double tilt = normal * (mu * can.depth - can.radius) / can.body.inertia(0, 0);
+    BOOST_TEST(impact.tilts);
+    BOOST_TEST(!impact.is_open);
+    BOOST_TEST((impact.velocity_after - (3 - mu * normal) * ahead - 0.5 * Vector3::UnitZ()).norm() <= tolerance);
+    BOOST_TEST((impact.angular_velocity_after - tilt * Vector3::UnitZ().cross(ahead)).norm() <= 10 * tolerance);
+    // Slip that is all but nothing: the can lands as one that does not slip.
+    can.before.velocity = 1e-9 * ahead - Vector3::UnitZ();
+    can.before.angular_velocity = {0, 0, 1e-9};
+    const GroupImpact still = strike_together(can.body, can.before, std::vector{can.rim}, law_of(0.5, mu));
+    BOOST_TEST((still.velocity_after - 0.5 * Vector3::UnitZ()).norm() <= 1e-7);
+    BOOST_TEST(still.angular_velocity_after.norm() <= 1e-7);
+    can.before.angular_velocity.setZero();
+  }
+}
+
+BOOST_AUTO_TEST_CASE(
+    a_slip_or_spin_of_1e_9_changes_the_landing_of_a_can_by_as_little_and_its_mirror_image_is_mirrored) {
+  constexpr double kick = 1e-9;
+  const Matrix3 mirror = Vector3(1, -1, 1).asDiagonal();
+  Random random(21);
+  int tipped = 0;
+  for (int n = 0; n < 10 * scale; ++n) {
+    const auto little = [&] { return std::pow(10.0, -random.whole(0, 12)) * random.uniform(-1, 1); };
+    Upright can = cylinder_on_its_end(random.uniform(0.1, 0.4), 1);
+    can.body.inertia(0, 2) = can.body.inertia(2, 0) = random.uniform(-0.1, 0.1) * can.body.inertia(2, 2);
+    can.before.velocity = {little(), little(), -1};
+    can.before.angular_velocity = {0, 0, little()};
+    if (n % 3 == 0) can.before.angular_velocity.head<2>() << random.uniform(-0.3, 0.3), random.uniform(-0.3, 0.3);
+    Law law = law_of(random.uniform(0, 1), random.uniform(0.1, 1));
+    law.law.law = n % 2 == 0 ? RestitutionLaw::poisson : RestitutionLaw::stronge;
+    const auto land = [&](const Upright& u) { return strike_together(u.body, u.before, std::vector{u.rim}, law); };
+    const GroupImpact impact = land(can);
+    BOOST_TEST_CONTEXT("landing " << n) {
+      BOOST_TEST(!impact.is_open);
+      BOOST_TEST(impact.energy_loss >= -1e-12);
+      if (impact.tilts) ++tipped;
+      Upright image = can, kicked = can;
+      image.body.inertia = mirror * can.body.inertia * mirror;
+      image.before.velocity = mirror * can.before.velocity;
+      image.before.angular_velocity = -mirror * can.before.angular_velocity;
+      const GroupImpact mirrored = land(image);
+      const double margin = 1e-11 + 6 * impact.path_error;
+      BOOST_TEST((mirror * mirrored.velocity_after - impact.velocity_after).norm() <= margin);
+      BOOST_TEST((mirror * mirrored.angular_velocity_after + impact.angular_velocity_after).norm() <= 10 * margin);
+      kicked.before.velocity += kick * Vector3(0.6, -0.8, 0);
+      kicked.before.angular_velocity.z() += kick;
+      const GroupImpact then = land(kicked);
+      BOOST_TEST((then.velocity_after - impact.velocity_after).norm() <= margin + 300 * kick);
+      BOOST_TEST((then.angular_velocity_after - impact.angular_velocity_after).norm() <= 10 * (margin + 300 * kick));
+    }
+  }
+  BOOST_TEST(tipped > 3 * scale);
 }
 
 BOOST_AUTO_TEST_CASE(
@@ -155,7 +217,7 @@ BOOST_AUTO_TEST_CASE(
       if (whole) BOOST_CHECK(around.has_value());
     }
     ++(whole ? whole_ones : others);
-    if (!whole) continue;
+    if (!whole || whole->tilts) continue;
     for (const double angle : {0.0, 1.0, 2.5, 4.0}) {
       BOOST_CHECK_LE(std::fabs(rise_after(u, *whole, angle) + e * rise_before(u, angle)), 1e-13 * 10);
     }
@@ -187,7 +249,7 @@ BOOST_AUTO_TEST_CASE(
     BOOST_CHECK_LE(std::fabs(energy - after - impact.energy_loss), 1e-12 * energy);
     // A face with friction that rebounds as a whole obeys Newton's law, which can create energy.
     if (!impact.is_whole || law.law.friction == FrictionKind::none) BOOST_CHECK_GE(impact.energy_loss, -1e-12 * energy);
-    if (impact.is_whole || impact.order.empty()) continue;
+    if (impact.is_whole || impact.tilts || impact.order.empty()) continue;
     if (impact.order.size() > 1) ++several;
     if (impact.order.size() != 1) continue;
     const Impact alone = strike(u.body, u.before, u.point(where), law);
