@@ -32,6 +32,7 @@ Body cylinder(double, const Cylinder&) { leave(); }
 Body capsule(double, const Cylinder&) { leave(); }
 Body ellipsoid(double, const Vector3&) { leave(); }
 double Body::reach() const { leave(); }
+double touch_height(const Body&, const Quaternion&) { leave(); }
 State FreeFlight::at(double) const { leave(); }
 double Impact::restitution() const { leave(); }
 Corner touching_corner(const Body&, const Quaternion&, int) { leave(); }
@@ -57,6 +58,13 @@ Body::Body(const MassProperties&, const Surface&, bool, const std::optional<Smoo
 Eigen::Quaterniond attitude_of(const Drop&) { leave(); }
 MotionState on_ground(const Body&, MotionState) { leave(); }
 FirstTouch first_touch(const Body&, const MotionState&) { leave(); }
+SteadyPrecession::SteadyPrecession(const Rotation&, const Rates&) { leave(); }
+FreeRotation::FreeRotation(const Matrix3&, const Rotation& start) : rotation_(SteadyPrecession(start)) {}
+FreeFlight::FreeFlight(const Body&, const MotionState& start, const Gravity& gravity, bool)
+    : start_(start), gravity_(gravity), rotation_(Matrix3::Identity(), {}) {}
+MotionState FreeFlight::at(double) const { leave(); }
+TouchDown next_touch_down(const Body&, const FreeFlight&, long) { leave(); }
+Vector3 touch_point(const Body&, const MotionState&) { leave(); }
 
 }  // namespace numeric
 
