@@ -428,6 +428,11 @@ std::vector<std::string> assumptions(const Scene& scene, Model model, const KeyN
         "the ground is an elastic half-space under one patch, whose pressure has the energy of the patch's volume and "
         "shape: faces, edges and corners are told apart, waves in ground and body are not; peaks depend on its "
         "modulus");
+  } else if (model == Model::continuous && scene.world.ground.is_pad()) {
+    items.emplace_back(
+        "the ground is a pad whose pressure follows its curve, each place on its own: it carries no shear and recovers "
+        "at "
+        "once");
   } else if (model == Model::continuous) {
     items.emplace_back(
         "the ground is a bed of springs and dampers, each on its own: k_G and c_G are numbers of the floor "

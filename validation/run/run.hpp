@@ -133,9 +133,9 @@ struct Totals {
 
 [[nodiscard]] Totals totals(const Run& run);
 
-/// That of a planar drop after its fall.
+/// How a planar drop touches after its fall.
 [[nodiscard]] FirstTouch first_touch_of(const analytic::Drop& drop);
-/// That of the continuous model, in the state at the touch; the error of its time is not known.
+/// How the continuous model's body touches; the error of its time is not known.
 [[nodiscard]] FirstTouch first_touch_of(double time, const numeric::MotionState& state);
 /// The numbers of a first touch; an error that is not known is left out.
 [[nodiscard]] Value fields_of(const FirstTouch& touch);

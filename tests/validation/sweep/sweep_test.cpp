@@ -319,6 +319,7 @@ BOOST_AUTO_TEST_CASE(every_number_of_a_scene_can_be_put_where_the_reader_puts_it
                     on_half_space = "[drop]\nangle_deg = 10\n[ground]\nmodulus = 1e8\n",
                     on_pad = "[drop]\nangle_deg = 10\n[ground]\ncurve = [[0.5, 1e4], [0.7, 2e4]]\nthickness = 1\n";
   const std::map<std::string, std::string> grounds{{"drop.topple", lying},
+                                                   {"drop.release.angle_deg", "[drop]\nrelease.height = 9" + ground},
                                                    {"ground.dissipation", on_half_space},
                                                    {"ground.body_modulus", on_half_space},
                                                    {"ground.thickness", on_pad},
