@@ -90,14 +90,13 @@ void SlipMotion::go_straight_to(double stop, const Values& now) {
 }
 
 SlipMotion::End SlipMotion::slide(bool from_rest) {
-  constexpr int most_steps = 20000;
   double scale = y_.head<3>().norm(), length = std::numeric_limits<double>::infinity();
   const double most_little = from_rest ? little * scale : 0;
   at_once_ = true;
   Values now = rate(y_);
   StopForecast forecast{.begin = spent_, .size_then = scale, .agreement = little_agreement};
   keep();
-  for (int i = 0; i < most_steps; ++i) {
+  for (int i = 0; i < most_steps_; ++i) {
     if (!now.allFinite()) return End::no_pressure;
     const double left = impulse_left(now);
     if (std::fabs(left) <= 4 * detail::epsilon * spent_) {

@@ -46,6 +46,7 @@ class SlipMotion {
   double spent_ = 0;  ///< P
   /// Local error of a step, relative to the largest slip so far, and of what goes along with it.
   double step_error_ = 4e-15;
+  int most_steps_ = 20000;
   bool at_once_ = false;        ///< the step is so short that the rate may jump in it
   bool only_friction_ = false;  ///< nothing but friction acts on slip, which can only become less
 
@@ -79,6 +80,7 @@ class SlipLetGo final : SlipMotion {
   SlipLetGo(const Slip& load, std::function<Slip(const Slip&)> friction)
       : SlipMotion(3), load_(load), friction_(std::move(friction)) {
     step_error_ = rough;
+    most_steps_ = most_trials;
     y_ = first_slip * load_;
   }
   bool is_held() { return load_ == Slip::Zero() || slide(true) == End::stopped; }
@@ -90,6 +92,7 @@ class SlipLetGo final : SlipMotion {
   double impulse_left(const Values&) override { return trial - spent_; }
   bool end_stage() override { return true; }
 
+  static constexpr int most_trials = 2000;
   static constexpr double trial = 1e-6;   ///< of the impulse
   static constexpr double rough = 1e-10;  ///< whether slip dies out is not a matter of rounding
   Slip load_;

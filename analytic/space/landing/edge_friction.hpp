@@ -9,6 +9,15 @@
 //     v₄ + v₅ x = u φ(x),   φ = 1 at the pressure point without friction,                                        (2)
 // which gives x̄; q is positive on a part of the edge alone where |x̄| > 1/3.  u ends by the restitution law, as that of
 // a corner does, with the work −∫u φ(x̄) dP.  Slide and spin end together; then the edge sticks, or slip goes on.
+//
+// Where R = R₀ + S f, the x̄ that (2) asks for, is beyond an end while R₀, that without friction, is not, the ground
+// pushes at
+//     x̂ = R₀ + λ S f,   |x̂| <= 1,                                                                        (3)
+// as face_pressure.hpp has it: λ <= 1 is the largest such that λ by the largest slip so far is no larger than before,
+// and friction is that of the linear pressure with its centre at R₀ + λ² S f, no nearer to an end than η of the edge's
+// half.  u goes on as if the push were at R, the couple of the rest, R − x̂, turns the edge out of (2), and the work
+// counts φ(x̂).  An edge that sticks is pushed at the end that is nearest to R.  A solution of (3) goes on from the last
+// one; where that one ends, it jumps.
 #pragma once
 
 #include <optional>
@@ -36,15 +45,18 @@ struct EdgeContact {
 struct EdgeImpulse {
   EdgeContact::Vector impulse = EdgeContact::Vector::Zero();  ///< f [N·s]
   PathKind path = PathKind::turning_slip;
+  bool tilts = false;     ///< pushes could not keep to (2)
+  double path_error = 0;  ///< of the impulse, relative, where pushes have come to an end of the edge
 };
 
 /// ∫q (d_t, d_m, x d_m) dx under the linear pressure of mean x̄.
 /// Domain: |x̄| < 1, slip ≠ 0.  Accuracy: 1e-14.
 [[nodiscard]] Vector3 rub_of_edge(const Vector3& slip, double pressure_point);
 
-/// The impulse of an edge by Coulomb's law with μ > 0; nothing where (2) asks at any moment for a pressure point beyond
-/// the edge, or nearer to its end than 1e-4 of its half.  An edge that friction can hold sticks.
-/// Accuracy: 1e-12 of the impulse.
+/// The impulse of an edge by Coulomb's law with μ > 0; nothing where R₀ is beyond the edge and (2) asks at any moment
+/// for a pressure point there, or where slip takes too many steps: pressure jumps without end, or a point of the edge
+/// that all but rests holds slip in one direction.  An edge that friction can hold sticks.
+/// Accuracy: 1e-12 of the impulse; where pushes come to an end, EdgeImpulse::path_error.
 [[nodiscard]] std::optional<EdgeImpulse> edge_impulse(const EdgeContact& edge, const ImpactLaw& law);
 
 }  // namespace clatter::analytic::space

@@ -87,7 +87,8 @@ class StrikingGroup {
     struck_.take(group.struck_);
     return true;
   }
-  void leave_open() { struck_.leave_open(); }
+  /// The corner that strikes alone where these cannot together.
+  [[nodiscard]] const Point& first_of(const Points& group);
   void strike_corner(const Point& p) { struck_.strike_at(p.place, {p.index}); }
   [[nodiscard]] bool converges(StrikeSeries& series) { return series.converges(struck_); }
   [[nodiscard]] GroupImpact result() const { return struck_.result(); }
@@ -100,7 +101,7 @@ class StrikingGroup {
   StrikingBody struck_;
   Points points_;
   bool tilted_ = false;
-  bool is_lost_ = false;  ///< friction of a face that has a pressure could not be followed
+  bool is_lost_ = false;  ///< friction of what has a pressure without it could not be followed
 };
 
 std::vector<int> indices_of(const StrikingGroup::Points& group) {
@@ -137,7 +138,10 @@ bool StrikingGroup::strike(const Points& group) {
 bool StrikingGroup::strike_edge(const Point& first, const Point& second, const Points& group) {
   const EdgeContact edge = struck_.edge_contact(first.place, second.place);
   if (struck_.law().law.rubs() && !edge.strikes_as_corner()) {
-    return struck_.strike_along(edge, first.place, second.place, indices_of(group));
+    const auto struck = struck_.strike_along(edge, first.place, second.place, indices_of(group));
+    tilted_ = struck && struck->tilts;
+    is_lost_ = !struck && std::fabs(edge.pressure_point()) <= 1;
+    return struck.has_value();
   }
   const double point = edge.pressure_point();
   if (!(std::fabs(point) <= 1)) return false;
@@ -146,6 +150,16 @@ bool StrikingGroup::strike_edge(const Point& first, const Point& second, const P
   if (struck.approaches(first.arm) || struck.approaches(second.arm)) return false;
   struck_.take(struck);
   return true;
+}
+
+/// The end of an edge that is nearest to its pressure point; which corner of a face it is, the law leaves open.
+const StrikingGroup::Point& StrikingGroup::first_of(const Points& group) {
+  if (group.size() == 2) {
+    const double point = struck_.edge_contact(group[0].place, group[1].place).pressure_point();
+    if (std::fabs(point) > 1) return group[point > 0 ? 1 : 0];
+  }
+  if (group.size() > 1 && struck_.law().law.rubs()) struck_.leave_open();
+  return group.front();
 }
 
 bool StrikingGroup::strike_face(const Points& group, const std::vector<int>& hull) {
@@ -182,9 +196,7 @@ GroupImpact strike_together(const Body& body, const State& before, std::span<con
   for (auto fastest = group.fastest(); !fastest.empty(); fastest = group.fastest()) {
     check_number_of_strikes(group.strikes());
     if (group.converges(series)) continue;
-    if (group.strike(fastest)) continue;
-    if (fastest.size() > 1 && law.law.rubs()) group.leave_open();
-    group.strike_corner(fastest.front());
+    if (!group.strike(fastest)) group.strike_corner(group.first_of(fastest));
   }
   GroupImpact result = group.result();
   result.is_whole = is_whole && !result.tilts;

@@ -13,15 +13,15 @@
 //          (face_friction.hpp).  The pressure point (−N_y, N_x)/P_z from the centre of mass, N the moment of the
 //          normal impulses, must lie inside the polygon.  Where friction alone asks for pushes outside it, they act
 //          at the polygon's boundary, and the rest of their moment tilts the body; what then still approaches strikes
-//          as it would on its own; so does a rim, an edge has no such pushes.  A face that slides straight inside
+//          as it would on its own; so do edges (edge_friction.hpp) and rims.  A face that slides straight inside
 //          (slides_straight()) has no couple: friction acts at the point below the centre of mass (FaceContact). (2)
 // The viscoelastic law takes e at the approach speed of the edge's point, and of the pressure point that a face has
 // without friction, −V_z + ω·Mω/(m (−V_z)) with M the inverse of the horizontal part of I⁻¹: there the landing is that
 // of one contact.
 // Otherwise corners strike one after the other, the fastest approach first; those equally fast to rounding strike as an
-// edge or a face if they can.  If they cannot, and there is friction, the law leaves open which of them is first: the
-// lowest index is, and GroupImpact::is_open says so.  A corner whose approach is below the rounding of its velocity is
-// at rest.
+// edge or a face if they can.  If they cannot, the end of an edge that is nearest to its pressure point is first; which
+// corner of a face is, the law leaves open under friction: the lowest index is, and GroupImpact::is_open says so.  A
+// corner whose approach is below the rounding of its velocity is at rest.
 //
 // What small tilts make of it: tilted_outcomes.hpp.
 //

@@ -123,6 +123,11 @@ std::optional<FaceRebound> StrikingBody::face_rebound_by(double e, double depth,
   return rebound;
 }
 
+double StrikingBody::energy() const {
+  const Vector3 own = axes_.transpose() * state_.angular_velocity;
+  return (body_.mass * state_.velocity.squaredNorm() + own.dot(body_.inertia * own)) / 2;
+}
+
 double StrikingBody::energy_loss(const FaceRebound& face) const {
   const Vector3 velocity = state_.velocity + face.impulse / (2 * body_.mass);
   const Vector3 turning = state_.angular_velocity + inverse_inertia_ * face.moment / 2;
@@ -134,8 +139,7 @@ std::optional<FaceRebound> StrikingBody::face_rebound(double depth, const Contac
   const double e = face_restitution();
   auto rebound = face_rebound_by(e, depth, area);
   if (!rebound || rebound->is_lost || !law_.law.rubs() || may_gain_energy(law_.law.law)) return rebound;
-  const Vector3 own = axes_.transpose() * state_.angular_velocity;
-  const double energy = (body_.mass * state_.velocity.squaredNorm() + own.dot(body_.inertia * own)) / 2;
+  const double energy = this->energy();
   const double least = restitution_without_gain(e, energy, [&](double some) {
     const auto face = some == e ? rebound : face_rebound_by(some, depth, area);
     return face && !face->is_lost ? energy_loss(*face) : energy;
@@ -159,15 +163,19 @@ EdgeContact StrikingBody::edge_contact(const Vector3& from, const Vector3& to) c
   return edge;
 }
 
-bool StrikingBody::strike_along(const EdgeContact& edge, const Vector3& from, const Vector3& to,
-                                const std::vector<int>& points) {
+std::optional<EdgeImpulse> StrikingBody::strike_along(const EdgeContact& edge, const Vector3& from, const Vector3& to,
+                                                      const std::vector<int>& points) {
   const auto struck = edge_impulse(edge, law_.law);
-  if (!struck) return false;
+  if (!struck) return {};
   const EdgeContact::Vector& f = struck->impulse;
+  const double gain = f.dot(edge.velocity + edge.inverse_inertia * f / 2);
+  if (struck->tilts && gain > without_gain * energy() && !may_gain_energy(law_.law.law)) return {};
   const Vector3 half = arm(to - from) / 2, along = half.normalized(), up = Vector3::UnitZ(), across = up.cross(along);
   const Vector3 impulse = f[0] * along + f[1] * across + f[3] * up;
   push(impulse, arm(from + to).cross(impulse) / 2 + half.cross(f[2] * across + f[4] * up), struck->path, points);
-  return true;
+  impact_.tilts = impact_.tilts || struck->tilts;
+  impact_.path_error = std::fmax(impact_.path_error, struck->path_error);
+  return struck;
 }
 
 void StrikingBody::push(const FaceRebound& face, const std::vector<int>& points) {

@@ -88,9 +88,10 @@ class StrikingBody {
   [[nodiscard]] std::optional<FaceRebound> face_rebound(double depth, const ContactArea& area) const;
   /// The edge between two places at one height, as (1) of edge_friction.hpp has it.
   [[nodiscard]] EdgeContact edge_contact(const Vector3& from, const Vector3& to) const;
-  /// Strikes with that edge, its edge_contact(from, to), friction all along it; false, and nothing done, if it has no
-  /// pressure for that.
-  bool strike_along(const EdgeContact& edge, const Vector3& from, const Vector3& to, const std::vector<int>& points);
+  /// Strikes with that edge, its edge_contact(from, to), friction all along it; nothing, and nothing done, if it has no
+  /// pressure for that, or gains energy.
+  std::optional<EdgeImpulse> strike_along(const EdgeContact& edge, const Vector3& from, const Vector3& to,
+                                          const std::vector<int>& points);
   /// Goes on from another that began with the same body, state and law.
   void take(const StrikingBody& other);
   void push(const FaceRebound& face, const std::vector<int>& points);
@@ -110,6 +111,7 @@ class StrikingBody {
   [[nodiscard]] FaceRebound face_rebound_by(double restitution, double depth) const;
   [[nodiscard]] std::optional<FaceRebound> face_rebound_by(double restitution, double depth,
                                                            const ContactArea& area) const;
+  [[nodiscard]] double energy() const;
   [[nodiscard]] double energy_loss(const FaceRebound& face) const;
 
   const Body& body_;
