@@ -67,7 +67,7 @@ struct PressedPiece {
 
 /// Local error of a step, and relative error of the impulse, where pushes come to an end of the edge; and where they
 /// jump.
-constexpr double step_of_tilting = 1e-11, error_of_tilting = 1e-9, error_of_jump = 1e-5;
+constexpr double step_of_edge = 1e-11, error_of_edge = 1e-9, error_of_edge_jump = 1e-5;
 
 /// Pressure that jumps more often than this does so without end, and slip that takes more steps cannot be followed.
 constexpr int most_jumps = 16, most_steps = 1000;
@@ -306,7 +306,7 @@ void EdgePath::keep() {
   largest_ = is_first ? size : std::fmax(largest_, size);
   kept_ = now_;
   kept_direction_ = direction;
-  if (now_.share < 1 || now_.is_at_end()) step_error_ = step_of_tilting;
+  if (now_.share < 1 || now_.is_at_end()) step_error_ = step_of_edge;
 }
 
 /// The share of friction ends its fall within a millionth of slip from where it is least: the rest is of second order.
@@ -413,7 +413,7 @@ std::optional<EdgeImpulse> EdgePath::follow() {
   }
   if (end == End::no_pressure || !(spent_ > 0)) return {};
   result.tilts = y_[6] != 0;
-  if (step_error_ == step_of_tilting) result.path_error = jumps_ > 0 ? error_of_jump : error_of_tilting;
+  if (step_error_ == step_of_edge) result.path_error = jumps_ > 0 ? error_of_edge_jump : error_of_edge;
   const Vector2 pushes(spent_, y_[3]);
   const Vector3 change = y_.head<3>() - begin_ - g_.block<3, 2>(0, 3) * pushes;
   result.impulse << g_.topLeftCorner<3, 3>().inverse() * change, pushes;
