@@ -178,8 +178,10 @@ CLI::Option* add_value(CLI::App& app, const Argument& argument, Waiting& waiting
   return option;
 }
 
-void add_command(CLI::App& app, const Command& command, Waiting& waiting) {
+/// CLI11 compares each option with all before it, so that only the command that is called gets its own.
+void add_command(CLI::App& app, const Command& command, bool is_called, Waiting& waiting) {
   CLI::App* part = app.add_subcommand(command.name, command.help);
+  if (!is_called) return;
   part->footer(command.footer);
   for (const Argument& argument : command.arguments) {
     CLI::Option* option = add_value(*part, argument, waiting);
@@ -262,9 +264,10 @@ ParsedLine parse_line(const std::vector<Command>& commands, const std::vector<st
   app.set_help_flag("--help", "print this help and exit");
   bool show_version = false;
   app.add_flag("--version", show_version, "print the version and exit");
-  Waiting waiting;
-  for (const Command& command : commands) add_command(app, command, waiting);
   std::vector<std::string> arguments = checked_arguments(commands, with_help_as_flag(given));
+  Waiting waiting;
+  for (const Command& command : commands)
+    add_command(app, command, !arguments.empty() && command.name == arguments.front(), waiting);
   std::reverse(arguments.begin(), arguments.end());  // as CLI11's parse(vector) wants them
   try {
     app.parse(arguments);

@@ -351,14 +351,11 @@ std::string attitudes_html(const AllAttitudes& all, const Attitudes& attitudes) 
       attitudes.drops, attitudes.scatter, handout_table(shown), handout_table(spread));
 }
 
-/// The discrete model's sequence.  @throws as run_discrete
-void add_discrete(const Scene& scene, std::string& html, Value& fields) {
+/// A picture of the discrete model's sequence.  @throws as run_discrete
+std::string sequence_picture_html(const Scene& scene) {
   const PreparedScene drop = prepared(scene);
-  const DiscreteRun found = run_discrete(drop);
-  const Report report = sequence_report(drop, found);
-  html += handout_table(report) + handout_picture(sequence_picture(drop, found, TimeWindow{}),
-                                                  "Discrete model: heights over time, and the impulse of each impact.");
-  fields["sequence"] = report.fields;
+  return handout_picture(sequence_picture(drop, run_discrete(drop), TimeWindow{}),
+                         "Discrete model: heights over time, and the impulse of each impact.");
 }
 
 /// Pulses or changes of velocity at the probes, then pictures of them and of their spectra.
@@ -539,66 +536,101 @@ bool is_of_box(const ReportInput& input) {
 /// Keys of which a page about a drop of many says nothing: its attitude has a name there.
 const KeyNames attitude_keys{"drop.attitude", "drop.angle_deg", "drop.orientation", "drop.tilt_deg"};
 
-/// The page, what it says for other programs, and the exit status of the run that it is about.
-struct ReportPage {
-  Report report;
-  std::string html;
-  int status = 0;
+/// What a page is about.
+struct Findings {
+  std::optional<AllAttitudes> all;  ///< none: of the drop as given alone
+  ShockRun run;
+  Answer answer;
+  std::string lead;  ///< the answer in a sentence
+  Report impacts;    ///< of the model, as its own command prints them
+  std::vector<std::string> commands;
+  Report report;  ///< for other programs
 };
 
-ReportPage page_of(ReportInput input, const CooperativeInterrupt& interrupt) {
+/// What --format json has, by the names of the commands that give it.
+void add_fields(const ReportInput& input, const Scene& scene, const ShockView& view, Findings& found) {
+  Value& fields = found.report.fields;
+  if (found.all) {
+    fields["attitudes"] = found.all->report.fields.at("attitudes");
+    fields["summary"] = row_objects(found.all->report.grid);
+  }
+  const std::string words = scene_words(input, found.all ? scene.attitude : std::vector<double>{});
+  if (found.all && !found.all->command.empty()) found.commands.push_back(found.all->command);
+  if (!found.run.probes.empty()) {
+    found.commands.push_back("clatter shock" + words + probe_words(input));
+    fields["shock"] = shock_report(found.run, view).fields;
+  }
+  const bool is_continuous = found.run.continuous.has_value();
+  if (is_continuous) {
+    found.impacts = simulation_report(scene, found.run.continuous->planned);
+  } else {
+    const PreparedScene drop = prepared(scene);
+    found.impacts = sequence_report(drop, run_discrete(drop));
+  }
+  fields[is_continuous ? "simulation" : "sequence"] = found.impacts.fields;
+  found.commands.push_back((is_continuous ? "clatter simulate" : "clatter sequence") + words);
+  fields["commands"] = found.commands;
+}
+
+/// Nothing where it was interrupted.
+std::optional<Findings> findings_of(ReportInput& input, const Attitudes& attitudes, const ShockView& view,
+                                    const CooperativeInterrupt& interrupt) {
   const bool is_turned = gives_attitude(input), looks_at_all = is_of_box(input) && input.drops != 0;
   if (!is_turned && looks_at_all) input.scene.texts["--orientation"] = "1";  // some one: the sweep has its own
   const Scene given = shock_scene(input);
-  const Model model = model_of(input);
   const std::vector<Probe> probes = probes_of(input);
-  Attitudes attitudes;
   require_worst_attitudes(input, given);
-  attitudes.drops = input.drops.value_or(attitudes.drops);
-  attitudes.scatter = input.scatter.value_or(attitudes.scatter);
-  const ShockView view = view_of(input);
-  std::optional<AllAttitudes> all;
-  if (looks_at_all) all = all_attitudes(input, attitudes, interrupt);
-  if (interrupt.requested()) return {.report = {}, .html = {}, .status = interrupted_status};
-  const Scene& scene = all ? all->scene : given;
+  Findings found;
+  if (looks_at_all) found.all = all_attitudes(input, attitudes, interrupt);
+  if (interrupt.requested()) return {};
+  const Scene& scene = found.all ? found.all->scene : given;
   const auto watch = [&](int, long) { return !interrupt.requested(); };
-  const ShockRun run = run_shock(scene, probes, request_of(input), {.progress = watch});
-  if (interrupt.requested()) return {.report = {}, .html = {}, .status = interrupted_status};
+  found.run = run_shock(scene, probes, request_of(input), {.progress = watch});
+  if (interrupt.requested()) return {};
 
-  Report report = begun_report("report", input.scene.source.empty() ? "a drop" : input.scene.source);
-  Value& fields = report.fields;
-  fields["model"] = name_of(model);
-  fields["scene"] = scene_value(scene, model);
-  const Answer answer = answer_of(run, view.part);
-  fields["answer"] = answer.fields;
-  std::string lead = answer.words;
-  if (all) {
+  found.report = begun_report("report", input.scene.source.empty() ? "a drop" : input.scene.source);
+  Value& fields = found.report.fields;
+  fields["model"] = name_of(model_of(input));
+  fields["scene"] = scene_value(scene, model_of(input));
+  found.answer = answer_of(found.run, view.part);
+  fields["answer"] = found.answer.fields;
+  found.lead = found.answer.words;
+  if (const auto& all = found.all) {
     const RankedDrop& worst = all->drops[all->worst];
     fields["answer"]["attitude"] = all->name;
     fields["answer"]["ranked_by"] = all->column.name;
     fields["answer"]["largest"] = worst.value;
-    if (probes.empty()) lead = fmt::format("its {} is {} {}", all->column.name, said(worst.value), all->column.unit);
-    lead = fmt::format("Worst of {} drops: {}: {}", attitudes.drops, all->name, lead);
+    if (probes.empty())
+      found.lead = fmt::format("its {} is {} {}", all->column.name, said(worst.value), all->column.unit);
+    found.lead = fmt::format("Worst of {} drops: {}: {}", attitudes.drops, all->name, found.lead);
     if (is_turned && !probes.empty()) {
       ShockRequest plain = request_of(input);
       plain.sensitivity = false;
       const Answer own = answer_of(run_shock(given, probes, plain, {.progress = watch}), {});
-      const char* const number = run.continuous ? "peak_g" : "delta_v";
-      const Value *of_own = own.fields.find(number), *of_worst = answer.fields.find(number);
+      const char* const number = found.run.continuous ? "peak_g" : "delta_v";
+      const Value *of_own = own.fields.find(number), *of_worst = found.answer.fields.find(number);
       const bool is_worse = of_own && of_worst && *of_own->number() > *of_worst->number();
-      lead += fmt::format(". The drop as given{}: {}", is_worse ? " is worse" : "", own.words);
+      found.lead += fmt::format(". The drop as given{}: {}", is_worse ? " is worse" : "", own.words);
       fields["as_given"] = own.fields;
     }
   }
-  if (const std::string overlap = overlap_words(scene, run); !overlap.empty()) {
-    lead += "; " + overlap;
+  if (const std::string overlap = overlap_words(scene, found.run); !overlap.empty()) {
+    found.lead += "; " + overlap;
     fields["overlap"] = overlap;
   }
+  add_fields(input, scene, view, found);
+  return found;
+}
+
+std::string page_of(const ReportInput& input, const Scene& scene, const Findings& found, const Attitudes& attitudes,
+                    const ShockView& view) {
+  const Model model = model_of(input);
+  const auto& all = found.all;
   const numeric::Body body = scene.make_body();
   const Vector3 centre = body_properties(scene, Model::continuous).centre;
   std::string pictures =
       fmt::format("<div class=\"beside\"><figure>{}<figcaption>{}</figcaption></figure>\n",
-                  body_picture(body, scene.touch_attitude(), probes, centre), "The body as it touches.");
+                  body_picture(body, scene.touch_attitude(), found.run.probes, centre), "The body as it touches.");
   if (all) {
     pictures += fmt::format(
         "<figure>{}<figcaption>All drops by the direction that is down in the body; the ring is the "
@@ -606,45 +638,23 @@ ReportPage page_of(ReportInput input, const CooperativeInterrupt& interrupt) {
         attitude_map(all->drops, all->worst, all->column.name + " [" + all->column.unit + "]"));
   }
   std::vector<HandoutPart> parts{
-      {"", fmt::format("<p class=\"answer\">{}.</p>\n{}</div>\n", html_escaped(lead), pictures)}};
-  const std::string words = scene_words(input, all ? scene.attitude : std::vector<double>{});
-  std::vector<std::string> commands;
-  if (all && !all->command.empty()) commands.push_back(all->command);
-  if (all) {
-    parts.push_back({"Attitudes", attitudes_html(*all, attitudes)});
-    fields["attitudes"] = all->report.fields.at("attitudes");
-    fields["summary"] = row_objects(all->report.grid);
-  }
-  if (probes.empty()) {
-    parts.push_back({"Shock at points of the body",
-                     "<p>No probe was named: give --probe NAME:X,Y,Z, or [[probe]] in the "
-                     "scene file.</p>\n"});
-  } else {
-    commands.push_back("clatter shock" + words + probe_words(input));
-    parts.push_back({"Shock at points of the body", shock_html(run, view)});
-    fields["shock"] = shock_report(run, view).fields;
-  }
-  std::string impacts;
-  if (run.continuous) {
-    const Report simulated = simulation_report(scene, run.continuous->planned);
-    impacts = handout_table(simulated);
-    fields["simulation"] = simulated.fields;
-    commands.push_back("clatter simulate" + words);
-  } else {
-    add_discrete(scene, impacts, fields);
-    commands.push_back("clatter sequence" + words);
-  }
-  parts.push_back({fmt::format("The impacts, {} model", name_of(model)), impacts});
-  parts.push_back({"Accuracy", accuracy_html(scene, run)});
-  parts.push_back({"Assumptions", handout_list(assumptions(scene, model, all ? attitude_keys : KeyNames{}))});
+      {"", fmt::format("<p class=\"answer\">{}.</p>\n{}</div>\n", html_escaped(found.lead), pictures)}};
+  if (all) parts.push_back({"Attitudes", attitudes_html(*all, attitudes)});
+  parts.push_back({"Shock at points of the body",
+                   found.run.probes.empty() ? "<p>No probe was named: give --probe NAME:X,Y,Z, or [[probe]] in the "
+                                              "scene file.</p>\n"
+                                            : shock_html(found.run, view)});
+  parts.push_back({fmt::format("The impacts, {} model", name_of(model)),
+                   handout_table(found.impacts) + (found.run.continuous ? "" : sequence_picture_html(scene))});
+  const KeyNames unsettled = all ? attitude_keys : KeyNames{};
+  parts.push_back({"Accuracy", accuracy_html(scene, found.run)});
+  parts.push_back({"Assumptions", handout_list(assumptions(scene, model, unsettled))});
   parts.push_back({"What the model leaves out", handout_list(left_out())});
-  parts.push_back({"Commands that give these numbers again", handout_commands(commands)});
-  fields["commands"] = commands;
-  std::string html = handout_page(report.title, scene.summary(model, all ? attitude_keys : KeyNames{}), parts);
-  return {std::move(report), std::move(html), status_of(scene, run)};
+  parts.push_back({"Commands that give these numbers again", handout_commands(found.commands)});
+  return handout_page(found.report.title, scene.summary(model, unsettled), parts);
 }
 
-int run_report(const ReportInput& input) {
+int run_report(ReportInput input) {
   if (!input.json) {
     if (input.output.empty()) throw BadInput("--output: required, the page's file");
     if (!input.output.ends_with(".html")) throw BadInput(fmt::format("--output '{}': must end in .html", input.output));
@@ -655,15 +665,20 @@ int run_report(const ReportInput& input) {
   std::optional<Sink> sink;
   if (!input.json) sink.emplace(input.output);
   const CooperativeInterrupt interrupt;
-  const ReportPage page = page_of(input, interrupt);
-  if (page.status == interrupted_status) return interrupted_status;
+  Attitudes attitudes;
+  attitudes.drops = input.drops.value_or(attitudes.drops);
+  attitudes.scatter = input.scatter.value_or(attitudes.scatter);
+  const ShockView view = view_of(input);
+  const auto found = findings_of(input, attitudes, view, interrupt);
+  if (!found) return interrupted_status;
+  const Scene scene = found->all ? found->all->scene : shock_scene(input);
   if (input.json) {
-    write_report(choice, page.report);
+    write_report(choice, found->report);
   } else {
-    sink->write(page.html);
+    sink->write(page_of(input, scene, *found, attitudes, view));
     sink->commit();
   }
-  return page.status;
+  return status_of(scene, found->run);
 }
 
 }  // namespace
