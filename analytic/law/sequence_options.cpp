@@ -1,12 +1,19 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analytic/law/sequence_options.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 #include "analytic/base/errors.hpp"
 
 namespace clatter::analytic {
 
 void SequenceOptions::validate() const {
   detail::require(impacts >= 1, "impacts", impacts, "at least 1");
+  detail::require(!std::isnan(until), "until", until, "a number");
+  detail::require(
+      std::ranges::is_sorted(times) && std::ranges::all_of(times, [](double t) { return std::isfinite(t); }),
+      "number of times", static_cast<double>(times.size()), "of finite ones in ascending order");
   detail::require(digits >= 1 && digits <= 15, "digits", digits, "between 1 and 15");
 }
 

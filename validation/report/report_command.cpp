@@ -654,7 +654,8 @@ std::string page_of(const ReportInput& input, const Scene& scene, const Findings
   return handout_page(found.report.title, scene.summary(model, unsettled), parts);
 }
 
-int run_report(ReportInput input) {
+int run_report(const ReportInput& given) {
+  ReportInput input = given;
   if (!input.json) {
     if (input.output.empty()) throw BadInput("--output: required, the page's file");
     if (!input.output.ends_with(".html")) throw BadInput(fmt::format("--output '{}': must end in .html", input.output));

@@ -341,6 +341,9 @@ Scene read_values(SceneValues values, const std::vector<SceneOverride>& override
   check_body(values, scene.body);
   check_ground(values, scene, model);
   check_impact(values, scene);
+  std::ranges::sort(scene.times);
+  if (!scene.times.empty() && scene.times.front() < 0 && !scene.is_released())
+    values.refuse("run.at", "times from 0 on: the motion begins with the first impact where there is no drop.release");
   return scene;
 }
 

@@ -176,6 +176,18 @@ bool is_polyhedron(const Body& body) {
   return body.vertices.size() >= 4 && body.rims.empty() && body.ellipsoids.empty();
 }
 
+/// A flat body as a prism, so wide that it does not roll over its sides; vertex i becomes 2i and 2i + 1.
+Body prism(const Body& flat) {
+  Body body = flat;
+  body.vertices.clear();
+  for (const Vector3& vertex : flat.vertices) {
+    for (const double side : {-1.0, 1.0}) body.vertices.push_back(vertex + side * 4 * flat.reach() * Vector3::UnitY());
+  }
+  return body;
+}
+
+bool is_outline(const Body& body) { return body.vertices.size() > 2 && body.is_flat(); }
+
 /// By (2).
 std::optional<Rest> trapped(const Drop& drop, const State& now) {
   const ImpactLaw& law = drop.law.law;
@@ -197,6 +209,11 @@ std::optional<Rest> trapped(const Drop& drop, const State& now) {
 }  // namespace
 
 double vertical_energy(const Drop& drop, const State& now) {
+  if (is_outline(drop.body)) {
+    Drop wide = drop;
+    wide.body = prism(drop.body);
+    return vertical_energy(wide, now);
+  }
   if (!is_polyhedron(drop.body)) return infinite;
   const auto face = RollingBody(drop.body).lowest(down(now));
   if (!face) return infinite;
@@ -213,6 +230,16 @@ std::optional<Rest> settles(const Drop& drop, const State& now, double time) {
   const ImpactLaw& law = drop.law.law;
   if (!(drop.gravity > 0) || law.law == RestitutionLaw::viscoelastic || !(law.restitution < 1)) return {};
   const Body& body = drop.body;
+  if (is_outline(body)) {
+    Drop wide = drop;
+    wide.body = prism(body);
+    auto rest = settles(wide, now, time);
+    if (!rest) return {};
+    for (int& corner : rest->corners) corner /= 2;
+    std::ranges::sort(rest->corners);
+    rest->corners.erase(std::unique(rest->corners.begin(), rest->corners.end()), rest->corners.end());
+    return rest;
+  }
   if (!is_polyhedron(body)) return {};
   const RollingBody rolling(body);
   const auto face = rolling.lowest(down(now));
