@@ -11,9 +11,10 @@ namespace clatter::analytic {
 void SequenceOptions::validate() const {
   detail::require(impacts >= 1, "impacts", impacts, "at least 1");
   detail::require(!std::isnan(until), "until", until, "a number");
-  detail::require(
-      std::ranges::is_sorted(times) && std::ranges::all_of(times, [](double t) { return std::isfinite(t); }),
-      "number of times", static_cast<double>(times.size()), "of finite ones in ascending order");
+  const bool is_ascending = std::is_sorted(times.begin(), times.end()) &&
+                            std::all_of(times.begin(), times.end(), [](double time) { return std::isfinite(time); });
+  detail::require(is_ascending, "number of times", static_cast<double>(times.size()),
+                  "of finite ones in ascending order");
   detail::require(digits >= 1 && digits <= 15, "digits", digits, "between 1 and 15");
 }
 
