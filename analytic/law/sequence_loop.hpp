@@ -74,10 +74,13 @@ class SequenceLoop {
     return true;
   }
 
-  /// Whether something is asked for of the time until then, so that no sum may stand for it.
-  [[nodiscard]] bool is_watched(double until) const {
-    return until > options_.until || (next_time_ < options_.times.size() && options_.times[next_time_] < until);
+  /// Whether a state is asked for before this time that is not there yet.
+  [[nodiscard]] bool awaits(double until) const {
+    return next_time_ < options_.times.size() && options_.times[next_time_] < until;
   }
+
+  /// Whether something is asked for of the time until then, so that no sum may stand for it.
+  [[nodiscard]] bool is_watched(double until) const { return until > options_.until || awaits(until); }
 
   /// Whether an impact comes too late to be followed.
   bool is_over(double time) {

@@ -23,6 +23,17 @@ struct StateQuantity {
   bool in_plane;
 };
 
+/// The errors, each of a number or of all of a vector.
+struct StateError {
+  const char *name, *unit;
+  double MotionAt::*value;
+};
+constexpr StateError state_errors[] = {{"position", "m", &MotionAt::position_error},
+                                       {"attitude", "rad", &MotionAt::attitude_error},
+                                       {"velocity", "m/s", &MotionAt::velocity_error},
+                                       {"angular_velocity", "rad/s", &MotionAt::angular_velocity_error},
+                                       {"energy", "J", &MotionAt::energy_error}};
+
 const std::vector<StateQuantity>& quantities() {
   using M = MotionAt;
   using S = StateSizes;
@@ -82,7 +93,6 @@ std::vector<Column> state_columns() {
       {.name = "time", .heading = "t", .unit = "s", .meaning = "since the first impact"},
       {.name = "impacts", .heading = "n", .unit = "", .meaning = "impacts that have begun until then"},
       {.name = "touches", .heading = "", .unit = "", .meaning = "whether any of it is on the ground", .shown = false}};
-  std::vector<Column> errors;
   for (const StateQuantity& q : quantities()) {
     Column column{.name = q.name,
                   .heading = q.heading,
@@ -92,17 +102,8 @@ std::vector<Column> state_columns() {
     if (*q.list != '\0') column.key = q.list, column.listed = true;
     columns.push_back(column);
   }
-  for (const char* const name : {"position", "attitude", "velocity", "angular_velocity", "energy"}) {
-    const Column number{.name = name,
-                        .heading = "",
-                        .unit = std::string_view(name) == "attitude"   ? "rad"
-                                : std::string_view(name) == "position" ? "m"
-                                : std::string_view(name) == "velocity" ? "m/s"
-                                : std::string_view(name) == "energy"   ? "J"
-                                                                       : "rad/s",
-                        .meaning = fmt::format("{}", name)};
-    columns.push_back(error_column(number));
-  }
+  for (const StateError& error : state_errors)
+    columns.push_back(error_column({.name = error.name, .heading = "", .unit = error.unit}));
   columns.push_back({.name = "beside",
                      .heading = "",
                      .unit = "",
@@ -129,9 +130,8 @@ Grid state_grid(const Run& run, bool in_plane, int digits, const StateSizes& siz
       const double size = q.size ? sizes.*q.size : 1;
       row.push_back(known_cell({q.value(state), state.*q.error}, {.digits = digits, .size = size}));
     }
-    for (const double error : {state.position_error, state.attitude_error, state.velocity_error,
-                               state.angular_velocity_error, state.energy_error})
-      row.emplace_back(state.is_known && std::isfinite(error) ? Value(rounded_up(error)) : Value());
+    for (const StateError& error : state_errors)
+      row.emplace_back(state.is_known ? error_or_nothing({0, state.*error.value}) : Value());
     row.emplace_back(state.beside);
     grid.rows.push_back(std::move(row));
   }

@@ -17,13 +17,14 @@ namespace clatter::validation {
 /// @throws BadInput where there are more than a million
 [[nodiscard]] std::vector<double> state_times(const Scene& scene, double end);
 
-/// The states of a run in rows, with the errors of their numbers.
+/// What tables, CSV and JSON have of a state.
 [[nodiscard]] std::vector<Column> state_columns();
-/// @param in_plane  the columns of motion out of the plane are left out of tables
-/// @param sizes  of lengths, speeds and rates, against which numbers count as zero
+/// Sizes against which numbers count as zero [m, m/s, rad/s, J].
 struct StateSizes {
   double length = 0, speed = 0, rate = 0, energy = 0;
 };
+/// The states of a run in rows, with the errors of their numbers.
+/// @param in_plane  tables leave out the motion out of the plane
 [[nodiscard]] Grid state_grid(const Run& run, bool in_plane, int digits, const StateSizes& sizes);
 /// Which states lie so near to an impact that errors decide on which side, and which are not known; empty: none.
 [[nodiscard]] std::vector<std::string> state_notes(const Run& run);

@@ -70,6 +70,8 @@ struct Body {
   /// All of it lies in the plane y = 0, as a thin rod's ends and the outline of a body that moves in that plane: two
   /// points of it on the ground are all on which it can lie.
   [[nodiscard]] bool is_flat() const;
+  /// Whether it lies on the ground where so many corners of it stay there.
+  [[nodiscard]] bool lies_on(std::size_t corners) const { return corners >= 3 || (corners == 2 && is_flat()); }
   /// A sphere about its centre of mass: no turn moves its lowest point.
   [[nodiscard]] bool is_centred_sphere() const;
   /// The same with equal moments of inertia: its attitude does not matter at all.

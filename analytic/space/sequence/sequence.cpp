@@ -329,10 +329,6 @@ class Run : public SequenceLoop<Sequence, ErrorGrowth> {
 
   // States at the times that are asked for.
 
-  [[nodiscard]] bool awaits(double until) const {
-    return next_time_ < options_.times.size() && options_.times[next_time_] < until;
-  }
-
   /// @param height  bound on the error of the height, which the way along the ground adds to
   /// @param is_level  whether the body lies on a face or its ends
   void note(const std::optional<State>& state, bool touches, const StateErrors& error, double height,
@@ -397,10 +393,10 @@ class Run : public SequenceLoop<Sequence, ErrorGrowth> {
     const GroundedMotion motion(drop_, state_, lying_);
     result_.last_motion = motion.summary();
     if (result_.last_motion) result_.last_motion->begin = time_;
-    const StateErrors error = end_errors_;
+    const StateErrors& error = end_errors_;
     while (awaits(infinite)) {
+      // Before time_ a sum stands for hops that are rounding of the heights.
       const double after = std::fmax(options_.times[next_time_] - time_, 0.0);
-      // A sum stands for hops that are rounding of the heights.
       const auto there = motion.summary() ? motion.at(after) : std::nullopt;
       StateErrors then = error;
       const double slowing = drop_.law.law.most_friction() * drop_.gravity + std::fabs(drop_.gravity_along);
@@ -440,8 +436,7 @@ class Run : public SequenceLoop<Sequence, ErrorGrowth> {
       state_.angular_velocity.setZero();
     }
     result_.standing = {};
-    rest(false, slides(state_) || state_.angular_velocity.z() != 0,
-         result_.tail || !contact.tail ? result_.message : "bouncing and rocking have ended", "");
+    rest(false, slides(state_) || state_.angular_velocity.z() != 0, "bouncing and rocking have ended", "");
     return Next::end;
   }
 
@@ -461,9 +456,10 @@ class Run : public SequenceLoop<Sequence, ErrorGrowth> {
     const Vector3& place = corner.place;
     now.position.z() = -(now.attitude * place).z();
     if (growth_) {
-      const StateErrors before = growth_->bounds();
+      const bool is_asked = awaits(infinite);
+      const StateErrors before = is_asked ? growth_->bounds() : StateErrors{};
       growth_->fly(flight, flown, from, place);
-      note_way(flown.time, flight.start(), before, growth_->bounds());
+      if (is_asked) note_way(flown.time, flight.start(), before, growth_->bounds());
     }
     state_ = now;
     time_ += flown.time;
@@ -518,11 +514,6 @@ class Run : public SequenceLoop<Sequence, ErrorGrowth> {
     return may_accumulate(drop_.law.law) && drop_.gravity > 0 && (rattled_end() || extrapolated_end());
   }
 
-  /// Whether a body that stays on these corners lies.
-  [[nodiscard]] bool is_face(const std::vector<int>& corners) const {
-    return corners.size() >= (body_.is_flat() ? 2 : 3);
-  }
-
   /// Whether corners beside others that stay have come down often enough to tell how that ends.
   bool rattled_end() {
     const ImpactRow& last = result_.rows.back();
@@ -532,7 +523,7 @@ class Run : public SequenceLoop<Sequence, ErrorGrowth> {
     auto tail = rattling_.extrapolate(drop_, {std::pow(10.0, -options_.digits), resolution});
     if (!tail || !undisturbed(drop_, state_, *tail) || !keeps_slipping(drop_, last, *tail)) return false;
     const double turned = tail->end_time * state_.angular_velocity.norm();
-    if (!is_face(tail->corners) && turned > most_turn) return false;
+    if (!body_.lies_on(tail->corners.size()) && turned > most_turn) return false;
     if (is_watched(time_ + tail->end_time) && !is_rounding(tail->end_time)) return false;
     rattling_.forget();
     tail->end_time += time_;
@@ -550,7 +541,7 @@ class Run : public SequenceLoop<Sequence, ErrorGrowth> {
     const bool vanishes = tail->end_time <= std::fmax(unknown, 4 * epsilon * time_);
     // What follows the hops begins from the attitude at their end, which is known to first order in what is left.
     const double turned = tail->end_time * state_.angular_velocity.norm();
-    if (options_.until_rest && !vanishes && !is_face(tail->corners) && turned > least_turn) return false;
+    if (options_.until_rest && !vanishes && !body_.lies_on(tail->corners.size()) && turned > least_turn) return false;
     if (!vanishes && (!keeps_slipping(drop_, last, *tail) || is_watched(time_ + tail->end_time))) return false;
     end_state(drop_, last, accumulation_.lever(*tail), *tail);
     tail->end_time += time_;
@@ -605,8 +596,9 @@ class Run : public SequenceLoop<Sequence, ErrorGrowth> {
     end_errors_ = errors_after(tail);
     way_error_ += (tail.end_time - time_) * (end_errors_.velocity + (end.velocity - state_.velocity).head<2>().norm());
     state_ = end;
-    if (!result_.rest || is_face(tail.corners)) lying_ = result_.rest ? result_.rest->corners : tail.corners;
-    if (is_face(tail.corners)) {
+    if (!result_.rest || body_.lies_on(tail.corners.size()))
+      lying_ = result_.rest ? result_.rest->corners : tail.corners;
+    if (body_.lies_on(tail.corners.size())) {
       state_.velocity.z() = 0;
       state_.angular_velocity.head<2>().setZero();
     }
@@ -617,7 +609,7 @@ class Run : public SequenceLoop<Sequence, ErrorGrowth> {
 
   /// Whether the end is asked for and can be told of a body that has to settle on a face, but has not yet.
   [[nodiscard]] bool is_followed_down(const Tail& tail) const {
-    return options_.until_rest && !is_face(tail.corners) && can_follow(drop_, tail.corners) && growth_ &&
+    return options_.until_rest && !body_.lies_on(tail.corners.size()) && can_follow(drop_, tail.corners) && growth_ &&
            growth_->predictable();
   }
 
