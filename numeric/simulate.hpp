@@ -8,6 +8,7 @@
 #include "numeric/body/body.hpp"
 #include "numeric/drop/impact_record.hpp"
 #include "numeric/drop/settings.hpp"
+#include "numeric/drop/state_record.hpp"
 #include "numeric/motion/motion_state.hpp"
 #include "numeric/motion/start.hpp"
 
@@ -24,11 +25,14 @@ struct Simulation {
   long root_evaluations = 0;                          ///< of touch-down searches
   double energy_start = 0;                            ///< at the first touch-down [J]
   MotionState final_state;                            ///< at the end of the last listed impact
+  std::vector<StateRecord> states;                    ///< at Request::times
+  long state_evaluations = 0;                         ///< of contact forces, for those and for pieces of history
   [[nodiscard]] double total_normal_impulse() const;  ///< [N·s]
 };
 
 /// Runs the drop from the state `start`, whose lowest vertex lies at or above the ground.
-/// @throws std::domain_error if world, request or accuracy are not valid or the start lies below the ground.
+/// @throws std::domain_error if world, request or accuracy are not valid, the start lies below the ground or a time
+/// before the start.
 [[nodiscard]] Simulation simulate(const Body& body, const World& world, const MotionState& start,
                                   const Request& request = {}, const Accuracy& accuracy = {},
                                   const Observer& observer = {});

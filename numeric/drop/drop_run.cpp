@@ -11,6 +11,7 @@
 
 #include "numeric/drop/error_growth.hpp"
 #include "numeric/drop/history_pieces.hpp"
+#include "numeric/drop/state_notes.hpp"
 #include "numeric/motion/free_flight.hpp"
 #include "numeric/stepping/contact_run.hpp"
 
@@ -152,15 +153,6 @@ void note_angles(const MotionState& touch, ImpactNumbers& numbers) {
   numbers.contact_angle = std::atan2(std::fabs(axis.z()), along);
 }
 
-/// The state without what rounding has put out of the plane.
-MotionState in_plane(const MotionState& state) {
-  MotionState flat = state;
-  const Vector3 north = state.attitude.conjugate() * Vector3::UnitY();
-  flat.velocity.y() = 0;
-  flat.angular_velocity = north * north.dot(state.angular_velocity);
-  return flat;
-}
-
 class Run {
  public:
   Run(const Body& body, const World& world, const MotionState& start, const Request& request,
@@ -171,7 +163,7 @@ class Run {
         contact_(system_, *stepper_), rough_stepper_(make_stepper(Method::rkck)),
         rough_contact_(system_, *rough_stepper_), state_(world.planar ? in_plane(start) : start),
         growth_(body, start, gravity_, world.planar), history_(body, gravity_, observer.history),
-        pieces_(body, world.planar, observer.history) {
+        pieces_(body, world.planar, observer.history), notes_(body, gravity_, world.planar, request.times) {
     control_.steps = integration.steps;
     control_.evaluation_limit = integration.evaluation_limit;
     control_.estimate_local_slip =
@@ -179,9 +171,10 @@ class Run {
         world.ground.has_friction() && world.ground.friction == FrictionLaw::coulomb;
     control_.least_local_slip = request.local_slip ? 0 : integration.least_local_slip;
     control_.point_friction = world.point_friction;
-    if (observer.history || observer.progress) {
+    if (observer.history || observer.progress || std::isfinite(request.until)) {
       observe_ = [this](const ContactInstant& at) { return observe(at); };
     }
+    steps_.at_time = [this](std::size_t, const ContactInstant* at) { notes_.contact(system_, at); };
     if (!pieces_.is_wanted()) return;
     for (int j = 0; j < piece_points; ++j) steps_.parts.push_back(piece_point(j));
     steps_.show = [this](std::span<const ContactInstant> step) {
@@ -192,8 +185,10 @@ class Run {
   DropRun run() {
     while (fall() && strike()) continue;
     result_.force_evaluations = system_.evaluations();
+    result_.state_evaluations = system_.evaluations_aside();
     result_.final_state = state_;
     result_.end_time = time_;
+    result_.states = notes_.take();
     return std::move(result_);
   }
 
@@ -209,16 +204,23 @@ class Run {
     const TouchDown down = next_touch_down(body_, flight);
     result_.root_evaluations += down.evaluations;
     assert(down.time >= 0);
-    if (down.kind == TouchDown::Kind::undecided) return end(Outcome::flight_undecided);
-    if (down.kind == TouchDown::Kind::never) return end(Outcome::no_further_impact);
-    if (static_cast<int>(result_.impacts.size()) == request_.impacts) return end(Outcome::impact_limit);
-    const bool first = result_.impacts.empty();
+    const bool first = result_.impacts.empty(), touches = down.kind == TouchDown::Kind::touch;
+    if (first && touches) result_.start_time = time_ = -down.time;
+    if (first && notes_.begin_before(time_)) return end(Outcome::interrupted);
+    const bool is_endless = down.kind == TouchDown::Kind::never;
+    notes_.flight(flight, time_, is_endless ? std::numeric_limits<double>::infinity() : down.time,
+                  request_.amplification && !first ? &growth_ : nullptr);
+    if (is_endless) return end(Outcome::no_further_impact);
+    const bool has_enough = static_cast<int>(result_.impacts.size()) >= request_.impacts;
+    if (touches && has_enough && notes_.are_complete()) return end(Outcome::impact_limit);
+    if (time_ + down.time > request_.until) return end(Outcome::time_limit);
+    if (!touches) return end(Outcome::flight_undecided);
     if (!first) {
       history_.flight(flight, time_, down.time);
       pieces_.flight(flight, static_cast<int>(result_.impacts.size()), time_, down.time);
       if (request_.amplification) growth_.fly(state_, down.time);
-      time_ += down.time;
     }
+    time_ = first ? 0 : time_ + down.time;
     const double fallen = std::fabs(state_.velocity.z()) * down.time + gravity_.down / 2 * down.time * down.time;
     placement_ = first ? 0 : std::numeric_limits<double>::epsilon() * fallen;
     state_ = flight.at(down.time);
@@ -229,20 +231,29 @@ class Run {
   /// The contact; false if it did not end in a lift-off.
   bool strike() {
     const Vector3 point = touch_point(body_, state_);
+    notes_.open_contact(time_, request_.amplification ? &growth_ : nullptr, steps_.times);
     const ContactResult contact = contact_.run(state_, point, control_, observe_, steps_);
     result_.step = contact.step;
+    result_.impact_goes_on = true;
+    if (time_ + contact.duration > request_.until) return end(Outcome::time_limit);
     const bool lifts = contact.ending == ContactEnding::lift_off;
     if (!lifts && contact.ending != ContactEnding::at_rest && contact.ending != ContactEnding::sustained_contact) {
       return end(outcome_of(contact.ending));
     }
     assert(contact.duration > 0 && contact.touches >= 1);
-    if (!(contact.scales.depth > least_depth * placement_)) return end(Outcome::not_representable);
+    if (!(contact.scales.depth > least_depth * placement_)) {
+      notes_.forget_contact();
+      return end(Outcome::not_representable);
+    }
+    result_.impact_goes_on = false;
     result_.impacts.push_back(record(contact, point));
     if (request_.amplification) note_growth(contact);
+    notes_.close_contact(result_.impacts.back().amplification);
     if (integration_.next_tolerance) control_.steps.tolerance = integration_.next_tolerance(result_.impacts.back());
     if (observer_.impact && !observer_.impact(result_.impacts.back())) return end(Outcome::interrupted);
     state_ = world_.planar ? in_plane(contact.after) : contact.after;
     time_ += contact.duration;
+    if (contact.goes_on) notes_.ground(*contact.goes_on, time_);
     return lifts || end(outcome_of(contact.ending));
   }
 
@@ -292,6 +303,7 @@ class Run {
 
   bool observe(const ContactInstant& at) {
     history_.contact(system_, at, time_);
+    if (time_ + at.time > request_.until) return false;
     if (!observer_.progress || ++observed_ % 64 != 0) return true;
     return observer_.progress(static_cast<int>(result_.impacts.size()), system_.evaluations());
   }
@@ -313,7 +325,8 @@ class Run {
   ErrorGrowth growth_;
   HistoryWriter history_;
   PieceWriter pieces_;
-  StepObserver steps_;  ///< shows the steps to pieces_, if they are wanted
+  StateNotes notes_;
+  StepObserver steps_;  ///< shows the steps to pieces_, if they are wanted, and instants to notes_
   double time_ = 0;
   double placement_ = 0;  ///< rounding error of the height at the touch-down, from the flight's length [m]
   long observed_ = 0;
@@ -323,12 +336,6 @@ class Run {
 }  // namespace
 
 double piece_point(int j) { return (1 - std::cos(std::numbers::pi * j / (piece_points - 1))) / 2; }
-
-double mechanical_energy(const Body& body, const MotionState& state, const Gravity& gravity) {
-  const Vector3& omega = state.angular_velocity;
-  return 0.5 * body.mass() * state.velocity.squaredNorm() + 0.5 * omega.dot(body.inertia() * omega) +
-         gravity.potential(body.mass(), state.centre);
-}
 
 DropRun run_drop(const Body& body, const World& world, const MotionState& start, const Request& request,
                  const Integration& integration, const Observer& observer) {

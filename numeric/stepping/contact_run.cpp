@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "numeric/stepping/steady_motion.hpp"
+
 namespace clatter::numeric {
 namespace {
 
@@ -53,56 +55,8 @@ ContactScales contact_scales(ContactSystem& system, const MotionState& touch, co
   return scales;
 }
 
-/// Part of the speed and acceleration of a fall below which a body lies still, and how many times the tolerance the
-/// errors of steps keep up, so that a rough run ends too.
-constexpr double least_rest = 1e-6, largest_rest = 1e-5, noise_per_tolerance = 300;
-
-/// Whether the body slides down a slope that friction cannot hold it on, ever faster.
-bool slides_down(const ContactSystem& system, const ContactInstant& at) {
-  const double along = system.gravity_along();
-  return std::fabs(along) > system.ground().sliding_friction * system.gravity() && velocity(at.state).x() * along > 0;
-}
-
-/// Acceleration along the ground that lasts for ever.
-Vector3 sliding_acceleration(const ContactSystem& system, const ContactInstant& at) {
-  if (!slides_down(system, at)) return Vector3::Zero();
-  const double along = system.gravity_along();
-  return {along - std::copysign(system.ground().sliding_friction * system.gravity(), along), 0, 0};
-}
-
-bool is_steady(const ContactSystem& system, const ContactInstant& at, double kept_up) {
-  const double g = system.gravity();
-  const double depth = at.diagnosis.load.deepest;
-  if (!(g > 0) || !(depth > 0)) return false;
-  const double radius = system.body().radius(), fall = std::sqrt(g * depth);
-  const double part = std::clamp(kept_up / fall, least_rest, largest_rest);
-  const double turning = angular_velocity(at.state).norm(), spin = at.diagnosis.spin;
-  const double tipping = std::sqrt(std::max(turning * turning - spin * spin, 0.0));
-  return std::fabs(velocity(at.state).z()) <= part * fall &&
-         radius * tipping <= part * fall + 1e-7 * radius * turning &&
-         (velocity(at.rate) - sliding_acceleration(system, at)).norm() <= part * g &&
-         radius * angular_velocity(at.rate).norm() <= part * g;
-}
-
-/// Sliding without friction or down a slope, or spinning about the pressure centre of a patch that counts as a point.
-bool goes_on_for_ever(const ContactSystem& system, const ContactInstant& at) {
-  return slides_down(system, at) || system.ground().sliding_friction == 0 ||
-         (system.phase().kind == FrictionPhase::Kind::stick && system.phase().point);
-}
-
-/// At rest, or in a steady motion that no friction will ever stop; nothing where the contact goes on.  A motion is
-/// steady if only sliding along the ground and spinning about the vertical are left, neither with an acceleration but a
-/// slope's: to a millionth of what a fall into this contact would have, or to `kept_up` [m/s].
-std::optional<ContactEnding> ending_on_the_ground(const ContactSystem& system, const ContactInstant& at,
-                                                  double kept_up) {
-  if (!is_steady(system, at, kept_up)) return std::nullopt;
-  const double speed = least_rest * std::sqrt(system.gravity() * at.diagnosis.load.deepest);
-  const double sliding = std::hypot(velocity(at.state).x(), velocity(at.state).y());
-  const double turning = system.body().radius() * std::fabs(at.diagnosis.spin);
-  if (sliding <= speed && turning <= speed) return ContactEnding::at_rest;
-  if (goes_on_for_ever(system, at)) return ContactEnding::sustained_contact;
-  return std::nullopt;
-}
+/// How many times the tolerance the errors of steps keep up, so that a rough run ends too.
+constexpr double noise_per_tolerance = 300;
 
 }  // namespace
 
@@ -142,6 +96,7 @@ void ContactRun::begin(const MotionState& touch, const Vector3& point) {
   local_slip_.begin(control_->least_local_slip * scales.energy / scales.depth);
   touches_.begin(point);
   switches_ = 0;
+  next_time_ = 0;
   now_.time = 0;
   now_.state = system_.initial();
   friction_.begin(touch, point, scales,
@@ -169,7 +124,11 @@ std::optional<ContactEnding> ContactRun::advance() {
   if (!lifts) friction_.choose_local_slip(now_);
   const bool goes_on = !*observer_ || (*observer_)(now_);
   if (lifts) return ContactEnding::lift_off;
-  if (const auto ending = ending_on_the_ground(system_, now_, kept_up_speed())) return ending;
+  result_.goes_on = motion_on_the_ground(system_, now_, kept_up_speed());
+  if (result_.goes_on) {
+    const bool rests = result_.goes_on->kind == GroundMotionKind::rests;
+    return rests ? ContactEnding::at_rest : ContactEnding::sustained_contact;
+  }
   if (!goes_on) return ContactEnding::interrupted;
   return std::nullopt;
 }
@@ -209,6 +168,7 @@ void ContactRun::accept(const ContactInstant& next) {
   if (peak && *observer_) (*observer_)(*peak);
   deepest_.look(now_, next);
   if (shown_->show) show_step(next);
+  if (next_time_ < shown_->times.size()) show_times(next);
   now_ = next;
   friction_.follow(now_);
 }
@@ -225,6 +185,16 @@ void ContactRun::show_step(const ContactInstant& next) {
     if (!step_.take(now_, shown_->parts[i] * h, inside_[i])) return;
   }
   shown_->show(inside_);
+}
+
+void ContactRun::show_times(const ContactInstant& next) {
+  const long evaluations = system_.evaluations();
+  for (; next_time_ < shown_->times.size() && shown_->times[next_time_] < next.time; ++next_time_) {
+    const double h = shown_->times[next_time_] - now_.time;
+    const bool is_number = !(h > 0) || step_.take(now_, h, aside_);
+    shown_->at_time(next_time_, !is_number ? nullptr : h > 0 ? &aside_ : &now_);
+  }
+  system_.set_aside(system_.evaluations() - evaluations);
 }
 
 void ContactRun::collect() {

@@ -57,6 +57,7 @@ const char* outcome_name(Outcome outcome) {
     case Outcome::not_representable: return "not-representable";
     case Outcome::flight_undecided: return "flight-undecided";
     case Outcome::interrupted: return "interrupted";
+    case Outcome::time_limit: return "time-limit";
   }
   return "";
 }
@@ -75,6 +76,7 @@ bool is_cut_short(Outcome outcome) {
     case Outcome::impact_limit:
     case Outcome::at_rest:
     case Outcome::sustained_contact:
+    case Outcome::time_limit:
     case Outcome::interrupted: return false;
   }
   return false;
