@@ -92,7 +92,8 @@ void add_rounding(const Body& body, const ImpactRecord& row, ImpactNumbers& erro
   add(error.approach_speed, n.velocity_after.norm() + body.radius() * n.angular_velocity_after.norm());
   // Heights are known to the rounding of the body's size, and touch-down and lift-off to that over the speed.
   const double separation = n.approach_speed * (n.restitution > 0 ? std::min(n.restitution, 1.0) : 1);
-  add(error.duration, body.radius() / separation);
+  // A body that began in the ground, or let down on it without a speed, has not come by.
+  if (n.approach_speed > 0) add(error.duration, body.radius() / separation);
   add(error.indentation, body.radius());
   if (n.start > 0) add(error.start, body.radius() / n.approach_speed);
   // The time of a flat maximum is known to the root of what its height is known to.
@@ -133,7 +134,9 @@ TimeErrors time_errors(const StateRecord& at, std::span<const ImpactRecord> impa
   const auto look = [&](std::size_t i) {
     if (i >= impacts.size()) return;
     const ImpactNumbers &row = impacts[i].value, &error = impacts[i].error;
-    const double begin = error.start, end = error.start + error.duration;
+    // A body that stays on the ground leaves it with no change.
+    const bool lifts = impacts[i].energy_stored == 0;
+    const double begin = error.start, end = lifts ? error.start + error.duration : 0;
     const double from_begin = std::fabs(at.time - row.start), from_end = std::fabs(at.time - row.start - row.duration);
     const double beside = !(from_begin > begin) ? begin : !(from_end > end) ? end : 0;
     if (beside > errors.beside) errors = {beside, &impacts[i]};

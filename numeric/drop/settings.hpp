@@ -54,6 +54,9 @@ struct Request {
   /// Times of Simulation::states, ascending, not before the start nor after `until` [s after the first touch-down]. The
   /// run goes on past `impacts` until the last of them.
   std::vector<double> times = {};
+  /// Whether the lowest point of the start may lie below the ground, which then presses from the beginning: times count
+  /// from the start, and the body is in its first impact.  One that rests there has none.
+  bool starts_on_ground = false;
   /// When the run ends at the latest [s after the first touch-down], >= 0; infinite: never.
   double until = std::numeric_limits<double>::infinity();
 

@@ -7,6 +7,8 @@
 namespace clatter::numeric {
 namespace {
 
+constexpr double decay_doubt = 0.1;
+
 void forget(StateRecord& record) {
   record.known = false;
   const double nan = std::numeric_limits<double>::quiet_NaN();
@@ -87,16 +89,36 @@ void StateNotes::forget_contact() {
 
 void StateNotes::ground(const GroundMotion& motion, double origin) {
   while (!are_complete()) {
-    StateRecord& record = note(motion.at(std::max(records_[next_].time - origin, 0.0)));
+    const double time = std::max(records_[next_].time - origin, 0.0);
+    const bool rests = !(time < motion.stops_after);
+    StateRecord& record = note(motion.at(time));
     record.in_contact = true;
-    record.force = motion.force;
-    record.energy_stored = motion.energy_stored;
-    record.error = {.position = motion.left_speed * motion.left_time,
-                    .angle = motion.left_turning * motion.left_time,
-                    .velocity = motion.left_speed,
-                    .angular_velocity = motion.left_turning,
-                    .energy = motion.force.norm() * motion.left_speed * motion.left_time};
+    record.force = rests ? motion.rest_force : motion.force;
+    record.energy_stored = rests ? motion.rest.energy_stored : motion.energy_stored;
+    // That a motion dies away in proportion to its speed is right to some per cent.
+    const double slowed = decay_doubt * (motion.from.velocity.norm() * -std::expm1(-motion.decay * time));
+    const double turned =
+        decay_doubt * (motion.from.angular_velocity.norm() * -std::expm1(-motion.turning_decay * time));
+    if (rests && motion.stops_after > 0) {
+      record.error = {.position = motion.left_speed * motion.left_time,
+                      .angle = 0,
+                      .velocity = 0,
+                      .angular_velocity = 0,
+                      .energy = 0};
+      continue;
+    }
+    record.error = {.position = motion.left_speed * motion.left_time + slowed * time,
+                    .angle = motion.left_turning * motion.left_time + turned * time,
+                    .velocity = motion.left_speed + slowed,
+                    .angular_velocity = motion.left_turning + turned,
+                    .energy = motion.force.norm() * motion.left_speed * motion.left_time +
+                              body_.mass() * record.state.velocity.norm() * (motion.left_speed + slowed)};
   }
+}
+
+void StateNotes::ground_from_the_start(const GroundMotion& motion) {
+  impacts_ = 0;
+  ground(motion, 0);
 }
 
 }  // namespace clatter::numeric

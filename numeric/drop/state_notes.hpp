@@ -34,6 +34,8 @@ class StateNotes {
   void forget_contact();
   /// All that is left, of a motion on the ground that began at `origin`.
   void ground(const GroundMotion& motion, double origin);
+  /// The same of a body that lay on the ground like that from the beginning, without an impact.
+  void ground_from_the_start(const GroundMotion& motion);
 
   [[nodiscard]] std::vector<StateRecord> take() { return std::move(records_); }
 

@@ -25,18 +25,20 @@ double effective_mass(const Body& body, const MotionState& touch, const Vector3&
 /// From the depth to which the body, pushed straight down at its touch-down attitude, takes up the energy that its
 /// touching point `point` (body frame) brings:
 ///     (1 + c_G v/k_G) U(depth) = ½ m_eff v² + m g depth.
-/// `system` has begun with `touch`.  Not finite if there is no such depth.
-ContactScales contact_scales(ContactSystem& system, const MotionState& touch, const Vector3& point) {
+/// `system` has begun with `touch`.  Not finite if there is no such depth.  A body that is pressed has its depth and
+/// its springs' energy already.
+ContactScales contact_scales(ContactSystem& system, const MotionState& touch, const Vector3& point, bool is_pressed) {
   const Body& body = system.body();
   const double g = system.gravity();
   const double fall = -(touch.velocity + touch.attitude * touch.angular_velocity.cross(point)).z();
-  const double speed = std::max(fall, 0.0);
+  const double speed = is_pressed ? std::fabs(fall) : std::max(fall, 0.0);
+  const ContactLoad begun = is_pressed ? system.pressed(0) : ContactLoad{};
   const double kinetic = 0.5 * effective_mass(body, touch, point) * speed * speed;
   const Ground& ground = system.ground();
   const double stiffening =
       1 + (ground.has_dissipation() ? ground.dissipation * speed : ground.damping * speed / ground.stiffness);
   const auto takes_it_up = [&](double depth) {
-    return stiffening * system.pressed(depth).energy >= kinetic + body.mass() * g * depth;
+    return stiffening * (system.pressed(depth).energy - begun.energy) >= kinetic + body.mass() * g * depth;
   };
   double high = 1e-4 * body.radius();
   while (!takes_it_up(high) && high < 1e150 * body.radius()) high *= 4;
@@ -48,10 +50,11 @@ ContactScales contact_scales(ContactSystem& system, const MotionState& touch, co
     (takes_it_up(middle) ? high : low) = middle;
   }
   ContactScales scales;
+  high += begun.deepest;
   scales.depth = high;
-  scales.speed = std::sqrt(speed * speed + 2 * g * high);
+  scales.speed = std::sqrt(speed * speed + 2 * g * high + 2 * begun.energy / body.mass());
   scales.time = scales.speed > 0 ? 3 * high / scales.speed : std::numeric_limits<double>::infinity();
-  scales.energy = kinetic + body.mass() * g * high;
+  scales.energy = kinetic + body.mass() * g * high + begun.energy;
   return scales;
 }
 
@@ -71,7 +74,7 @@ ContactResult ContactRun::run(const MotionState& touch, const Vector3& point, co
   shown_ = &steps;
   system_.begin(touch);
   result_ = {};
-  result_.scales = contact_scales(system_, touch, point);
+  result_.scales = contact_scales(system_, touch, point, control.is_pressed);
   if (!std::isfinite(result_.scales.time) || !(result_.scales.depth > least_depth_seen * system_.body().radius())) {
     result_.ending = ContactEnding::not_representable;
     return result_;
@@ -81,6 +84,7 @@ ContactResult ContactRun::run(const MotionState& touch, const Vector3& point, co
   if (observer && !observer(now_)) return result_;
   result_.step = steps_.fixed();
   std::optional<ContactEnding> ending;
+  if (control.is_pressed) ending = ending_on_the_ground();
   while (!ending) ending = advance();
   result_.ending = *ending;
   collect();
@@ -102,9 +106,13 @@ void ContactRun::begin(const MotionState& touch, const Vector3& point) {
   friction_.begin(touch, point, scales,
                   {.tolerance = control_->steps.tolerance,
                    .fixed_step = steps_.fixed(),
-                   .point_friction = control_->point_friction},
+                   .point_friction = control_->point_friction,
+                   .is_pressed = control_->is_pressed},
                   now_);
   now_.diagnosis = system_.diagnose(now_.state, now_.rate);
+  if (!control_->is_pressed) return;
+  peak_.begin(now_.diagnosis.load.force);
+  deepest_.begin(now_.diagnosis.load.deepest);
 }
 
 /// One accepted step, cut short where an event lies in it; the ending if that ends the contact.
@@ -124,13 +132,16 @@ std::optional<ContactEnding> ContactRun::advance() {
   if (!lifts) friction_.choose_local_slip(now_);
   const bool goes_on = !*observer_ || (*observer_)(now_);
   if (lifts) return ContactEnding::lift_off;
-  result_.goes_on = motion_on_the_ground(system_, now_, kept_up_speed());
-  if (result_.goes_on) {
-    const bool rests = result_.goes_on->kind == GroundMotionKind::rests;
-    return rests ? ContactEnding::at_rest : ContactEnding::sustained_contact;
-  }
+  if (const auto ending = ending_on_the_ground()) return ending;
   if (!goes_on) return ContactEnding::interrupted;
   return std::nullopt;
+}
+
+std::optional<ContactEnding> ContactRun::ending_on_the_ground() {
+  result_.goes_on = motion_on_the_ground(system_, now_, kept_up_speed());
+  if (!result_.goes_on) return std::nullopt;
+  const bool rests = result_.goes_on->kind == GroundMotionKind::rests;
+  return rests ? ContactEnding::at_rest : ContactEnding::sustained_contact;
 }
 
 /// Speed that the errors of steps keep up in a body that ought to lie still [m/s].
@@ -211,6 +222,23 @@ void ContactRun::collect() {
   result_.local_slip = local_slip_.impulse();
   result_.touches = std::max(touches_.touches(), 1);
   result_.end = contact_end(touches_.touched_a(), touches_.touched_b());
+  result_.goes_on_from = now_.time;
+  const std::optional<GroundMotion>& motion = result_.goes_on;
+  if (motion && motion->kind == GroundMotionKind::rests && motion->stops_after > 0) slide_to_rest(*motion);
+}
+
+/// Friction takes what the body moves with and falls by on its way, the dampers what its tilt sets free at the end.
+void ContactRun::slide_to_rest(const GroundMotion& motion) {
+  const double mass = system_.body().mass();
+  const MotionState end = motion.at(std::nextafter(motion.stops_after, 0.0));
+  const Vector3 way = end.centre - motion.from.centre, turned = end.centre - motion.rest.state.centre;
+  const double tipped = mass * (system_.gravity() * turned.z() - system_.gravity_along() * turned.x()) +
+                        motion.energy_stored - motion.rest.energy_stored;
+  result_.work_friction += mass * (motion.from.velocity.squaredNorm() / 2 + system_.gravity_along() * way.x());
+  result_.work_damping += std::max(tipped, 0.0);
+  result_.duration += motion.stops_after;
+  result_.after = motion.rest.state;
+  result_.energy_stored = motion.rest.energy_stored;
 }
 
 }  // namespace clatter::numeric

@@ -24,6 +24,7 @@ struct ContactControl {
   bool estimate_local_slip = false;  ///< see ContactResult::local_slip
   double least_local_slip = 0;       ///< part of the contact's mean force below which laws of friction count as equal
   bool point_friction = false;       ///< see World
+  bool is_pressed = false;           ///< whether the body begins in the ground, and not at it
 };
 
 /// Called after every accepted step, and before that with a peak of the force inside it; returns false to stop.
@@ -58,19 +59,22 @@ class ContactRun {
  public:
   ContactRun(ContactSystem& system, Stepper& stepper);
 
-  /// `touch` has its lowest vertices on the ground or in it, `point` (body frame) is their mean.
+  /// `touch` has its lowest vertices on the ground or in it, `point` (body frame) is their mean; of a body that is
+  /// pressed it is the pressure centre.
   [[nodiscard]] ContactResult run(const MotionState& touch, const Vector3& point, const ContactControl& control,
                                   const ContactObserver& observe = nullptr, const StepObserver& steps = {});
 
  private:
   void begin(const MotionState& touch, const Vector3& point);
   [[nodiscard]] std::optional<ContactEnding> advance();
+  [[nodiscard]] std::optional<ContactEnding> ending_on_the_ground();
   bool handle_friction_event(double h);
   void accept(const ContactInstant& next);
   void show_step(const ContactInstant& next);
   void show_times(const ContactInstant& next);
   [[nodiscard]] double kept_up_speed() const;
   void collect();
+  void slide_to_rest(const GroundMotion& motion);
 
   ContactSystem& system_;
   ContactStep step_;
