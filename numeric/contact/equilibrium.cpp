@@ -142,6 +142,9 @@ void descend(Resting& resting, Place& place, double weight, double radius, bool 
     resting.refer_to(pose);
     place = {height - resting.system().touch_down().centre.z(), 0, 0};
     resting.go(place);
+    if (resting.load().deepest > 0) continue;
+    place.x() = -depth_under(resting, weight, radius);
+    resting.go(place);
   }
 }
 

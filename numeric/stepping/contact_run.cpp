@@ -227,15 +227,18 @@ void ContactRun::collect() {
   if (motion && motion->kind == GroundMotionKind::rests && motion->stops_after > 0) slide_to_rest(*motion);
 }
 
-/// Friction takes what the body moves with and falls by on its way, the dampers what its tilt sets free at the end.
+/// Friction takes what the body moves with along the ground and falls by on its way, the dampers what is left of other
+/// motion and what its tilt sets free at the end.
 void ContactRun::slide_to_rest(const GroundMotion& motion) {
   const double mass = system_.body().mass();
+  const Vector3 v = velocity(now_.state), turning = angular_velocity(now_.state);
   const MotionState end = motion.at(std::nextafter(motion.stops_after, 0.0));
   const Vector3 way = end.centre - motion.from.centre, turned = end.centre - motion.rest.state.centre;
   const double tipped = mass * (system_.gravity() * turned.z() - system_.gravity_along() * turned.x()) +
                         motion.energy_stored - motion.rest.energy_stored;
-  result_.work_friction += mass * (motion.from.velocity.squaredNorm() / 2 + system_.gravity_along() * way.x());
-  result_.work_damping += std::max(tipped, 0.0);
+  result_.work_friction += mass * (v.head<2>().squaredNorm() / 2 + system_.gravity_along() * way.x());
+  result_.work_damping +=
+      std::max(tipped + mass * v.z() * v.z() / 2 + turning.dot(system_.body().inertia() * turning) / 2, 0.0);
   result_.duration += motion.stops_after;
   result_.after = motion.rest.state;
   result_.energy_stored = motion.rest.energy_stored;
