@@ -58,6 +58,7 @@ const char* outcome_name(Outcome outcome) {
     case Outcome::not_representable: return "not-representable";
     case Outcome::flight_undecided: return "flight-undecided";
     case Outcome::interrupted: return "interrupted";
+    case Outcome::time_limit: return "time-limit";
   }
   return "";
 }
@@ -76,6 +77,7 @@ bool is_cut_short(Outcome outcome) {
     case Outcome::impact_limit:
     case Outcome::at_rest:
     case Outcome::sustained_contact:
+    case Outcome::time_limit:
     case Outcome::interrupted: return false;
   }
   return false;
