@@ -179,6 +179,7 @@ Simulation simulate(const Body& body, const World& world, const MotionState& sta
   simulation.impacts = std::move(main.impacts);
   simulation.states = std::move(main.states);
   simulation.on_ground = main.on_ground;
+  simulation.on_ground_from = main.on_ground_from;
   if (simulation.outcome == Outcome::at_rest) simulation.rest = rest_of(main);
   simulation.message = words_for(simulation, request, accuracy, main);
   const bool wants_estimates = request.error_estimates && simulation.outcome != Outcome::interrupted;

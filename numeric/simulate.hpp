@@ -37,6 +37,7 @@ struct Simulation {
   MotionState final_state;                            ///< at the end of the last listed impact
   std::optional<Rest> rest;                           ///< of Outcome::at_rest
   std::optional<GroundMotion> on_ground;              ///< how it goes on, of that and of Outcome::sustained_contact
+  double on_ground_from = 0;                          ///< after the first touch-down [s]
   std::vector<StateRecord> states;                    ///< at Request::times
   long state_evaluations = 0;                         ///< of contact forces, for those and for pieces of history
   [[nodiscard]] double total_normal_impulse() const;  ///< [N·s]

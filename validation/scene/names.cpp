@@ -47,6 +47,17 @@ const char* outcome_name(analytic::Outcome outcome) {
   return "";
 }
 
+const char* outcome_name(const numeric::Simulation& run) {
+  if (run.outcome != Outcome::sustained_contact || !run.on_ground) return outcome_name(run.outcome);
+  switch (run.on_ground->kind) {
+    case numeric::GroundMotionKind::slides: return "slides-on";
+    case numeric::GroundMotionKind::spins: return "spins-on";
+    case numeric::GroundMotionKind::rolls: return "rolls-on";
+    case numeric::GroundMotionKind::rests: return "at-rest";
+  }
+  return "";
+}
+
 const char* outcome_name(Outcome outcome) {
   switch (outcome) {
     case Outcome::no_further_impact: return "no-further-impact";

@@ -166,7 +166,7 @@ struct Scene {
   numeric::World world;       ///< a ground of stiffness 0: none given, for the discrete model
   PadScene pad;               ///< what a ground with kinks was made of
   HalfSpaceScene half_space;  ///< what a ground with a modulus was made of
-  numeric::Request request;
+  numeric::Request request;   ///< with starts_on_ground the body lies still there, but for what drags and turns it
   numeric::Accuracy accuracy;
   bool until_rest = false;      ///< the discrete model goes on until nothing follows, whatever request.impacts is
   std::optional<double> until;  ///< no impact after this time since the first is followed [s]

@@ -351,7 +351,7 @@ std::vector<std::string> notes_of(const ShockRun& run, const ShockView& view) {
     for (const std::string& warning : run.continuous->planned.warnings) notes.push_back("!: warning: " + warning);
     const numeric::Simulation& simulation = run.continuous->planned.run;
     notes.push_back(other_law_remark(run.scene, simulation));
-    notes.push_back(fmt::format("{}: {}", outcome_name(simulation.outcome), simulation.message));
+    notes.push_back(fmt::format("{}: {}", outcome_name(simulation), simulation.message));
   } else if (run.discrete_run) {
     notes.push_back(fmt::format("{}: {}", run.discrete_run->outcome, run.discrete_run->message));
   }
@@ -389,7 +389,7 @@ Value envelopes_value(const ShockRun& run) {
 void add_outcome(const ShockRun& run, Report& report) {
   if (run.continuous) {
     const numeric::Simulation& simulation = run.continuous->planned.run;
-    report.fields["outcome"] = outcome_name(simulation.outcome);
+    report.fields["outcome"] = outcome_name(simulation);
     report.fields["message"] = simulation.message;
     report.fields["warnings"] = run.continuous->planned.warnings;
     const std::string facets = facet_words(run.scene, simulation);
