@@ -19,6 +19,8 @@ struct SequenceOptions {
   /// corners have stayed on the ground while the body turns (space/sequence/sustained_contact.hpp), and ends where the
   /// body has to settle on one face and no impact can be predicted any more.
   bool until_rest = false;
+  /// With until_rest, in space: ends as soon as the face is known on which the body must come to rest (Sequence::rest).
+  bool until_face = false;
   /// No impact after this time since the first is followed [s].
   double until = std::numeric_limits<double>::infinity();
   /// In space: ascending times since the first impact at which the state is wanted (Sequence::states), not before the

@@ -128,7 +128,7 @@ struct TimeErrors {
   const ImpactRecord* impact = nullptr;  ///< that one
 };
 
-/// Of the impact before the state, or that it is in, and the one after it.
+/// Errors of the impact before the state, or that it is in, and of the one after it.
 TimeErrors time_errors(const StateRecord& at, std::span<const ImpactRecord> impacts) {
   TimeErrors errors;
   const auto look = [&](std::size_t i) {

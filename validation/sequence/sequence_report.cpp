@@ -14,6 +14,7 @@
 #include "analytic/space/sequence/sustained_contact.hpp"
 #include "validation/output/number.hpp"
 #include "validation/run/impact_rows.hpp"
+#include "validation/run/rest_face.hpp"
 #include "validation/run/run.hpp"
 #include "validation/run/scene_value.hpp"
 #include "validation/run/shortfall.hpp"
@@ -321,8 +322,8 @@ void add_end(const Scene& scene, const space::Drop& drop, const space::Sequence&
   }
   if (!sequence.rest) return;
   const double latest = sequence.rest->latest;
-  fields["rest"] = Value::Fields{{"face", names_of(scene, drop.body, sequence.rest->corners)},
-                                 {"latest", std::isfinite(latest) ? Value(latest) : Value()}};
+  fields["rest"]["corners"] = names_of(scene, drop.body, sequence.rest->corners);
+  fields["rest"]["latest"] = std::isfinite(latest) ? Value(latest) : Value();
 }
 
 /// The fields behind the impacts.
@@ -444,6 +445,7 @@ Report SequenceRows::begun() const {
     report.fields["states"] = row_objects(*report.further);
   }
   add_results(scene, run, report.fields);
+  if (const auto rest = rest_face(scene, prepared_.drop, found_.sequence)) report.fields["rest"] = fields_of(*rest);
   if (const auto* const sequence = std::get_if<space::Sequence>(&found_.sequence))
     add_end(scene, std::get<space::Drop>(prepared_.drop), *sequence, report.fields);
   return report;

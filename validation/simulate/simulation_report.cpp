@@ -9,6 +9,7 @@
 #include "validation/output/number.hpp"
 #include "validation/run/discrete_scene.hpp"
 #include "validation/run/impact_rows.hpp"
+#include "validation/run/rest_face.hpp"
 #include "validation/run/run.hpp"
 #include "validation/run/scene_value.hpp"
 #include "validation/run/shortfall.hpp"
@@ -225,6 +226,7 @@ void add_results(const Scene& scene, const PlannedRun& planned, Value& fields) {
   fields["shortfall"] = shortfall_value(scene, planned);
   fields["energy_start"] = run.energy_start;
   if (planned.first_touch) fields["first_touch"] = fields_of(*planned.first_touch);
+  if (const auto rest = rest_face(scene, run)) fields["rest"] = fields_of(*rest);
   if (const std::optional<EndMotion> motion = run_of(run).end_motion) fields["end_motion"] = fields_of(*motion);
   fields["cost"] =
       Value::Fields{{"force_evaluations", run.force_evaluations}, {"root_evaluations", run.root_evaluations}};

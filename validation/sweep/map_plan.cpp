@@ -62,7 +62,7 @@ void read_count(const std::string& text, const MapRequest& request, MapPlan& pla
 void check_class(const std::string& text, const MapQuantity& quantity, const std::string& wanted) {
   using analytic::BatchEnd;
   const std::string name = quantity.name;
-  if (name == "last_end") return;  // bodies name their ends
+  if (name == "last_end" || name == "rest_face") return;  // bodies name their ends and faces
   std::vector<std::string> words{end_words(BatchEnd::refused), end_words(BatchEnd::outside),
                                  end_words(BatchEnd::not_computed)};
   if (name != "hardest") words.insert(words.begin(), end_words(BatchEnd::infinite));
@@ -161,6 +161,7 @@ const std::vector<MapQuantity>& map_quantities() {
       {"last_end", "end that strikes last", "", nullptr},
       {"hardest", "hardest impact", "", nullptr},
       {"outcome", "how the sequence ends", "", nullptr},
+      {"rest_face", "face on which it comes to lie", "", nullptr},
       {"ratio", "second normal impulse over the first", "",
        [](const Outcome& outcome) { return outcome.impulse[1] / outcome.impulse[0]; }},
       {"largest", "largest normal impulse", "N·s", [](const Outcome& outcome) { return outcome.largest; }},
@@ -253,8 +254,10 @@ MapPlan read_map_plan(const MapRequest& request) {
   });
   if (plan.counts()) plan.sweep.words.push_back(fmt::format("seed: {}", seed));
   const std::string name = plan.quantity->name;
-  plan.request = {.limit = is_capped(request) ? plan.sweep.scene.most_impacts() : uncapped_impacts,
-                  .only_counts = !is_capped(request) && (name == "impacts" || name == "outcome")};
+  if (plan.quantity->tells_rest()) plan.sweep.scene.until_rest = true;
+  plan.request = {
+      .limit = is_capped(request) || plan.quantity->tells_rest() ? plan.sweep.scene.most_impacts() : uncapped_impacts,
+      .only_counts = !is_capped(request) && (name == "impacts" || name == "outcome")};
   if (plan.wanted_count)
     plan.request = {.limit = *plan.wanted_count + (plan.wants_at_least() ? 0 : 1), .only_counts = true};
   check_hardest(plan);
@@ -269,7 +272,7 @@ using analytic::BatchOutcome;
 /// What a pixel's drop did, by the batch or by a run.
 struct PixelOutcome {
   BatchOutcome numbers;
-  std::string last_end;
+  std::string last_end, rest_face;
 };
 
 bool is_failure(BatchEnd end) {
@@ -287,6 +290,7 @@ std::string class_of(const MapQuantity& quantity, const PixelOutcome& outcome) {
   if (is_failure(numbers.end) || name == "outcome") return end_words(numbers.end);
   if (name == "impacts") return count_words(numbers);
   if (name == "hardest") return fmt::format("{}", numbers.hardest);
+  if (name == "rest_face") return outcome.rest_face.empty() ? "none" : outcome.rest_face;
   return outcome.last_end;
 }
 
@@ -344,7 +348,8 @@ class MapRunner {
   /// Takes a drop into the batch if it is one for it: frictionless or with an impulse ratio, and a constant e.
   bool join_batch(const DiscreteDrop& drop) {
     const auto* planar = std::get_if<analytic::Drop>(&drop);
-    if (!planar || planar->law.law == analytic::RestitutionLaw::viscoelastic || planar->gravity_along != 0)
+    if (!planar || plan_.quantity->tells_rest() || planar->law.law == analytic::RestitutionLaw::viscoelastic ||
+        planar->gravity_along != 0)
       return false;
     const bool no_slip = planar->law.friction_value == 0;
     const bool by_ratio = planar->law.friction == analytic::FrictionKind::impulse_ratio &&
@@ -374,7 +379,7 @@ class MapRunner {
     outcomes_.resize(batched_.size());
     analytic::run_batch(batch_, plan_.request, 0, outcomes_);
     for (std::size_t k = 0; k < batched_.size(); ++k) {
-      PixelOutcome outcome{outcomes_[k], {}};
+      PixelOutcome outcome{outcomes_[k], {}, {}};
       if (needs_end_) outcome.last_end = analytic::PlanarBody::vertex_set_name(outcomes_[k].last_vertices);
       take(batched_[k], outcome);
     }
@@ -386,12 +391,14 @@ class MapRunner {
     PixelOutcome outcome;
     const std::optional<Failure> failure =
         failure_of_scene([&] { outcome = std::visit([this](const auto& one) { return outcome_alone(one); }, drop); });
-    return failure ? PixelOutcome{{.end = end_of_failure(failure->kind)}, {}} : outcome;
+    return failure ? PixelOutcome{{.end = end_of_failure(failure->kind)}, {}, {}} : outcome;
   }
 
   template <class AnyDrop>
   PixelOutcome outcome_alone(const AnyDrop& drop) {
-    const auto sequence = impact_sequence(drop, {.impacts = plan_.request.limit});
+    const auto sequence = impact_sequence(
+        drop,
+        {.impacts = plan_.request.limit, .until_rest = scene_.until_rest, .until_face = plan_.quantity->tells_rest()});
     const Run run = named_run(scene_, sequence, body_->discrete->centre());
     const Impact& last = run.impacts.back();
     PixelOutcome outcome{{.impacts = static_cast<int>(run.impacts.size()),
@@ -399,7 +406,8 @@ class MapRunner {
                           .is_scalar = true,
                           .total = sequence.total_normal_impulse,
                           .last_start = last.value.start},
-                         last.corners.empty() ? last.end : last.corners};
+                         last.corners.empty() ? last.end : last.corners,
+                         {}};
     BatchOutcome& numbers = outcome.numbers;
     numbers.is_open = !sequence.end_predictable;
     numbers.impulse.fill(std::numeric_limits<double>::quiet_NaN());
@@ -411,6 +419,10 @@ class MapRunner {
       numbers.largest = normal;
       numbers.hardest = impact.n;
     }
+    if (!plan_.quantity->tells_rest()) return outcome;
+    const std::optional<RestFace> rest = rest_face(scene_, drop, sequence);
+    if (rest) outcome.rest_face = rest->face;
+    numbers.is_open = !rest || !rest->is_known;
     return outcome;
   }
 
@@ -418,7 +430,7 @@ class MapRunner {
   void add(std::size_t pixel) {
     BatchOutcome without;
     const std::optional<DiscreteDrop> drop = drop_of(without);
-    if (!drop) return take(pixel, {without, {}});
+    if (!drop) return take(pixel, {without, {}, {}});
     if (join_batch(*drop)) batched_.push_back(pixel);
     else take(pixel, run_alone(*drop));
   }
@@ -495,15 +507,6 @@ class MapRunner {
 };
 
 }  // namespace
-
-Wilson::Wilson(long long hits, long long samples) {
-  constexpr double z = 1.959963984540054;
-  const double n = static_cast<double>(samples);
-  part = static_cast<double>(hits) / n;
-  const double middle = part + z * z / (2 * n), spread = z * std::sqrt(part * (1 - part) / n + z * z / (4 * n * n));
-  low = hits == 0 ? 0 : (middle - spread) / (1 + z * z / n);
-  high = hits == samples ? 1 : (middle + spread) / (1 + z * z / n);
-}
 
 MakeCompute map_runners(const MapPlan& plan, const SweepBody& body, MapForm form) {
   return [&plan, &body, form](std::function<bool()> stop) -> ComputeRange {

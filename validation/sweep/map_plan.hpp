@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "analytic/batch/batch.hpp"
+#include "validation/sweep/summary.hpp"
 #include "validation/sweep/sweep_plan.hpp"
 #include "validation/sweep/sweep_run.hpp"
 
@@ -21,6 +22,8 @@ struct MapQuantity {
   double (*number)(const analytic::BatchOutcome&);
 
   [[nodiscard]] bool is_class() const { return !number; }
+  /// Whether drops are followed until they lie still, as with run.until_rest.
+  [[nodiscard]] bool tells_rest() const { return std::string_view(name) == "rest_face"; }
 };
 [[nodiscard]] const std::vector<MapQuantity>& map_quantities();
 
@@ -79,14 +82,6 @@ enum class MapForm { csv, compact };
 struct MapPixel {
   std::string value;
   bool is_open = false;  ///< marked by a star in the compact form
-};
-
-/// The interval in which the probability lies with 95 %, from `hits` of `samples`.  Source: Wilson, J. Am. Stat. Assoc.
-/// 22 (1927) 209.
-struct Wilson {
-  double part, low, high;
-
-  Wilson(long long hits, long long samples);
 };
 
 /// A runner of rows of the map for each thread; a row is one "scene" of the queue.

@@ -102,6 +102,12 @@ std::vector<Column> scene_columns(const RowLayout& layout) {
   };
   for_each_number(layout.model, [&](const SceneNumber& n) { add({n.name, n.name, n.unit, n.meaning}); });
   columns.push_back({"predictable", "predictable", "", "whether each impact can be predicted"});
+  if (layout.rests) {
+    for (const Column& column : rest_columns()) {
+      columns.push_back(column);
+      if (!column.unit.empty()) errors.push_back(error_beside(column));
+    }
+  }
   for (const ImpactColumn& asked : layout.asked) {
     if (has_error(*asked.quantity, layout)) add(asked.column);
     else columns.push_back(asked.column);
@@ -292,6 +298,15 @@ void append_shocks(const RowForm& form, Model model) {
   }
 }
 
+/// Empty where the body does not come to lie, or on no face that has a name.
+void append_rest(const RowForm& form) {
+  if (!form.layout.rests) return;
+  if (!form.rest) return form.out.nothing(3);
+  form.out.word(form.rest->face);
+  form.out.number(form.rest->time.value);
+  form.out.truth(form.rest->is_known);
+}
+
 /// The one row of a scene with its sums.
 void append_scene_row(const RowForm& form, const Run& run) {
   const Model model = form.layout.model;
@@ -302,12 +317,17 @@ void append_scene_row(const RowForm& form, const Run& run) {
   for_each_number(model, [&](const SceneNumber& n) { form.out.number((sums.*n.sum).value); });
   if (form.predictions) form.out.truth(sums.predictable);
   else form.out.nothing();
+  append_rest(form);
   append_asked(form, run, false);
   append_shocks(form, model);
   for_each_number(model, [&](const SceneNumber& n) {
     if (form.errors) form.out.error((sums.*n.sum).error);
     else form.out.nothing();
   });
+  if (form.layout.rests) {
+    if (form.errors && form.rest) form.out.error(form.rest->time.error);
+    else form.out.nothing();
+  }
   append_asked(form, run, true);
   for (const LargestShock& shock : form.shocks) {
     for_each_probe_number(model, [&](const ProbeNumber& number) {

@@ -2,6 +2,7 @@
 // The rows of a sweep: CSV with numbers in their shortest round-trip form, or packed.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -9,6 +10,7 @@
 #include "validation/output/cells.hpp"
 #include "validation/output/report.hpp"
 #include "validation/run/impact_rows.hpp"
+#include "validation/run/rest_face.hpp"
 #include "validation/run/shortfall.hpp"
 #include "validation/scene/probes.hpp"
 #include "validation/scene/scene.hpp"
@@ -35,6 +37,7 @@ struct RowLayout {
   std::vector<ImpactColumn> asked{};  ///< with rows of scenes
   std::vector<std::string> named{};   ///< columns asked for that these rows have anyway
   std::vector<Probe> probes{};        ///< with rows of scenes
+  bool rests = false;                 ///< with rows of scenes: whether they tell the face that the body comes to lie on
   std::string rank_by{};              ///< column by which a summary ranks attitudes; empty: as ranking_column() has it
 
   /// Whether rows have this number of impacts.
@@ -51,7 +54,8 @@ void read_impact_columns(const std::string& names, int impacts, RowLayout& layou
 /// Index and swept keys, then per scene
 ///     impacts, outcome, total_normal_impulse [N·s], first_peak_force, largest_peak_force [N] and
 ///     largest_indentation [m] (continuous model),
-///     energy_loss [J] and last_start [s] over the impacts listed, predictable, the columns asked for, of each probe
+///     energy_loss [J] and last_start [s] over the impacts listed, predictable, with layout.rests rest_face, rest_time
+///     and rest_known, the columns asked for, of each probe
 ///     in the continuous model the largest specific force [g], which impact that is and how long it stays above a tenth
 ///     [s], in both the largest change of its velocity over an impact [m/s] and which impact that is, the error of each
 ///     of these numbers, reason;
@@ -91,6 +95,7 @@ struct RowForm {
   bool predictions = true;  ///< whether their growth was
   std::string reason;
   std::vector<LargestShock> shocks{};  ///< of the layout's probes
+  std::optional<RestFace> rest{};      ///< where the layout asks for it
 };
 /// Appends the rows of one scene.
 void append_rows(const RowForm& form, const Run& run);

@@ -25,6 +25,15 @@ long long bin_of(double number) {
 
 std::string percent_name(double percent) { return fmt::format("p{:g}", percent); }
 
+/// "-z 33.1 % (32.0 to 34.2)", a share of all rows with the interval that holds its probability; adds it to `shares`.
+std::string share_words(const std::string& text, long long count, long long rows, bool is_first, Value::List& shares) {
+  const Wilson interval(count, rows);
+  shares.emplace_back(Value::Fields{
+      {"text", text}, {"count", count}, {"share", interval.part}, {"low", interval.low}, {"high", interval.high}});
+  return fmt::format("{}{} {} % ({} to {})", is_first ? "" : ", ", text, significant(100 * interval.part, 3),
+                     significant(100 * interval.low, 3), significant(100 * interval.high, 3));
+}
+
 bool is_summarised(const Column& column) { return !column.words && !column.name.ends_with("_error"); }
 
 }  // namespace
@@ -48,12 +57,23 @@ Estimated Histogram::percentile(double part) const {
   return {middle, std::max(middle - bin->second.least, bin->second.largest - middle)};
 }
 
+Wilson::Wilson(long long hits, long long samples) {
+  constexpr double z = 1.959963984540054;
+  const double n = static_cast<double>(samples);
+  part = static_cast<double>(hits) / n;
+  const double middle = part + z * z / (2 * n), spread = z * std::sqrt(part * (1 - part) / n + z * z / (4 * n * n));
+  low = hits == 0 ? 0 : (middle - spread) / (1 + z * z / n);
+  high = hits == samples ? 1 : (middle + spread) / (1 + z * z / n);
+}
+
 Summary::Summary(const RowLayout& layout, const SweepPoints& points)
     : columns_(sweep_columns(layout)), first_(1 + layout.swept.size()),
       rank_by_(!layout.rank_by.empty() ? layout.rank_by
                : layout.probes.empty() ? ""
                                        : ranking_column(layout, layout.probes.front())),
-      points_(&points), numbers_(columns_.size()),
+      points_(&points),
+      outcome_(static_cast<std::size_t>(std::ranges::find(columns_, "outcome", &Column::name) - columns_.begin())),
+      numbers_(columns_.size()),
       largest_(static_cast<std::size_t>(points.attitudes()), std::vector<Extreme>(columns_.size(), {0, -1})),
       texts_(columns_.size()), row_(columns_.size()) {}
 
@@ -162,16 +182,21 @@ void Summary::add_attitudes(Report& report, const std::function<std::string(long
 }
 
 void Summary::add_texts(Report& report) const {
+  const long long rows = std::accumulate(texts_[outcome_].begin(), texts_[outcome_].end(), 0LL,
+                                         [](long long sum, const auto& text) { return sum + text.second; });
   report.fields["texts"] = Value(Value::Fields{});
   for (std::size_t i = 0; i < texts_.size(); ++i) {
     if (texts_[i].empty()) continue;
     Value counts(Value::Fields{});
+    Value::List shares;
     std::string words;
     for (const auto& [text, count] : std::map<std::string, long long>(texts_[i].begin(), texts_[i].end())) {
       counts[text] = count;
-      if (columns_[i].name != "reason") words += fmt::format("{}{} {}", words.empty() ? "" : ", ", text, count);
+      if (columns_[i].name == "rest_face") words += share_words(text, count, rows, words.empty(), shares);
+      else if (columns_[i].name != "reason") words += fmt::format("{}{} {}", words.empty() ? "" : ", ", text, count);
     }
     report.fields["texts"][columns_[i].name] = counts;
+    if (!shares.empty()) report.fields["shares"][columns_[i].name] = shares;
     if (!words.empty()) report.notes.insert(report.notes.begin(), fmt::format("{}: {}", columns_[i].name, words));
   }
 }

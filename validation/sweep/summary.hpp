@@ -36,6 +36,14 @@ class Histogram {
   long long count_ = 0;
 };
 
+/// The interval in which the probability lies with 95 %, from `hits` of `samples`.  Source: Wilson, J. Am. Stat. Assoc.
+/// 22 (1927) 209.
+struct Wilson {
+  double part, low, high;
+
+  Wilson(long long hits, long long samples);
+};
+
 /// The percentiles that a summary lists.
 inline constexpr double summary_percents[]{1, 5, 25, 50, 75, 95, 99};
 
@@ -86,6 +94,7 @@ class Summary {
   std::size_t first_;    ///< column that is summarised: swept keys need not be told
   std::string rank_by_;  ///< name of the column by which attitudes are ranked first; empty: the force or impulse
   const SweepPoints* points_;
+  std::size_t outcome_;  ///< column that each row has
   std::vector<Numbers> numbers_;
   std::vector<std::vector<Extreme>> largest_;  ///< of each listed attitude, of each column; index -1: none yet
   std::vector<Texts> texts_;

@@ -340,6 +340,9 @@ void choose_columns(const SweepRequest& request, SweepPlan& plan) {
       std::any_of(axes.begin(), axes.end(), [](const SweepAxis& axis) { return axis.is_attitude(); });
   if (columns.empty() && request.summary && attitudes && layout.rows == RowKind::scene)
     columns = layout.in_space ? "hardest,hardest_impulse_normal,hardest_corners" : "hardest,hardest_impulse_normal";
+  // The face of rest is told where the drops are followed to it, or where it is asked for.
+  const bool follows = layout.model == Model::discrete && plan.scene.until_rest;
+  layout.rests = layout.rows == RowKind::scene && (follows || columns.find("rest_") != std::string::npos);
   if (columns.empty()) return;
   if (layout.rows == RowKind::impact)
     throw BadInput(fmt::format("--columns {}: is for --rows scene; rows of impacts have every column", columns));

@@ -181,9 +181,17 @@ DiscreteSequence SceneRunner::sequence(const DiscreteDrop& drop, bool with_error
                                           .until = scene_.until.value_or(std::numeric_limits<double>::infinity())};
   const auto* const planar = std::get_if<analytic::Drop>(&drop);
   const RowLayout& layout = plan_.layout;
-  const bool sums_only = layout.rows == RowKind::scene && layout.asked.empty() && layout.probes.empty();
+  const bool sums_only =
+      layout.rows == RowKind::scene && layout.asked.empty() && layout.probes.empty() && !layout.rests;
   if (planar != nullptr && sums_only) return summed_sequence(*planar, options);
   return std::visit([&](const auto& one) -> DiscreteSequence { return impact_sequence(one, options); }, drop);
+}
+
+std::optional<RestFace> SceneRunner::face_alone(bool with_errors) {
+  Scene followed = scene_;
+  followed.until_rest = true;
+  const DiscreteDrop drop = body_->discrete->drop(followed);
+  return rest_face(followed, drop, sequence_to_face(followed, drop, with_errors));
 }
 
 bool SceneRunner::append_result(RowForm& form) {
@@ -197,12 +205,14 @@ bool SceneRunner::append_result(RowForm& form) {
     }
     const Run run = named_run(scene_, found, body_->discrete->centre());
     form.reason = shortfall(scene_, run);
+    if (plan_.layout.rests) form.rest = scene_.until_rest ? rest_face(scene_, drop, found) : face_alone(form.errors);
     append_rows(form, run);
     return true;
   }
   const PlannedRun run = planned(form.shocks);
   if (run.run.outcome == numeric::Outcome::interrupted) return false;
   form.reason = shortfall(scene_, run);
+  if (plan_.layout.rests) form.rest = rest_face(scene_, run.run);
   append_rows(form, named_run(scene_, run.run));
   return true;
 }

@@ -156,6 +156,8 @@ class SceneRunner {
   bool append_scene(long long index, std::string& out);
   bool append_result(RowForm& form);
   [[nodiscard]] DiscreteSequence sequence(const DiscreteDrop& drop, bool with_errors);
+  /// The face that the body comes to lie on, by a sequence of its own.
+  [[nodiscard]] std::optional<RestFace> face_alone(bool with_errors);
   /// The planned run of the continuous model, and what it does to the layout's probes.
   [[nodiscard]] PlannedRun planned(std::vector<LargestShock>& shocks);
   [[nodiscard]] RowForm form_of(const std::string& prefix, CellWriter& out) const;

@@ -171,7 +171,7 @@ void SequenceUnits::to_si(StateAt& at) const {
 }
 
 void SequenceUnits::to_si(LastMotion& motion) const {
-  scale(motion.begin, length_ - speed_);
+  for (double* time : {&motion.begin, &motion.begin_error}) scale(*time, length_ - speed_);
   to_si(motion.state);
   scale(motion.duration, length_ - speed_);
   scale(motion.distance, length_);

@@ -172,8 +172,9 @@ struct LastMotion {
     spins,   ///< about the vertical, on the spot
     rolls,   ///< rolls on for ever, after it may have slipped
   } kind = Kind::rests;
-  double begin = 0;                          ///< since the first impact [s]
-  State state;                               ///< then
+  double begin = 0;                                              ///< since the first impact [s]
+  double begin_error = std::numeric_limits<double>::infinity();  ///< bound on its error [s]
+  State state;                                                   ///< then
   double duration = 0;                       ///< until it is at rest or, if it rolls, rolls; infinite: never [s]
   double distance = 0;                       ///< that the centre of mass goes meanwhile [m]
   Vector3 velocity_after = Vector3::Zero();  ///< then; if it never is, now [m/s]

@@ -142,6 +142,7 @@ class Run : public SequenceLoop<Sequence, ErrorGrowth> {
     for (;;) {
       record(arriving, flown);
       Next next = Next::flight;
+      if (options_.until_face && is_trapped()) return settle();
       if (accumulates()) next = go_on_touching(arriving);
       else if (is_full()) return note_slow_contacts();
       else if (options_.until_rest && is_still()) return settle();
@@ -180,6 +181,10 @@ class Run : public SequenceLoop<Sequence, ErrorGrowth> {
   /// Where corners stay on the ground while the body turns: follows them, if that is asked for, to what comes next.
   Next go_on_touching(std::vector<int>& arriving) {
     if (!options_.until_rest || !result_.standing || !can_follow(drop_, result_.standing->corners)) return Next::end;
+    if (options_.until_face && is_trapped()) {
+      settle();
+      return Next::end;
+    }
     if (result_.contacts.size() >= most_contacts) throw NumericalError("corners stay on the ground again and again");
     if (growth_ && !growth_->predictable()) regain(*result_.standing);
     SustainedContact contact = followed(*result_.standing);
@@ -394,7 +399,7 @@ class Run : public SequenceLoop<Sequence, ErrorGrowth> {
     }
     const GroundedMotion motion(drop_, state_, lying_);
     result_.last_motion = motion.summary();
-    if (result_.last_motion) result_.last_motion->begin = time_;
+    if (result_.last_motion) result_.last_motion->begin = time_, result_.last_motion->begin_error = end_errors_.time;
     const StateErrors& error = end_errors_;
     while (awaits(infinite)) {
       // Before time_ a sum stands for hops that are rounding of the heights.
@@ -666,6 +671,16 @@ class Run : public SequenceLoop<Sequence, ErrorGrowth> {
   /// Whether what bouncing and rocking is left is rounding of the heights, on a face that the body cannot leave.
   bool is_still() {
     if (!(vertical_energy(drop_, state_) <= 64 * epsilon * body_.mass * drop_.gravity * reach_)) return false;
+    result_.rest = settles(drop_, state_, time_);
+    return result_.rest.has_value();
+  }
+
+  /// Whether the body can no longer leave the face below it.
+  bool is_trapped() {
+    const Vector3 turning = state_.attitude.conjugate() * state_.angular_velocity;
+    const double above = state_.velocity.z() * state_.velocity.z() / 2 + drop_.gravity * state_.position.z() +
+                         turning.dot(body_.inertia * turning) / (2 * body_.mass);
+    if (!(above < drop_.gravity * reach_)) return false;  // else it may still turn over any of its edges
     result_.rest = settles(drop_, state_, time_);
     return result_.rest.has_value();
   }

@@ -49,7 +49,7 @@ class Sequence(SpaceFolder):
         self.assertGreater(len(all_of_it["impacts"]), 6)
         self.assertEqual(all_of_it["impacts"][:6], six["impacts"])
         self.assertEqual((all_of_it["outcome"], all_of_it["shortfall"]), ("at-rest", None))
-        self.assertEqual(len(all_of_it["rest"]["face"].split(", ")), 4)
+        self.assertEqual(len(all_of_it["rest"]["corners"].split(", ")), 4)
         self.assertGreaterEqual(all_of_it["rest"]["latest"], all_of_it["tail"]["end_time"])
         self.assertGreater(all_of_it["tail"]["end_time_error"], 0)
 

@@ -1,0 +1,77 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""On which face bodies come to lie: by geometry, by symmetry, and by both models."""
+
+import unittest
+
+from run_folder import EmptyFolder, json_of, rows_of, run
+
+# A block of 0.1 m x 0.05 m that stands on its edge, hardly moving, falls to the side of its centre of mass: its diagonal
+# stands upright at atan(2), 63.4 degrees.
+BLOCK = """
+[drop]
+angle_deg = 60
+speed = 0.01
+[world]
+gravity = 9.81
+[body]
+shape = "box"
+size = [0.1, 0.05, 0.05]
+mass = 0.3
+[impact]
+restitution = 0.2
+friction = 0.5
+[ground]
+stiffness = 1e7
+damping = 1e8
+static_friction = 0.5
+sliding_friction = 0.5
+[run]
+impacts = 100
+"""
+COLUMNS = ("--columns", "rest_face,rest_time,rest_known")
+
+
+class RestFace(EmptyFolder):
+    def setUp(self):
+        super().setUp()
+        self.block = self.write("block.toml", BLOCK)
+
+    def test_a_block_on_its_edge_falls_to_the_side_of_its_centre(self):
+        for model, angles in (("discrete", "50:75:5"), ("continuous", "60:65:5")):
+            for row in rows_of("sweep", self.block, "--set", f"drop.angle_deg={angles}", "--model", model, *COLUMNS):
+                with self.subTest(model=model, angle=row["drop.angle_deg"]):
+                    self.assertEqual(row["rest_face"], "-z" if float(row["drop.angle_deg"]) < 63.4 else "-x")
+                    self.assertEqual(row["rest_known"], "true")
+        out = self.path("map.csv")
+        run("map", self.block, "--over", "drop.angle_deg=40:80", "--over", "drop.speed=0.01:0.02", "--quantity", "rest_face",
+            "--size", "8x2", "--output", out)
+        words = self.read("map.csv")
+        self.assertEqual((words.count("-z"), words.count("-x")), (10, 6))
+
+    def test_followed_to_rest_it_is_the_same_face_with_its_time(self):
+        (row,) = rows_of("sweep", self.block, "--set", "run.until_rest=true", "--model", "discrete")
+        (early,) = rows_of("sweep", self.block, "--set", "drop.angle_deg=60", "--model", "discrete", *COLUMNS)
+        self.assertEqual((row["rest_face"], early["rest_face"], early["rest_time"]), ("-z", "-z", ""))
+        # It has fallen by the difference of heights: no faster than freely, no slower than ten times that.
+        self.assertGreater(float(row["rest_time"]), (2 * 0.03 / 9.81) ** 0.5)
+        self.assertLess(float(row["rest_time"]), 10 * (2 * 0.03 / 9.81) ** 0.5)
+        self.assertEqual(json_of("sequence", self.block, "--until-rest")["rest"]["face"], "-z")
+
+    def test_a_die_is_fair(self):
+        told = json_of("sweep", "die", "--set", "drop.attitude=uniform", "--random", "240", "--set", "run.until_rest=false", *COLUMNS,
+                       "--model", "discrete", "--summary")
+        shares = told["shares"]["rest_face"]
+        self.assertEqual(sorted(share["text"] for share in shares), ["+x", "+y", "+z", "-x", "-y", "-z"])
+        self.assertEqual(sum(share["count"] for share in shares), 240)
+        for share in shares:  # four deviations: one of 3000 seeds fails
+            self.assertLess(abs(share["count"] - 40), 4 * (240 * 5 / 36) ** 0.5)
+            self.assertLess(share["low"], share["count"] / 240)
+
+    def test_rods_name_their_side_and_what_does_not_lie_has_no_face(self):
+        rod = ("sequence", "--angle", "30", "--gravity", "9.81", "--restitution", "0.5", "--friction", "0.3")
+        self.assertEqual(json_of(*rod, "--until-rest")["rest"]["face"], "side")
+        self.assertNotIn("rest", json_of(*rod))
+
+
+if __name__ == "__main__":
+    unittest.main()
