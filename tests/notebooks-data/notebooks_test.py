@@ -48,8 +48,8 @@ def solutions():
 
 
 class Lectures(unittest.TestCase):
-    def test_there_are_fourteen_and_each_has_its_parts(self):
-        self.assertEqual([path.name.split("_")[0] for path in LECTURES], [str(number) for number in range(1, 15)])
+    def test_there_are_fifteen_and_each_has_its_parts(self):
+        self.assertEqual([path.name.split("_")[0] for path in LECTURES], [str(number) for number in range(1, 16)])
         for path in LECTURES:
             with self.subTest(notebook=path.name):
                 found = headings(path)

@@ -8,6 +8,7 @@ ORACLES: exercise to (function that gives the expected numbers, relative toleran
 import math
 import sys
 from math import cos, degrees, pi, radians, sin, sqrt
+from statistics import NormalDist
 
 from mpmath import mp, mpf
 from run_folder import ROOT
@@ -373,4 +374,8 @@ ORACLES = {
     # The fall whose speed, with the rebound, is the integral of the half sine.
     "14.2": (lambda: [(1500 * STANDARD * 5e-4 * 2 / pi / 1.5) ** 2 / (2 * STANDARD)], 1e-5),
     "14.3": (quarter, 1e-9),
+    "15.1": (lambda: [math.ceil((NormalDist().inv_cdf(0.975) / 0.01) ** 2 * 5 / 36)], 1e-9),
+    "15.2": (lambda: [1 / math.sqrt(3)], 1e-5),  # half of an equilateral triangle
+    # The corner above its edge: the distance of both, less the height of the centre on the face.
+    "15.3": (lambda: [1e3 * (math.hypot(0.008, 0.008) - 0.008), (2 * 9.81 * (math.hypot(0.008, 0.008) - 0.008)) ** 0.5], 1e-5),
 }

@@ -14,8 +14,8 @@ namespace clatter::validation {
 
 /// The face on which a drop ends, where its sequence tells it.  It may slide or spin on there.
 struct RestFace {
-  /// Of a box "-z" and such, the body's direction that points down; of a rod "side", "end a" or "end b"; of another
-  /// body that direction, "(0, 0.894, -0.447)".
+  /// The body's direction that points down: "-z" and such of a box, "(0, 0.894, -0.447)" of a mesh; of a rod "side",
+  /// "end a" or "end b".
   std::string face{};
   Estimated time{};       ///< from when on it neither bounces nor rocks, since the first impact [s]
   bool is_known = false;  ///< whether no error of the numbers can lead to another face

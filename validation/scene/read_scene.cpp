@@ -366,8 +366,10 @@ Scene read_values(SceneValues values, const std::vector<SceneOverride>& override
   check_body(values, scene.body);
   check_ground(values, scene, model);
   check_impact(values, scene);
-  if (scene.until) scene.request.until = *scene.until;
-  if (model == Model::continuous) scene.request.impacts = scene.most_impacts();
+  if (scene.until) {
+    scene.request.until = *scene.until;
+    if (model == Model::continuous) scene.request.impacts = scene.most_impacts();
+  }
   std::ranges::sort(scene.times);
   if (!scene.times.empty() && scene.times.front() < 0 && !scene.is_released())
     values.refuse("run.at", "times from 0 on: the motion begins with the first impact where there is no drop.release");
