@@ -112,6 +112,7 @@ class SequenceLoop {
   /// @param stays  what the body does where it turns on
   void rest(bool turns, bool slides, const std::string& how, const std::string& stays) {
     result_.outcome = turns ? Outcome::sustained_contact : Outcome::at_rest;
+    result_.moves_on = slides && !turns;
     result_.message = how + "; " +
                       (turns    ? stays + ", which impacts do not describe"
                        : slides ? "the body slides on"

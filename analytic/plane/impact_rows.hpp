@@ -109,6 +109,7 @@ struct LastSlide {
 struct Sequence {
   std::vector<ImpactRow> rows;
   Outcome outcome = Outcome::no_further_impact;
+  bool moves_on = false;              ///< with Outcome::at_rest: it lies on the ground, but slides there
   std::string message;                ///< why it ended, one sentence
   std::vector<std::string> warnings;  ///< such as energy created by an impulse ratio
   std::optional<Tail> tail;

@@ -100,10 +100,21 @@ class TheSameBits(unittest.TestCase):
                 for form in forms:
                     self.assertEqual(result.to_text(form), printed(*words, "--format", form))
 
+    def test_states_come_in_the_order_of_their_times(self):
+        for run in (clatter.sequence(angle=10, gravity=9.81), clatter.simulate("phone-damped", impacts=2)):
+            states = run.at(np.array([0.02, 0.001, 0.02]))
+            self.assertEqual(states.column("position").shape, (3, 3))
+            self.assertEqual(list(states.column("time")), [0.02, 0.001, 0.02])
+            self.assertEqual(states.column("position_z")[0], states.column("position_z")[2])
+            (late,) = run.at(0.02)
+            self.assertEqual(late.velocity[2], states.column("velocity_z")[0])
+        fall = clatter.sequence(angle=0, body="box", size=[0.1, 0.05, 0.02], gravity=9.81, restitution=0.5, speed=1)
+        self.assertAlmostEqual(fall.at(0.03).column("position_z")[0], 0.01 + 0.5 * 0.03 - 9.81 / 2 * 0.03**2, delta=1e-15)
+
     def test_every_flag_of_the_program_is_an_argument(self):
         flags = {word.strip(",") for word in printed("simulate", "--help").split() if word.startswith("--")}
         others = {"--help", "--format", "--output", "--ascii", "--bare", "--history", "--no-contact-gravity", "--plot", "--plot-script",
-                  "--window"}
+                  "--rows", "--window"}
         for flag in flags - others:
             name = flag[2:].replace("-", "_")
             with self.subTest(argument=name), self.assertRaises(clatter.BadInput) as refused:

@@ -558,11 +558,16 @@ std::string landing_words(const std::vector<space::Corner>& corners) {
 double given_inclination(const Scene& scene) { return scene.is_released() ? no_inclination : scene.angle_deg; }
 
 Run named_run(const Scene& scene, const DiscreteSequence& sequence, const Vector3& centre) {
-  if (const auto* const planar = std::get_if<analytic::Sequence>(&sequence))
-    return run_of(*planar, given_inclination(scene));
-  const auto& in_space = std::get<space::Sequence>(sequence);
-  Run run = run_of(in_space);
-  for (std::size_t i = 0; i < run.impacts.size(); ++i) name_corners(scene, in_space.rows[i], centre, run.impacts[i]);
+  Run run;
+  if (const auto* const planar = std::get_if<analytic::Sequence>(&sequence)) {
+    run = run_of(*planar, given_inclination(scene));
+  } else {
+    const auto& in_space = std::get<space::Sequence>(sequence);
+    run = run_of(in_space);
+    for (std::size_t i = 0; i < run.impacts.size(); ++i) name_corners(scene, in_space.rows[i], centre, run.impacts[i]);
+  }
+  const bool rubs = discrete_law(scene).law.most_friction() > 0;
+  settle_outcome(scene.until_rest, rubs && scene.world.incline_deg == 0, run);
   return run;
 }
 
@@ -620,7 +625,6 @@ DiscreteRun run_discrete(const PreparedScene& prepared) {
   Run run = named_run(scene, sequence, prepared.centre);
   if (const auto* const planar = std::get_if<analytic::Drop>(&prepared.drop); planar && planar->fall)
     run.first_touch = first_touch_of(*planar);
-  settle_outcome(scene.until_rest, run);
   add_states(prepared, run);
   return {std::move(sequence), std::move(run)};
 }

@@ -204,6 +204,7 @@ Run begun_run(RunModel model, const Sequence& sequence, long evaluations) {
           .warnings = sequence.warnings,
           .is_cut_short = is_cut_short(sequence.outcome),
           .leaves_model = sequence.outcome == analytic::Outcome::outside_model,
+          .moves_on = sequence.moves_on,
           .relative_error = relative_error(sequence),
           .evaluations = evaluations};
   if (sequence.outcome == analytic::Outcome::no_further_impact) run.near_miss = sequence.near_miss;
@@ -336,8 +337,11 @@ Value fields_of(const EndMotion& motion) {
                        {"angular_velocity_after", list(motion.angular_velocity_after)}};
 }
 
-void settle_outcome(bool followed, Run& run) {
-  if (!run.end_motion) return;
+void settle_outcome(bool followed, bool stops, Run& run) {
+  if (!run.end_motion) {
+    if (run.moves_on && !(followed && stops)) run.outcome = "slides-on";
+    return;
+  }
   const EndMotion& motion = *run.end_motion;
   if (motion.kind == "slides" && !(followed && motion.ends())) run.outcome = "slides-on";
   if (motion.kind == "spins" && !(followed && motion.ends())) run.outcome = "spins-on";

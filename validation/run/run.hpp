@@ -122,6 +122,7 @@ struct Run {
   std::vector<std::string> warnings{};
   bool is_cut_short = false;  ///< a number could not be computed, or a limit on the work was reached
   bool leaves_model = false;  ///< the next impact is outside the model
+  bool moves_on = false;      ///< it lies on the ground, but slides or spins there
   double relative_error = 0;  ///< largest of the discrete model's numbers; infinite: one cannot be predicted
   std::optional<analytic::NearMiss> near_miss{};  ///< of the flight after the last impact
   /// By the model itself, which knows how errors are correlated [N·s].
@@ -147,9 +148,10 @@ inline constexpr double no_inclination = 360;
 /// "friction stops its slide after 1.22324 s and 3.66972 m", "it rolls on at 0.714 m/s from 0.2 s on"; empty: it rests.
 [[nodiscard]] std::string words_of(const EndMotion& motion);
 [[nodiscard]] Value fields_of(const EndMotion& motion);
-/// The outcome of a run whose bounces have ended in that motion.
+/// The outcome of a run whose bounces have ended in that motion, or in one that is not computed.
 /// @param followed  to the rest that it comes to, if it does
-void settle_outcome(bool followed, Run& run);
+/// @param stops  whether friction stops in the end whatever slides
+void settle_outcome(bool followed, bool stops, Run& run);
 [[nodiscard]] Run run_of(const numeric::Simulation& simulation);
 
 // Sums over the impacts of a run, with the errors that follow from those of the impacts.

@@ -184,6 +184,7 @@ struct LastMotion {
 struct Sequence {
   std::vector<ImpactRow> rows;
   Outcome outcome = Outcome::no_further_impact;
+  bool moves_on = false;              ///< with Outcome::at_rest: it lies on the ground, but slides or spins there
   std::string message;                ///< why it ended, one sentence
   std::vector<std::string> warnings;  ///< such as energy created by Newton's law with friction
   std::optional<Tail> tail;

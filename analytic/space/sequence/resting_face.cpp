@@ -188,6 +188,9 @@ Drop prism(const Drop& flat) {
   return wide;
 }
 
+/// Whether it has two ends and nothing else, on which it lies in the end.
+bool is_rod(const Body& body) { return body.vertices.size() == 2 && body.is_flat(); }
+
 bool is_outline(const Body& body) { return body.vertices.size() > 2 && body.is_flat(); }
 
 /// By (2).
@@ -212,15 +215,19 @@ std::optional<Rest> trapped(const Drop& drop, const State& now) {
 
 double vertical_energy(const Drop& drop, const State& now) {
   if (is_outline(drop.body)) return vertical_energy(prism(drop), now);
-  if (!is_polyhedron(drop.body)) return infinite;
-  const auto face = RollingBody(drop.body).lowest(down(now));
-  if (!face) return infinite;
+  double depth = 0;
+  if (!is_rod(drop.body)) {
+    if (!is_polyhedron(drop.body)) return infinite;
+    const auto face = RollingBody(drop.body).lowest(down(now));
+    if (!face) return infinite;
+    depth = face->depth;
+  }
   const Matrix3 axes = now.attitude.toRotationMatrix();
   Vector3 turning = now.angular_velocity;
   turning.z() = 0;
   const Vector3 w = axes.transpose() * turning;
   return drop.body.mass *
-             (now.velocity.z() * now.velocity.z() / 2 + drop.gravity * std::fmax(now.position.z() - face->depth, 0.0)) +
+             (now.velocity.z() * now.velocity.z() / 2 + drop.gravity * std::fmax(now.position.z() - depth, 0.0)) +
          w.dot(drop.body.inertia * w) / 2;
 }
 

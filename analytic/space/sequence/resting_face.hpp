@@ -9,7 +9,8 @@
 namespace clatter::analytic::space {
 
 /// Energy of the vertical motion, of turning about horizontal axes, and of height above rest on the face of the lowest
-/// three vertices; infinite where those are not of one face, or the body has round surfaces [J].
+/// three vertices, of a rod that has two above rest on these; infinite where three are not of one face, or the body has
+/// round surfaces [J].
 [[nodiscard]] double vertical_energy(const Drop& drop, const State& now);
 
 /// The face on which a body must come to rest, because its energy keeps it there in one of two ways.

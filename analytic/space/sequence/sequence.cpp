@@ -181,7 +181,7 @@ class Run : public SequenceLoop<Sequence, ErrorGrowth> {
   /// Where corners stay on the ground while the body turns: follows them, if that is asked for, to what comes next.
   Next go_on_touching(std::vector<int>& arriving) {
     if (!options_.until_rest || !result_.standing || !can_follow(drop_, result_.standing->corners)) return Next::end;
-    if (options_.until_face && is_trapped()) {
+    if (is_still() || (options_.until_face && is_trapped())) {
       settle();
       return Next::end;
     }
@@ -671,7 +671,8 @@ class Run : public SequenceLoop<Sequence, ErrorGrowth> {
   /// Whether what bouncing and rocking is left is rounding of the heights, on a face that the body cannot leave.
   bool is_still() {
     if (!(vertical_energy(drop_, state_) <= 64 * epsilon * body_.mass * drop_.gravity * reach_)) return false;
-    result_.rest = settles(drop_, state_, time_);
+    if (body_.vertices.size() == 2) result_.rest = Rest{.corners = {0, 1}, .latest = time_};
+    else result_.rest = settles(drop_, state_, time_);
     return result_.rest.has_value();
   }
 

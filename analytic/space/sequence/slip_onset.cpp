@@ -118,7 +118,8 @@ std::vector<std::vector<GroundPoint>> all_directions(const GroundLaw& law, const
       return std::signbit(across(law, s, points, SlipAngles::Constant(1, angle))[0]);
     };
     for (int i = 0; i < directions; ++i) {
-      double low = i * turn / directions, high = low + turn / directions;
+      // In the middle between these limits lie the directions along x, which a motion in the plane has.
+      double low = (i - 0.5) * turn / directions, high = low + turn / directions;
       const bool sign = at(low);
       if (sign == at(high)) continue;
       for (int k = 0; k < 60; ++k) (at((low + high) / 2) == sign ? low : high) = (low + high) / 2;

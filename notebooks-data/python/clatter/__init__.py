@@ -28,14 +28,14 @@ from clatter.evidence import (benchmark_list, benchmark_score, benchmark_show, b
                               measured_predict, measured_score, verify)
 from clatter.findings import Explanation, Gradient, Measured, Plan, Problem, Rows, Scored, Table, Tradeoff
 from clatter.records import History, Impact, Record
-from clatter.results import Comparison, ComparisonSweep, Result, Run, Sequence, Simulation, Sweep, Verification
+from clatter.results import Comparison, ComparisonSweep, Result, Run, Sequence, Simulation, States, Sweep, Verification
 from clatter.scenes import case, cases
 
 __version__ = _clatter.version
 __all__ = [
     "Angles", "BadArgument", "BadInput", "ClatterWarning", "Comparison", "ComparisonSweep", "Error", "Explanation", "Gradient",
     "History", "Impact", "Measured", "NotComputed", "OutsideModel", "Plan", "Problem", "Record", "Result", "Rows", "Run",
-    "Scored", "Sequence", "Simulation", "Sweep", "Table", "Tradeoff", "Verification", "angles", "benchmark_list",
+    "Scored", "Sequence", "Simulation", "States", "Sweep", "Table", "Tradeoff", "Verification", "angles", "benchmark_list",
     "benchmark_score", "benchmark_show", "benchmark_truth", "case", "cases", "compare", "compare_against", "explain",
     "extremes", "figure", "gradient", "measured_fit", "measured_predict", "measured_score", "plan", "regimes", "sequence",
     "simulate", "sweep", "tradeoff", "verify",

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import copy
 import copyreg
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from typing import Any, Protocol, overload
 
 from clatter import _clatter
@@ -116,6 +116,23 @@ def given_again(scene: Mapping[str, Any]) -> dict[str, Any]:
     return kept
 
 
+class States:
+    """Where a body is at some times, a row each: position, attitude, velocity, angular_velocity, energy ..."""
+
+    def __init__(self, rows: list[dict[str, Any]]) -> None:
+        self._rows = rows
+
+    def column(self, name: str) -> Array:
+        """One value of each time, vectors as rows; NaN where the model does not say.  NAME_error is its error, NAME_z a vector's part."""
+        return column_of(self._rows, name)
+
+    def __len__(self) -> int:
+        return len(self._rows)
+
+    def __iter__(self) -> Iterator[Record]:
+        return (Record(row) for row in self._rows)
+
+
 class Run(Result):
     """A sequence of impacts: len(run), run[0], for impact in run."""
 
@@ -163,6 +180,23 @@ class Run(Result):
     def column(self, name: str) -> Array:
         """One value of each impact, vectors as rows; NaN where there is none.  NAME_error is its error, NAME_z a vector's part."""
         return column_of(self._data["impacts"], name)
+
+    @property
+    def states(self) -> States:
+        """At the times of run.at and run.rate."""
+        return States(self._data.get("states", []))
+
+    def at(self, times: float | Iterable[float]) -> States:
+        """Where the body is at these times since the first impact, in their order: the same run again.
+
+        >>> clatter.sequence(angle=10).at([0.2, 0.1]).column("position_z")
+        """
+        from clatter.calls import sequence, simulate  # noqa: PLC0415: that module needs this one
+
+        wanted = [float(times)] if isinstance(times, (int, float)) else [float(time) for time in times]
+        again = simulate if isinstance(self, Simulation) else sequence
+        told = {row["time"]: row for row in again(self.scene, at=sorted(set(wanted))).to_dict()["states"]}
+        return States([told[time] for time in wanted])
 
     def __len__(self) -> int:
         return len(self.impacts)

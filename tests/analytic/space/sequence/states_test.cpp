@@ -217,7 +217,7 @@ BOOST_AUTO_TEST_CASE(an_outline_in_space_moves_as_the_body_in_the_plane_and_come
   std::mt19937_64 random(7);
   std::uniform_real_distribution<double> some(0, 1);
   constexpr int drops = 100;
-  int at_rest = 0, rows = 0, outside = 0;
+  int rows = 0, outside = 0;
   for (int n = 0; n < drops; ++n) {
     const PlanarBody body = n % 3 == 0 ? make_rod({.mass = 1, .length = 1})
                                        : make_box({.mass = 1, .length = 0.3, .thickness = 0.3 * some(random)});
@@ -257,7 +257,7 @@ BOOST_AUTO_TEST_CASE(an_outline_in_space_moves_as_the_body_in_the_plane_and_come
         BOOST_TEST(std::fabs(row.impact.after.angular - other.impact.angular_velocity_after.y()) <=
                    4 * (row.error.after.angular + other.error.angular_velocity_after));
       }
-      at_rest += s.outcome == Outcome::at_rest ? 1 : 0;
+      BOOST_TEST((s.outcome == Outcome::at_rest));
       double left = s.rows.front().energy_before - s.energy_at_end - (s.tail ? s.tail->energy_loss : 0);
       for (const space::ImpactRow& row : s.rows) left -= row.impact.energy_loss;
       for (const space::SustainedContact& contact : s.contacts)
@@ -265,8 +265,6 @@ BOOST_AUTO_TEST_CASE(an_outline_in_space_moves_as_the_body_in_the_plane_and_come
       BOOST_TEST(std::fabs(left) <= 1e-9 * s.rows.front().energy_before);
     }
   }
-  // Where slip stops and friction cannot hold the corner, the law is left open for a few.
-  BOOST_TEST(at_rest >= 0.94 * drops);
   BOOST_TEST(outside <= rows / 100);
   BOOST_TEST(rows > 5 * drops);
 }
