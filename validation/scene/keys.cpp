@@ -36,6 +36,7 @@ constexpr Range tilts{-180, 180, false, "from -180 to 180 degrees"};
 constexpr Range parameters{-1.01, 1.01, false, "from -1.01 to 1.01"};
 constexpr Range orientations{1, orientation_count, false, "a whole number from 1 to 26"};
 constexpr Range restitutions{0, 1, false, "from 0 to 1"};
+constexpr Range losses_allowed{0, 1, true, "greater than 0 and at most 1"};
 constexpr Range tolerances{numeric::least_tolerance, 0.1, false, "from 5e-14 to 0.1"};
 
 // Keys whose place another takes.
@@ -55,6 +56,7 @@ constexpr std::array angle_and_attitude_before_release{"drop.angle_deg", "drop.t
 constexpr std::array all_of_motion{"drop.speed",    "drop.height", "drop.clearance",       "drop.tangential_velocity",
                                    "drop.velocity", "drop.spin",   "drop.angular_velocity"};
 constexpr std::array springs{"ground.stiffness", "ground.damping"};
+constexpr std::array losses{"ground.damping", "ground.dissipation"};
 constexpr std::array springs_and_area{"ground.stiffness", "ground.damping", "ground.area"};
 constexpr std::array springs_and_half_space{"ground.stiffness", "ground.damping", "ground.modulus"};
 constexpr std::array springs_and_pad{"ground.stiffness",   "ground.damping",   "ground.area", "ground.curve",
@@ -91,9 +93,11 @@ bool has_impulse_ratio(const Scene& scene) {
 /// The discrete model has no use for keys of a ground that is not there.
 Echo of_ground(const Scene& scene, Model model) { return only_if(model == Model::continuous || scene.has_ground()); }
 Echo of_pad(const Scene& scene, Model) { return only_if(scene.world.ground.is_pad()); }
-Echo of_dissipation(const Scene& scene, Model) { return only_if(scene.world.ground.has_dissipation()); }
+Echo of_dissipation(const Scene& scene, Model) {
+  return only_if(scene.world.ground.has_dissipation() && !scene.ground_restitution);
+}
 Echo of_springs(const Scene& scene, Model model) {
-  return scene.world.ground.has_dissipation() ? Echo::absent : of_ground(scene, model);
+  return scene.world.ground.has_dissipation() || scene.ground_restitution ? Echo::absent : of_ground(scene, model);
 }
 Echo of_area(const Scene& scene, Model model) {
   return scene.world.ground.is_half_space() ? Echo::absent : of_ground(scene, model);
@@ -429,6 +433,11 @@ void append_ground(std::vector<Key>& keys) {
            "which the depth grows",
            NumberValue{[](Scene& s) -> double& { return s.world.ground.dissipation; }, not_negative_number},
            of_dissipation, false, springs},
+          {"ground.restitution", Use::both, "--floor-restitution", "E", "",
+           "or the restitution of the first impact, from whose approach speed damping or dissipation follow (exact of a "
+           "flat or upright landing without friction)",
+           OptionalNumber{[](Scene& s) -> std::optional<double>& { return s.ground_restitution; }, losses_allowed},
+           [](const Scene& s, Model) { return only_if(s.ground_restitution.has_value()); }, false, losses},
           {"ground.curve", Use::both, "--curve", "CURVE", "",
            "or a pad by what its data sheet has: strain (with ground.thickness) or depth, and pressure, straight "
            "between the points and from 0, 0 to the first",

@@ -198,7 +198,7 @@ void check_ground(const SceneValues& values, Scene& scene, Model model) {
                    "ground.floor by name, or ground.curve of a pad");
   settle_half_space(scene.half_space, ground);
   if (!values.has("ground.stiffness") && is_springs) {
-    only_for(values, {"ground.damping", "ground.static_friction", "ground.sliding_friction"},
+    only_for(values, {"ground.damping", "ground.restitution", "ground.static_friction", "ground.sliding_friction"},
              "a ground with a stiffness");
   }
   if (is_springs) only_for(values, {"ground.dissipation"}, "a ground with a modulus or a curve");
@@ -313,8 +313,22 @@ void make_room_for_law(SceneValues& values, const std::vector<SceneOverride>& ov
   if (restitution != none && file_computes) values.drop("impact.law");
 }
 
+/// A floor under a pad is no half-space of its own: says what is asked instead.
+void refuse_floor_under_pad(const SceneValues& values, const std::vector<SceneOverride>& overrides) {
+  const auto has = [&](const char* key) {
+    return std::ranges::any_of(overrides, [&](const SceneOverride& o) { return o.key == key; }) ||
+           (overrides.empty() && values.has(key));
+  };
+  if (!has("ground.floor") || !has("ground.curve")) return;
+  throw BadInput(
+      "--floor and --curve: give one of them, not both; what is under a pad is --under PA/M, the stiffness beyond the "
+      "curve: E/h of the pressed pad, E of its solid (some 1e9 Pa of a polymer) and h what is left of its thickness, "
+      "on a floor that is harder than that");
+}
+
 Scene read_values(SceneValues values, const std::vector<SceneOverride>& overrides, Model model) {
   values.call_by(key_flags());
+  refuse_floor_under_pad(values, overrides);
   for (const Alternative& pair : alternatives()) refuse_both(overrides, pair.instead_of, pair.key);
   refuse_both(overrides, "run.tolerance", "run.step");
   make_room_for_law(values, overrides);
@@ -341,6 +355,7 @@ Scene read_values(SceneValues values, const std::vector<SceneOverride>& override
   check_body(values, scene.body);
   check_ground(values, scene, model);
   check_impact(values, scene);
+  scene.settle_restitution();
   return scene;
 }
 

@@ -163,9 +163,10 @@ struct Scene {
   Release release;  ///< with a height or clearance: attitude and velocities are those at release, by settle()
   DiscreteImpact impact;
   BodyScene body;
-  numeric::World world;       ///< a ground of stiffness 0: none given, for the discrete model
-  PadScene pad;               ///< what a ground with kinks was made of
-  HalfSpaceScene half_space;  ///< what a ground with a modulus was made of
+  numeric::World world;                      ///< a ground of stiffness 0: none given, for the discrete model
+  PadScene pad;                              ///< what a ground with kinks was made of
+  HalfSpaceScene half_space;                 ///< what a ground with a modulus was made of
+  std::optional<double> ground_restitution;  ///< at the first approach, which gives the ground's damping
   numeric::Request request;
   numeric::Accuracy accuracy;
   bool until_rest = false;      ///< the discrete model goes on until nothing follows, whatever request.impacts is
@@ -187,6 +188,11 @@ struct Scene {
   /// `release`, and the ground from half-space or pad, where they are given.
   /// @throws BadInput if the orientation is no whole number, or the body no box; as toppled().
   void settle();
+  /// Gives the ground the damping c_G, or a half-space or pad the dissipation τ, with which a contact that approaches
+  /// as fast as the first one has `ground_restitution`:  s(e) = τ v  (viscoelastic.hpp).  Nothing without that or a
+  /// ground.
+  /// @throws as start()
+  void settle_restitution();
   /// Body → world; unit.  Here and in the velocities: at the release, where there is one.
   [[nodiscard]] Eigen::Quaterniond touch_attitude() const;
   /// The velocity of the centre of mass at the first touch, world [m/s]; with `height`, not with `clearance`, the speed
