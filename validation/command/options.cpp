@@ -15,6 +15,7 @@
 #include "validation/output/symbols.hpp"
 #include "validation/run/scene_value.hpp"
 #include "validation/scene/keys.hpp"
+#include "validation/scene/probes.hpp"
 
 namespace clatter::validation {
 
@@ -96,11 +97,15 @@ void add_scene_flags(Command& command, SceneFlags& given, Model model) {
 
 Scene read_scene_flags(const SceneFlags& given) {
   const SceneValues values = scene_values(given.source);
-  return read_scene(values, overrides_of(given), given.model);
+  Scene scene = read_scene(values, overrides_of(given), given.model);
+  say_doubts(scene, given.model);
+  return scene;
 }
 
 PreparedScene read_discrete_flags(const SceneFlags& given) {
-  return read_discrete_scene(scene_values(given.source), overrides_of(given));
+  PreparedScene prepared = read_discrete_scene(scene_values(given.source), overrides_of(given));
+  say_doubts(prepared.scene, Model::discrete);
+  return prepared;
 }
 
 bool is_given(const SceneFlags& given, const std::string& name) { return !given.texts.at(name).empty(); }

@@ -55,19 +55,19 @@ std::string said(double value) {
 
 std::string blow_words(const Blow& blow, const std::string& probe, const Ranking& ranking) {
   const auto half_sine = [&] { return equivalent_pulse(blow.velocity, blow.peak_g * standard_gravity); };
-  std::string words = ranking.has_peaks
-                          ? fmt::format("{} takes {} g in impact {}, {} m/s, as a half sine of {} ms has", probe,
-                                        said(blow.peak_g), blow.impact, said(blow.velocity),
-                                        said(1e3 * half_sine().duration))
-                          : fmt::format("{} is changed by {} m/s in impact {}", probe, said(blow.velocity), blow.impact);
+  std::string words =
+      ranking.has_peaks
+          ? fmt::format("{} takes {} g in impact {}, {} m/s, as a half sine of {} ms has", probe, said(blow.peak_g),
+                        blow.impact, said(blow.velocity), said(1e3 * half_sine().duration))
+          : fmt::format("{} is changed by {} m/s in impact {}", probe, said(blow.velocity), blow.impact);
   if (!blow.margin) return words;
   const FragilePart& part = *ranking.part;
   const double bears = part.fragility / standard_gravity;
   const char* const decides = blow.margin->by_velocity ? "the change of velocity" : "the peak";
   switch (part.kind) {
     case FragilePart::Kind::oscillator:
-      return words + fmt::format("; the part of {} Hz answers with {} g and bears {} g: {} decides", said(part.frequency),
-                                 said(bears / blow.margin->value), said(bears), decides);
+      return words + fmt::format("; the part of {} Hz answers with {} g and bears {} g: {} decides",
+                                 said(part.frequency), said(bears / blow.margin->value), said(bears), decides);
     case FragilePart::Kind::at_place: return words + fmt::format("; the part bears {} g there", said(bears));
     case FragilePart::Kind::tested:
       return words + fmt::format("; the part bore a half sine of {} g and {} ms, {} m/s: {} decides", said(bears),
@@ -89,10 +89,10 @@ std::vector<std::string> assumed_words(const Scene& scene, Model model, const Bl
   const numeric::Ground& ground = scene.world.ground;
   const bool is_continuous = model == Model::continuous;
   if (is_lossless(scene, model)) {
-    const char* const what = !is_continuous                ? "Impacts without loss (e = 1)"
-                             : scene.half_space.floor      ? "Undamped floor (e = 1): no source gives a restitution"
-                             : ground.is_pad()             ? "Undamped pad (e = 1): a curve gives no restitution"
-                                                           : "Undamped ground (e = 1)";
+    const char* const what = !is_continuous           ? "Impacts without loss (e = 1)"
+                             : scene.half_space.floor ? "Undamped floor (e = 1): no source gives a restitution"
+                             : ground.is_pad()        ? "Undamped pad (e = 1): a curve gives no restitution"
+                                                      : "Undamped ground (e = 1)";
     items.push_back(fmt::format(
         "{}; changes of velocity are up to twice those without rebound, and later impacts are too hard{}. {} gives one",
         what, blow.impact > 1 ? fmt::format(", as impact {} here is", blow.impact) : "",
@@ -104,8 +104,8 @@ std::vector<std::string> assumed_words(const Scene& scene, Model model, const Bl
                     shortest(*scene.impact.restitution)));
   }
   if (is_continuous && scene.half_space.floor && !scene.half_space.body_material && !scene.half_space.body_modulus) {
-    items.push_back(fmt::format("The body's surface is taken as {}: --body-material names another",
-                                body_materials().front().name));
+    items.push_back(
+        fmt::format("The body's surface is taken as {}: --body-material names another", body_materials().front().name));
   }
   return items;
 }

@@ -10,6 +10,7 @@
 #include "validation/output/number.hpp"
 #include "validation/output/numeric_table.hpp"
 #include "validation/output/text_rows.hpp"
+#include "validation/scene/body_properties.hpp"
 
 namespace clatter::validation {
 namespace {
@@ -161,6 +162,14 @@ std::string pad_words(const Scene& scene) {
                      pad.file.empty() ? "" : " by " + pad.file, pad.curve.size(), significant(end, 4),
                      shortest(pad.curve.back()[1]),
                      pad.under ? fmt::format("{} Pa/m", shortest(*pad.under)) : "its last slope");
+}
+
+std::string pad_doubts(const Scene& scene) {
+  if (!scene.world.ground.is_pad() || !scene.pad.thickness) return "";
+  const double extent = body_properties(scene, Model::continuous).extents.maxCoeff();
+  if (!(*scene.pad.thickness > extent)) return "";
+  return fmt::format("a pad {} m thick under a body of {} m: lengths are in m; were mm meant?",
+                     shortest(*scene.pad.thickness), significant(extent, 3));
 }
 
 std::string pad_warning(const Scene& scene, double depth) {

@@ -20,6 +20,9 @@ void settle_pad(const PadScene& pad, numeric::Ground& ground);
 /// "pad 0.02 m thick by foam.csv, 3 points up to 0.012 m and 50000 Pa (its last slope beyond),".
 [[nodiscard]] std::string pad_words(const Scene& scene);
 
+/// A question to whoever gave a pad that is thicker than the body is large, "mm typed?"; empty: none.
+[[nodiscard]] std::string pad_doubts(const Scene& scene);
+
 /// What to say of a pad into which a body went so deep [m]; empty: nothing, or the scene has none.
 [[nodiscard]] std::string pad_warning(const Scene& scene, double depth);
 

@@ -138,6 +138,8 @@ ShockView view_of(const ShockInput& input) {
     if (model_of(input) == Model::discrete)
       throw BadInput("--rate: needs forces, which the continuous model has: a scene with a ground");
   }
+  if (view.part && view.part->kind == FragilePart::Kind::at_place && model_of(input) == Model::discrete)
+    throw BadInput("--part G: needs peaks, which the continuous model has: a scene with a ground");
   if (view.rows == ShockRows::pulses && model_of(input) == Model::discrete)
     throw BadInput("--rows pulse: needs peaks, which the continuous model has: a scene with a ground");
   return view;

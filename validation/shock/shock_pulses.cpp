@@ -60,8 +60,9 @@ std::vector<Column> pulse_columns() {
       {"pulse_duration", "T", "s", "of the half sine with this change of velocity and peak: π |ΔV|/(2 peak)"},
       {"height_without_rebound", "h, e = 0", "m", "of fall with this change of velocity if the body did not rebound"},
       {"height", "h", "m", "of fall with this change of velocity and the impact's own restitution"},
-      word_column("condition", "B110",
-                  "mildest service condition of JESD22-B110B, H, G, B, F, A, E, D or C, that covers both; or -"),
+      word_column(
+          "condition", "B110",
+          "mildest service condition of JESD22-B110B, H, G, B, F, A, E, D or C, that covers both; -: harder than any"),
       {"margin_rectangle", "rectangle", "",
        "fragility over the part's acceleration under a rectangle of this |ΔV| and "
        "peak: at most 1, it fails"},
