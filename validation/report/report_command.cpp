@@ -445,6 +445,11 @@ Grid attitudes_grid(const AllAttitudes& all) {
   const bool has_margin = std::ranges::any_of(all.blows, [](const auto& blow) { return blow && blow->margin; });
   const bool has_velocity = std::ranges::any_of(all.blows, [](const auto& blow) { return blow && blow->velocity > 0; });
   const bool has_depth = std::ranges::any_of(all.blows, [](const auto& blow) { return blow && blow->depth; });
+  // Whether the blow's own numbers have what is ranked by.
+  const bool is_of_blow = std::ranges::all_of(all.worst_of, [&, i = std::size_t{0}](std::size_t drop) mutable {
+    const std::optional<Blow>& blow = all.blows[i++];
+    return !blow || blow->value == all.drops[drop].value;
+  });
   const auto& pad = all.scene.pad.thickness;
   const bool has_share = has_depth && all.scene.world.ground.is_pad() && pad;
   Grid grid{{word_column("attitude", "down", "part of the box that points down"),
@@ -455,8 +460,13 @@ Grid attitudes_grid(const AllAttitudes& all) {
              {"margin", "margin", "", "of the part in it: at 1 and below it fails", has_margin},
              {"depth_mm", "depth", "mm", "of the body's deepest point in it", has_depth},
              {"depth_percent", "of pad", "%", "the same in parts of the pad's thickness", has_share},
-             {"worst", "worst", all.column.unit, all.column.name + " of that drop"},
-             {"mildest", "mildest", all.column.unit, all.column.name + " of the mildest of its drops"},
+             {"worst", "worst", all.column.unit, all.column.name + " of that drop", !is_of_blow},
+             {"mildest", "mildest", all.column.unit,
+              (is_of_blow ? std::string(has_margin  ? "margin"
+                                        : has_peaks ? "peak"
+                                                    : "|ΔV|")
+                          : all.column.name) +
+                  " of the mildest of its drops"},
              {"drops", "drops", "", "of this attitude"}},
             {},
             1};
@@ -720,6 +730,18 @@ struct Findings {
   Report report;  ///< for other programs
 };
 
+/// "In 257 of 260 drops the pad bottoms out"; empty without a pad.
+std::string bottoming_words(const AllAttitudes& all, const Ranking& ranking) {
+  if (!all.scene.world.ground.is_pad() || !ranking.has_peaks) return "";
+  const auto bottoming = all.count([](const SweptDrop& drop) { return drop.curve_depth > 1; });
+  return fmt::format("In {} of {} drops the pad bottoms out{}", bottoming, all.drops.size(),
+                     bottoming == 0 ? ""
+                     : all.scene.pad.under
+                         ? ", onto the stiffness of --under"
+                         : ", where its last slope goes on, which is too soft: --under PA/M says what "
+                           "is below");
+}
+
 /// The worst of all drops in a sentence: with a part that it survives or fails, with the least margin of all.
 std::string worst_words(const AllAttitudes& all, const Answer& answer, const Ranking& ranking) {
   const std::size_t drops = all.drops.size();
@@ -739,33 +761,32 @@ std::string worst_words(const AllAttitudes& all, const Answer& answer, const Ran
                      all.name, answer.blow->impact, answer.words);
 }
 
+/// Three digits with the unit of what is ranked by.
+std::string in_unit(const AllAttitudes& all, double value) {
+  return said(value) + (all.column.unit.empty() ? "" : " " + all.column.unit);
+}
+
 /// What the answer leaves out of all drops, and how far it is known.
 std::vector<std::string> notes_of_all(const AllAttitudes& all, const Answer& answer, const Ranking& ranking) {
   std::vector<std::string> notes;
-  const std::size_t drops = all.drops.size();
   const SweptDrop& worst = all.drops[all.worst];
-  if (all.scene.world.ground.is_pad() && ranking.has_peaks) {
-    const auto bottoming = all.count([](const SweptDrop& drop) { return drop.curve_depth > 1; });
-    notes.push_back(fmt::format(
-        "In {} of {} drops the pad bottoms out{}", bottoming, drops,
-        bottoming == 0        ? ""
-        : all.scene.pad.under ? ": there the stiffness is that of --under"
-                              : ": there its last slope goes on, which is too soft. --under PA/M says what is below"));
-  }
   const auto beyond = std::ranges::max_element(all.drops, [&](const SweptDrop& one, const SweptDrop& other) {
     return all.is_worse(other.beyond_value, one.beyond_value);
   });
   if (ranking.landing_alone && all.is_worse(beyond->beyond_value, worst.value)) {
     notes.push_back(fmt::format(
-        "Impacts after the first landing follow bounces without loss and are left out; with them the {} is {} {} ({}, "
+        "Impacts after the first landing follow bounces without loss and are left out; with them the {} is {} ({}, "
         "impact {})",
-        all.is_least_worst() ? "least margin" : "largest", said(beyond->beyond_value), all.column.unit,
+        all.is_least_worst() ? "least margin" : "largest", in_unit(all, beyond->beyond_value),
         name_of_drop(all.scene, beyond->attitude, beyond->down), beyond->beyond_impact));
   }
   constexpr double close = 0.02;  // of numbers to three digits whose errors were not looked for
-  if (answer.blow && !(std::fabs(answer.blow->value / worst.value - 1) <= close)) {
-    notes.push_back(fmt::format("To three digits this drop has {} {} in place of {}: {}", said(worst.value),
-                                all.column.unit, said(answer.blow->value),
+  const auto place = std::ranges::find(all.worst_of, all.worst) - all.worst_of.begin();
+  const std::optional<Blow>& swept = all.blows[static_cast<std::size_t>(place)];
+  const bool is_ranked_by = swept && swept->value == worst.value;  // else by what blows do not have
+  if (answer.blow && is_ranked_by && !(std::fabs(answer.blow->value / worst.value - 1) <= close)) {
+    notes.push_back(fmt::format("To three digits this drop has {} in place of {}: {}", in_unit(all, worst.value),
+                                in_unit(all, answer.blow->value),
                                 answer.blow->predictable
                                     ? "small differences of the start decide which blows follow"
                                     : fmt::format("impact {} depends on digits that nobody has", answer.blow->impact)));
@@ -843,6 +864,8 @@ std::optional<Findings> findings_of(ReportInput& input, const Attitudes& attitud
       answer["bottoming"] =
           static_cast<long long>(all->count([](const SweptDrop& drop) { return drop.curve_depth > 1; }));
     found.lead = worst_words(*all, found.answer, ranking);
+    if (const std::string bottoming = bottoming_words(*all, ranking); !bottoming.empty())
+      found.lead += ". " + bottoming;
     for (const std::string& note : notes_of_all(*all, found.answer, ranking)) found.notes.push_back(note);
     if (is_turned && !probes.empty()) {
       ShockRequest plain = request_of(input);

@@ -66,6 +66,7 @@ constexpr std::array all_but_floor{"ground.stiffness", "ground.damping",     "gr
 constexpr std::array all_but_half_space{"ground.stiffness", "ground.damping",      "ground.area",
                                         "ground.curve",     "ground.curve_units",  "ground.thickness",
                                         "ground.under",     "ground.body_material"};
+constexpr std::array spin_of_release{"drop.release.spin"};
 constexpr std::array turn_of_plane{"drop.spin"};
 constexpr std::array parts_of_velocity{"drop.speed", "drop.height", "drop.clearance", "drop.tangential_velocity"};
 
@@ -251,11 +252,19 @@ void append_motion(std::vector<Key>& keys) {
 }
 > ("[0, 0, 0]"), of_release
 }
-, {"drop.release.angular_velocity", Use::both, "--release-angular-velocity", "X,Y,Z", "rad/s",
-   "at the release, world components; without it none",
-   three_velocities < [](auto& s) -> auto& {return s.release.angular_velocity;
+, {"drop.release.spin",
+   Use::both,
+   "--release-spin",
+   "RAD/S",
+   "rad/s",
+   "at the release, clockwise, as Omega in Eq. 8; without it none",
+   OptionalNumber{[](Scene& s) -> std::optional<double>& { return s.release.spin; }, velocities},
+   of_release},
+    {"drop.release.angular_velocity", Use::both, "--release-angular-velocity", "X,Y,Z", "rad/s",
+     "or all of it, world components",
+     three_velocities < [](auto& s) -> auto& {return s.release.angular_velocity;
 }
-> ("[0, 0, 0]"), of_release
+> ("[0, 0, 0]"), of_release, false, spin_of_release
 }
 ,
     {"world.gravity",
@@ -325,7 +334,7 @@ void append_shape(std::vector<Key>& keys) {
                      },
                      {3},
                      sizes,
-                     "three lengths in m greater than 0, as in [0.106, 0.044, 0.019]",
+                     "three lengths in m greater than 0, as in 0.106x0.044x0.019, [0.106, 0.044, 0.019] in a file",
                      "[0.106, 0.044, 0.019]",
                      &wide_sizes},
            of_size},

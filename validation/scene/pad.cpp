@@ -90,7 +90,7 @@ class GivenCurve {
     if (x.size() != 1 || pressure.size() != 1)
       rows_->refuse(fmt::format(
           "columns {}: one must have a unit of strain or depth and one a unit of pressure in the header, as in strain "
-          "[%], stress [kPa]; or a file of two columns takes {}",
+          "[%], stress [kPa]; or say the units of two columns: --curve-units %,kPa, {} in a file",
           rows_->names(), units_key));
     for (std::size_t i = 0; i < rows_->count(); ++i)
       points_.push_back({rows_->number(i, x[0]), rows_->number(i, pressure[0])});

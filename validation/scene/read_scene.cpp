@@ -254,13 +254,15 @@ void check_drop(const SceneValues& values, Scene& scene) {
     const char* const key = scene.release.attitude.empty() ? "drop.attitude" : "drop.release.attitude";
     if (!is_attitude(scene.attitude)) values.refuse(key, key_named(key).allowed());
   } else if (!swept && !scene.topple && !scene.release.angle_deg && scene.body.shape != BodyScene::Shape::sphere) {
+    if (scene.is_released())
+      values.require("drop.release.angle_deg", "the inclination at the release, or drop.release.attitude");
     values.require("drop.angle_deg", "the inclination at the first impact, or drop.attitude");
   }
   if (!scene.is_released()) {
-    only_for(
-        values,
-        {"drop.release.angle_deg", "drop.release.attitude", "drop.release.velocity", "drop.release.angular_velocity"},
-        "a drop with drop.release.height or drop.release.clearance");
+    only_for(values,
+             {"drop.release.angle_deg", "drop.release.attitude", "drop.release.velocity", "drop.release.spin",
+              "drop.release.angular_velocity"},
+             "a drop with drop.release.height or drop.release.clearance");
   }
   for (const char* key : falls_from) {
     if (!values.has(key)) continue;
@@ -377,6 +379,7 @@ void Scene::settle() {
     const auto or_none = [](const std::vector<double>& v) { return v.empty() ? std::vector<double>(3, 0.0) : v; };
     velocity = or_none(release.velocity);
     angular_velocity = or_none(release.angular_velocity);
+    if (release.spin) angular_velocity[1] = *release.spin;
     if (release.angle_deg) angle_deg = std::remainder(*release.angle_deg, 360);
     if (!release.attitude.empty()) attitude = release.attitude;
   }

@@ -138,7 +138,8 @@ struct Release {
   std::optional<double> angle_deg;       ///< turn about −y, of any size [°]
   std::vector<double> attitude;          ///< Euler parameters, instead; empty, without an angle too: that of the drop
   std::vector<double> velocity;          ///< of the centre of mass, world [m/s]; empty: none
-  std::vector<double> angular_velocity;  ///< world components [rad/s]; empty: none
+  std::optional<double> spin;            ///< about y, as Ω in Eq. 8 [rad/s]
+  std::vector<double> angular_velocity;  ///< instead, world components [rad/s]; empty: none
 };
 
 /// Names of keys of which nothing is to be said, since their values are not those of every scene of a sweep.

@@ -326,7 +326,9 @@ std::vector<double> SceneValues::numbers(const std::string& key, const std::vect
     std::istringstream parts(text + "x");  // so that an empty last part counts
     for (std::string part; std::getline(parts, part, 'x');) {
       double value = 0;
-      numbers.push_back(read_number(part, value) ? value : std::nan(""));
+      const std::size_t begin = std::min(part.find_first_not_of(' '), part.size());
+      numbers.push_back(read_number(part.substr(begin, part.find_last_not_of(' ') + 1 - begin), value) ? value
+                                                                                                       : std::nan(""));
     }
   }
   const bool right = std::find(sizes.begin(), sizes.end(), numbers.size()) != sizes.end() &&
