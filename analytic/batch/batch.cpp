@@ -124,7 +124,8 @@ BatchEnd batch_end(Outcome outcome, bool has_tail) {
   if (has_tail) return BatchEnd::infinite;
   switch (outcome) {
     case Outcome::no_further_impact: return BatchEnd::finished;
-    case Outcome::impact_limit: return BatchEnd::at_limit;
+    case Outcome::impact_limit:
+    case Outcome::time_limit: return BatchEnd::at_limit;
     case Outcome::at_rest:
     case Outcome::sustained_contact: return BatchEnd::stays;
     case Outcome::outside_model: return BatchEnd::outside;

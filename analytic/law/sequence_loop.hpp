@@ -74,11 +74,29 @@ class SequenceLoop {
     return true;
   }
 
+  /// Whether a state is asked for before this time that is not there yet.
+  [[nodiscard]] bool awaits(double until) const {
+    return next_time_ < options_.times.size() && options_.times[next_time_] < until;
+  }
+
+  /// Whether something is asked for of the time until then, so that no sum may stand for it.
+  [[nodiscard]] bool is_watched(double until) const { return until > options_.until || awaits(until); }
+
+  /// Whether an impact comes too late to be followed.
+  bool is_over(double time) {
+    if (!(time > options_.until)) return false;
+    result_.outcome = Outcome::time_limit;
+    result_.message = "the next impact comes after the time asked for";
+    return true;
+  }
+
   /// A bouncing in closed form fills the rows asked for first, as far as its speeds and times are numbers; none where
   /// the end is asked for and no number of rows.
-  [[nodiscard]] bool bounces_on(double separation_speed, double gravity) const {
+  /// @param end  of the bouncing
+  [[nodiscard]] bool bounces_on(double separation_speed, double gravity, double end) const {
     constexpr double least = std::numeric_limits<double>::min() / std::numeric_limits<double>::epsilon();
-    return !options_.until_rest && !is_last_row() && separation_speed > least && separation_speed > least * gravity;
+    return (!options_.until_rest || is_watched(end)) && !is_last_row() && separation_speed > least &&
+           separation_speed > least * gravity;
   }
 
   /// Notes the loss of the next row's impact where it is below zero by more than `rounding` of the energy at the start,
@@ -129,6 +147,7 @@ class SequenceLoop {
 
   const SequenceOptions& options_;
   std::optional<AnyGrowth> growth_;
+  std::size_t next_time_ = 0;    ///< of SequenceOptions::times
   bool end_is_certain_ = false;  ///< although errors decide the order of the last impacts
   AnySequence result_;
 

@@ -2,6 +2,9 @@
 // What an impact sequence is asked for, and how it ends: the same in the plane and in space.
 #pragma once
 
+#include <limits>
+#include <vector>
+
 namespace clatter::analytic {
 
 struct SequenceOptions {
@@ -16,6 +19,11 @@ struct SequenceOptions {
   /// corners have stayed on the ground while the body turns (space/sequence/sustained_contact.hpp), and ends where the
   /// body has to settle on one face and no impact can be predicted any more.
   bool until_rest = false;
+  /// No impact after this time since the first is followed [s].
+  double until = std::numeric_limits<double>::infinity();
+  /// In space: ascending times since the first impact at which the state is wanted (Sequence::states), not before the
+  /// release or, without one, that impact [s].
+  std::vector<double> times{};
 
   /// @throws std::domain_error naming the field, its value and what is allowed.
   void validate() const;
@@ -24,6 +32,7 @@ struct SequenceOptions {
 enum class Outcome {
   no_further_impact,  ///< nothing reaches the ground any more
   impact_limit,       ///< as many impacts as asked for
+  time_limit,         ///< the next impact comes after SequenceOptions::until
   at_rest,            ///< infinitely many impacts end in a finite time, with no normal or angular motion left that
                       ///< doubles could tell from none, or with a face that the body must settle on
   sustained_contact,  ///< a vertex stays on the ground (after infinitely many impacts, or with e = 0)

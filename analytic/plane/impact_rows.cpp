@@ -48,6 +48,12 @@ Drop Units::to_internal(Drop drop) const {
   return drop;
 }
 
+SequenceOptions Units::to_internal(const SequenceOptions& options) const {
+  SequenceOptions o = options;
+  scale(o.until, speed_ - length_);
+  return o;
+}
+
 double Units::energy(double internal) const { return std::ldexp(internal, mass_ + 2 * speed_); }
 
 void Units::to_si(PlanarVelocity& v) const {
@@ -109,6 +115,12 @@ void Units::to_si(Sequence& sequence) const {
   scale(sequence.total_normal_impulse, mass_ + speed_);
   scale(sequence.total_normal_impulse_error, mass_ + speed_);
   to_si(sequence.near_miss);
+  if (sequence.slide) {
+    scale(sequence.slide->begin, length_ - speed_);
+    scale(sequence.slide->speed, speed_);
+    scale(sequence.slide->duration, length_ - speed_);
+    scale(sequence.slide->distance, length_);
+  }
   if (!sequence.tail) return;
   Tail& tail = *sequence.tail;
   scale(tail.end_time, length_ - speed_);

@@ -98,12 +98,21 @@ struct Tail {
   PlanarVelocity after_error;
 };
 
+/// A body that slides along the ground after its last impact.
+struct LastSlide {
+  double begin = 0;     ///< since the first impact [s]
+  double speed = 0;     ///< to the right [m/s]
+  double duration = 0;  ///< until friction has stopped it; infinite: never [s]
+  double distance = 0;  ///< that it slides meanwhile; infinite likewise [m]
+};
+
 struct Sequence {
   std::vector<ImpactRow> rows;
   Outcome outcome = Outcome::no_further_impact;
   std::string message;                ///< why it ended, one sentence
   std::vector<std::string> warnings;  ///< such as energy created by an impulse ratio
   std::optional<Tail> tail;
+  std::optional<LastSlide> slide;   ///< if at_rest, but for that
   NearMiss near_miss;               ///< of the last flight, if no_further_impact
   double total_normal_impulse = 0;  ///< rows and tail [N·s]
   /// Bound on its error; infinite without SequenceOptions::amplification or if a row cannot be predicted [N·s].
@@ -119,6 +128,7 @@ class Units {
  public:
   explicit Units(const Drop& drop);
   [[nodiscard]] Drop to_internal(Drop drop) const;
+  [[nodiscard]] SequenceOptions to_internal(const SequenceOptions& options) const;
   void to_si(Sequence& sequence) const;
   /// [J] of an energy in internal units.
   [[nodiscard]] double energy(double internal) const;

@@ -69,6 +69,7 @@ class Run : public SequenceLoop<Sequence, ErrorGrowth> {
         end_without_contact(flight);
         break;
       }
+      if (is_over(motion_.time())) break;
       arriving = flight.arrival.vertices;
     }
   }
@@ -124,13 +125,14 @@ class Run : public SequenceLoop<Sequence, ErrorGrowth> {
   /// Whether infinitely many impacts follow that need no more rows.
   bool accumulates(const BodyMotion::Strike& strike) {
     if (const auto rest = resting_tail(motion_, law_, strike)) {
-      if (!options_.until_rest && !is_last_row() && !vanishes(*rest)) return false;
+      const bool is_summed = options_.until_rest || is_last_row();
+      if ((!is_summed || is_watched(rest->end_time)) && !vanishes(*rest)) return false;
       finish(*rest);
       return true;
     }
     auto tail = bouncing_tail(motion_, law_, strike);
     if (!tail) return extrapolated_end(strike.impact.mode);
-    if (bounces_on(strike.impact.separation_speed, gravity_)) return false;
+    if (bounces_on(strike.impact.separation_speed, gravity_, tail->end_time)) return false;
     if (strike.impact.separation_speed == 0) stay(strike.vertices);
     else finish(*tail);
     return true;
@@ -140,7 +142,8 @@ class Run : public SequenceLoop<Sequence, ErrorGrowth> {
     if (!may_accumulate(law_)) return false;
     auto tail = extrapolated(accumulation_, {.time = motion_.time()});
     if (!tail || !undisturbed(*tail)) return false;
-    if (!vanishes(*tail) && !keeps_its_mode(motion_, *tail, mode)) return false;
+    const bool stands_for_all = keeps_its_mode(motion_, *tail, mode) && !is_watched(motion_.time() + tail->end_time);
+    if (!vanishes(*tail) && !stands_for_all) return false;
     end_state(motion_, mode, *tail);
     tail->end_time += motion_.time();
     finish(*tail);
@@ -168,12 +171,28 @@ class Run : public SequenceLoop<Sequence, ErrorGrowth> {
     const bool slides_on = slides(tail.after, tail.after_error.tangential);
     if (growth_) growth_->add_to(motion_, tail);
     const bool tips = tips_over(tail.vertices, tail.after);
+    if (slides_on && tail.after.angular == 0 && !tips)
+      note_slide(tail.end_time,
+                 std::fabs(tail.after.tangential) > tail.after_error.tangential ? tail.after.tangential : 0);
     end_in(tail, tail.after.angular != 0 || tips, slides_on, tips ? over_the_edge : stays(tail.vertices));
   }
 
   /// Whether the body moves along the ground at the end, as far as an extrapolation can tell, or begins to.
   [[nodiscard]] bool slides(const PlanarVelocity& after, double error = 0) const {
     return std::fabs(after.tangential) > error || slides_down(law_, gravity_, gravity_along_);
+  }
+
+  /// A slide with this speed, on level ground or along its slope; an impulse ratio says nothing of it.
+  void note_slide(double begin, double speed) {
+    if (law_.friction == FrictionKind::impulse_ratio && law_.friction_value != 0) return;
+    const double rub = law_.most_friction() * gravity_;
+    const double bound_for = speed != 0 ? speed : gravity_along_;
+    const double acceleration = gravity_along_ - std::copysign(rub, bound_for);
+    const bool stops = acceleration * speed < 0 && std::fabs(gravity_along_) <= rub;
+    result_.slide = LastSlide{.begin = begin,
+                              .speed = speed,
+                              .duration = stops ? -speed / acceleration : infinite,
+                              .distance = stops ? speed * speed / (2 * std::fabs(acceleration)) : infinite};
   }
 
   /// Whether a face that has come to rest on sloping ground turns over its lower edge.
@@ -193,6 +212,7 @@ class Run : public SequenceLoop<Sequence, ErrorGrowth> {
   void stay(VertexSet touching) {
     const PlanarVelocity after = motion_.velocity();
     const bool tips = tips_over(result_.rows.back().vertices, after);
+    if (slides(after) && after.angular == 0 && !tips) note_slide(motion_.time(), after.tangential);
     rest(after.angular != 0 || tips, slides(after), law_.restitution == 0 ? "no rebound (e = 0)" : "no rebound there",
          tips ? over_the_edge : stays(touching));
   }
@@ -229,7 +249,8 @@ Sequence run_sequence(const Drop& drop, const SequenceOptions& options, bool sum
   const Units units(drop);
   const Drop internal = units.to_internal(drop);
   require_representable(drop, internal);
-  Run run(internal, options, sums_only);
+  const SequenceOptions own = units.to_internal(options);
+  Run run(internal, own, sums_only);
   Sequence sequence = run.run();
   units.to_si(sequence);
   require_representable(sequence);

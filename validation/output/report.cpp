@@ -192,6 +192,11 @@ void write_aligned_grid(const Grid& grid, const RowSource& rows, const Written& 
   }
 }
 
+/// The rows of a grid, which has to live as long.
+RowSource rows_of(const Grid& grid) {
+  return {grid.rows.size(), [&](std::size_t i) -> const Row& { return grid.rows[i]; }};
+}
+
 std::vector<std::size_t> shown_columns(const Grid& grid) {
   std::vector<std::size_t> shown;
   for (std::size_t i = 0; i < grid.columns.size(); ++i) {
@@ -209,6 +214,11 @@ std::vector<std::string> head_lines(const Report& report) {
 void write_aligned(const Report& report, const RowSource& rows, const Written& written, const WriteText& write) {
   for (const auto& line : head_lines(report)) write(wrapped(line) + "\n");
   write_aligned_grid(report.grid, rows, written, write);
+  if (report.further) {
+    write("\n");
+    write_aligned_grid(*report.further, rows_of(*report.further), written, write);
+    write("\n");
+  }
   for (const auto& line : report.notes) write(wrapped(line) + "\n");
   for (const auto& [what, command] : report.commands)
     write(what + ":\n  " + folded_command(command, "    ", 77) + "\n");
@@ -221,14 +231,18 @@ Report shown_report(const Report& report, const Written& written) {
   shown.head = report.head;
   shown.notes = report.notes;
   shown.grid = {report.table().columns, {}, report.table().leading};
+  shown.further = report.further;
   shown.commands = report.commands;
   for (auto* lines : {&shown.head, &shown.notes}) {
     for (auto& line : *lines) line = written(line);
   }
   for (NamedCommand& one : shown.commands) one = {written(one.what), written(one.command)};
-  for (Column& column : shown.grid.columns) {
-    column.heading = written(column.heading);
-    column.unit = written(column.unit);
+  for (Grid* const grid : {&shown.grid, shown.further ? &*shown.further : nullptr}) {
+    if (!grid) continue;
+    for (Column& column : grid->columns) {
+      column.heading = written(column.heading);
+      column.unit = written(column.unit);
+    }
   }
   return shown;
 }
@@ -242,10 +256,9 @@ std::string markdown_lines(const std::vector<std::string>& lines) {
   return out;
 }
 
-void write_markdown(const Report& report, const RowSource& rows, const Written& written, const WriteText& write) {
-  const Grid& grid = report.grid;
+void write_markdown_grid(const Grid& grid, const RowSource& rows, const Written& written, const WriteText& write) {
   const std::vector<std::size_t> columns = shown_columns(grid);
-  std::string out = markdown_lines(head_lines(report)) + "\n|";
+  std::string out = "\n|";
   for (const std::size_t i : columns) {
     const Column& column = grid.columns[i];
     out += " " + column.heading + (column.unit.empty() ? "" : " [" + column.unit + "]") + " |";
@@ -259,6 +272,12 @@ void write_markdown(const Report& report, const RowSource& rows, const Written& 
     for (const std::size_t i : columns) line += " " + cell_text(row, i, written) + " |";
     write(line + "\n");
   }
+}
+
+void write_markdown(const Report& report, const RowSource& rows, const Written& written, const WriteText& write) {
+  write(markdown_lines(head_lines(report)));
+  write_markdown_grid(report.grid, rows, written, write);
+  if (report.further) write_markdown_grid(*report.further, rows_of(*report.further), written, write);
   write("\n" + markdown_lines(notes_and_commands(report)));
 }
 
@@ -268,8 +287,7 @@ std::string latex_cell(const std::string& text) {
   return is_negative ? "$-$" + to_latex(text.substr(1)) : to_latex(text);
 }
 
-void write_latex(const Report& report, const RowSource& rows, const Written& written, const WriteText& write) {
-  const Grid& grid = report.grid;
+void write_latex_grid(const Grid& grid, const RowSource& rows, const Written& written, const WriteText& write) {
   const std::vector<std::size_t> columns = shown_columns(grid);
   const auto line_of = [&](const std::function<std::string(std::size_t)>& text) {
     std::string line;
@@ -277,9 +295,7 @@ void write_latex(const Report& report, const RowSource& rows, const Written& wri
       line += (line.empty() && i == columns.front() ? "" : " & ") + latex_cell(text(i));
     return line + " \\\\\n";
   };
-  std::string out;
-  for (const auto& line : head_lines(report)) out += "% " + line + "\n";
-  out += "\\begin{tabular}{";
+  std::string out = "\\begin{tabular}{";
   for (const std::size_t column : columns) out += grid.columns[column].words ? 'l' : 'r';
   out += "}\n\\hline\n" + line_of([&](std::size_t i) { return grid.columns[i].heading; });
   write(out + line_of([&](std::size_t i) { return grid.columns[i].unit; }) + "\\hline\n");
@@ -288,6 +304,12 @@ void write_latex(const Report& report, const RowSource& rows, const Written& wri
     write(line_of([&](std::size_t i) { return cell_text(row, i, written); }));
   }
   write("\\hline\n\\end{tabular}\n");
+}
+
+void write_latex(const Report& report, const RowSource& rows, const Written& written, const WriteText& write) {
+  for (const auto& line : head_lines(report)) write("% " + line + "\n");
+  write_latex_grid(report.grid, rows, written, write);
+  if (report.further) write_latex_grid(*report.further, rows_of(*report.further), written, write);
   for (const auto& line : notes_and_commands(report)) write("% " + line + "\n");
 }
 
@@ -505,9 +527,8 @@ void write_rows(const Report& report, const RowSource& rows, const TextStyle& st
 
 std::string report_text(const Report& report, const TextStyle& style) {
   if (style.format == Format::json) return json_text(report.fields);
-  const std::vector<Row>& rows = style.format == Format::csv ? report.grid.rows : report.table().rows;
   std::string text;
-  write_rows(report, {rows.size(), [&](std::size_t i) -> const Row& { return rows[i]; }}, style,
+  write_rows(report, rows_of(style.format == Format::csv ? report.grid : report.table()), style,
              [&](std::string_view piece) { text += piece; });
   return text;
 }

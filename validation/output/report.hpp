@@ -73,6 +73,7 @@ struct Report {
   std::vector<std::string> head;         ///< what was asked, for readers
   Value fields;                          ///< all of JSON
   Grid grid;                             ///< all of CSV; its shown columns are the table
+  std::optional<Grid> further{};         ///< a second table, below the first; not in CSV
   std::optional<Grid> digest{};          ///< the table, where that has other rows
   std::vector<std::string> notes{};      ///< what came out, in words
   std::vector<std::string> remarks{};    ///< likewise, in CSV alone

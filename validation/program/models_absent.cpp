@@ -31,7 +31,9 @@ Body box(double, const Box&) { leave(); }
 Body cylinder(double, const Cylinder&) { leave(); }
 Body capsule(double, const Cylinder&) { leave(); }
 Body ellipsoid(double, const Vector3&) { leave(); }
+Body outline(const PlanarBody&) { leave(); }
 double Body::reach() const { leave(); }
+bool Body::is_flat() const { leave(); }
 double touch_height(const Body&, const Quaternion&) { leave(); }
 State FreeFlight::at(double) const { leave(); }
 double Impact::restitution() const { leave(); }

@@ -721,6 +721,7 @@ Answer answer_of(const ShockRun& run, const Ranking& ranking) {
 /// What a page is about.
 struct Findings {
   std::optional<AllAttitudes> all;  ///< none: of the drop as given alone
+  Scene scene;                      ///< of the worst drop of all, or as given
   ShockRun run;
   Answer answer;
   std::string lead;                ///< the answer in a sentence
@@ -795,7 +796,8 @@ std::vector<std::string> notes_of_all(const AllAttitudes& all, const Answer& ans
 }
 
 /// What --format json has, by the names of the commands that give it.
-void add_fields(const ReportInput& input, const Scene& scene, const ShockView& view, Findings& found) {
+void add_fields(const ReportInput& input, const ShockView& view, Findings& found) {
+  const Scene& scene = found.scene;
   Value& fields = found.report.fields;
   if (found.all) {
     fields["attitudes"] = found.all->report.fields.at("attitudes");
@@ -837,7 +839,8 @@ std::optional<Findings> findings_of(ReportInput& input, const Attitudes& attitud
   Findings found;
   if (looks_at_all) found.all = all_attitudes(input, attitudes, rank_by, interrupt);
   if (interrupt.requested()) return {};
-  const Scene& scene = found.all ? found.all->scene : given;
+  found.scene = found.all ? found.all->scene : given;
+  const Scene& scene = found.scene;
   const auto watch = [&](int, long) { return !interrupt.requested(); };
   found.run = run_shock(scene, probes, request_of(input), {.progress = watch});
   if (interrupt.requested()) return {};
@@ -888,7 +891,7 @@ std::optional<Findings> findings_of(ReportInput& input, const Attitudes& attitud
   for (const std::string& note : assumed_words(scene, model, found.answer.blow.value_or(Blow{.impact = 1})))
     found.notes.push_back(note);
   fields["answer"]["notes"] = found.notes;
-  add_fields(input, scene, view, found);
+  add_fields(input, view, found);
   return found;
 }
 
@@ -929,8 +932,9 @@ std::vector<RankedDrop> dots_of(const AllAttitudes& all) {
   return dots;
 }
 
-std::string page_of(const ReportInput& input, const Scene& scene, const Findings& found, const Attitudes& attitudes,
+std::string page_of(const ReportInput& input, const Findings& found, const Attitudes& attitudes,
                     const ShockView& view) {
+  const Scene& scene = found.scene;
   const Model model = model_of(input);
   const auto& all = found.all;
   const numeric::Body body = scene.make_body();
@@ -986,14 +990,13 @@ int run_report(const ReportInput& given) {
   const ShockView view = view_of(input);
   const auto found = findings_of(input, attitudes, view, interrupt);
   if (!found) return interrupted_status;
-  const Scene scene = found->all ? found->all->scene : shock_scene(input);
   if (input.json) {
     write_report(choice, found->report);
   } else {
-    sink->write(page_of(input, scene, *found, attitudes, view));
+    sink->write(page_of(input, *found, attitudes, view));
     sink->commit();
   }
-  return status_of(scene, found->run);
+  return status_of(found->scene, found->run);
 }
 
 }  // namespace

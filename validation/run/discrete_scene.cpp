@@ -16,6 +16,7 @@
 #include "validation/output/bad_input.hpp"
 #include "validation/output/json.hpp"
 #include "validation/output/number.hpp"
+#include "validation/run/states.hpp"
 #include "validation/scene/hull.hpp"
 #include "validation/scene/keys.hpp"
 
@@ -162,6 +163,18 @@ space::Drop space_drop(const Scene& scene, const space::Body& body) {
   if (scene.height) drop.velocity.z() = -scene.fallen_speed(touch_height(drop.body, drop.attitude));
   if (scene.is_released()) drop.release_height = scene.release_height(touch_height(drop.body, drop.attitude));
   return drop;
+}
+
+/// Whether the sequence in the plane ends while the body still turns on an end that stays on the ground.
+bool stays_on_an_end(const Scene& scene, const analytic::Drop& drop) {
+  if (!(drop.gravity > 0)) return false;
+  try {
+    const analytic::SequenceOptions options{
+        .impacts = scene.most_impacts(), .digits = scene.accuracy.digits, .amplification = false, .until_rest = true};
+    return impact_sequence(drop, options).outcome == analytic::Outcome::sustained_contact;
+  } catch (const std::exception&) {  // which the run itself will tell
+    return false;
+  }
 }
 
 /// Corners of the two bodies, each matched by one of the other's.
@@ -414,8 +427,10 @@ const space::Body& DiscreteBody::in_space() {
 }
 
 DiscreteDrop DiscreteBody::drop(const Scene& scene) {
-  if (reason_in_space(scene).empty() && outline()) return planar_drop(scene, *outline());
-  return drop_in_space(scene);
+  if (!reason_in_space(scene).empty() || !outline()) return drop_in_space(scene);
+  analytic::Drop drop = planar_drop(scene, *outline());
+  if (scene.until_rest && stays_on_an_end(scene, drop)) return space_drop(scene, space::outline(*outline()));
+  return drop;
 }
 
 space::Drop DiscreteBody::drop_in_space(const Scene& scene) { return space_drop(scene, in_space()); }
@@ -565,17 +580,48 @@ std::string read_sequence_method(const std::string& option, const std::string& n
   return name;
 }
 
+namespace {
+
+/// A planar drop as one of its outline in space.
+space::Drop in_space(const PreparedScene& prepared) {
+  if (const auto* const drop = std::get_if<space::Drop>(&prepared.drop)) return *drop;
+  return space_drop(prepared.scene, space::outline(std::get<analytic::Drop>(prepared.drop).body));
+}
+
+/// When the last of what the run tells ends [s].
+double end_of(const Run& run) {
+  double end = run.impacts.empty() ? 0 : run.impacts.back().value.start;
+  if (run.tail) end = std::fmax(end, run.tail->sum.value.start);
+  if (run.end_motion && run.end_motion->ends()) end = std::fmax(end, run.end_motion->begin + run.end_motion->duration);
+  return end;
+}
+
+/// Follows the motion, whatever the number of impacts asked for, and notes where it is at the times asked for.
+void add_states(const PreparedScene& prepared, Run& run) {
+  const Scene& scene = prepared.scene;
+  if (!scene.has_times()) return;
+  const std::vector<double> times = state_times(scene, end_of(run));
+  const analytic::SequenceOptions options{
+      .impacts = 1'000'000, .digits = scene.accuracy.digits, .until_rest = true, .until = times.back(), .times = times};
+  for (const space::StateAt& state : impact_sequence(in_space(prepared), options).states)
+    run.states.push_back(motion_at(state));
+}
+
+}  // namespace
+
 DiscreteRun run_discrete(const PreparedScene& prepared) {
   const Scene& scene = prepared.scene;
-  DiscreteSequence sequence = std::visit(
-      [&](const auto& drop) -> DiscreteSequence {
-        return impact_sequence(
-            drop, {.impacts = scene.most_impacts(), .digits = scene.accuracy.digits, .until_rest = scene.until_rest});
-      },
-      prepared.drop);
+  const analytic::SequenceOptions options{.impacts = scene.most_impacts(),
+                                          .digits = scene.accuracy.digits,
+                                          .until_rest = scene.until_rest,
+                                          .until = scene.until.value_or(std::numeric_limits<double>::infinity())};
+  DiscreteSequence sequence =
+      std::visit([&](const auto& drop) -> DiscreteSequence { return impact_sequence(drop, options); }, prepared.drop);
   Run run = named_run(scene, sequence, prepared.centre);
   if (const auto* const planar = std::get_if<analytic::Drop>(&prepared.drop); planar && planar->fall)
     run.first_touch = first_touch_of(*planar);
+  settle_outcome(scene.until_rest, run);
+  add_states(prepared, run);
   return {std::move(sequence), std::move(run)};
 }
 

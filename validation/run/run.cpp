@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "analytic/base/angle.hpp"
+#include "validation/output/number.hpp"
 #include "validation/scene/names.hpp"
 
 namespace clatter::validation {
@@ -211,7 +212,97 @@ Run begun_run(RunModel model, const Sequence& sequence, long evaluations) {
   return run;
 }
 
+EndMotion end_motion(const space::LastMotion& motion) {
+  const char* const kinds[] = {"rests", "slides", "spins", "rolls"};
+  return {.kind = kinds[static_cast<std::size_t>(motion.kind)],
+          .begin = motion.begin,
+          .duration = motion.duration,
+          .distance = motion.distance,
+          .velocity = entry(motion.state.velocity),
+          .angular_velocity = entry(motion.state.angular_velocity),
+          .velocity_after = entry(motion.velocity_after),
+          .angular_velocity_after = entry(motion.angular_velocity_after)};
+}
+
+EndMotion end_motion(const analytic::LastSlide& slide) {
+  const EntryVector velocity{slide.speed, 0, 0};
+  return {.kind = "slides",
+          .begin = slide.begin,
+          .duration = slide.duration,
+          .distance = slide.distance,
+          .velocity = velocity,
+          .velocity_after = std::isfinite(slide.duration) ? EntryVector{} : velocity};
+}
+
+double length(const EntryVector& v) { return std::hypot(v[0], v[1], v[2]); }
+
 }  // namespace
+
+MotionAt motion_at(const space::StateAt& at) {
+  const double inclination = inclination_of(at.state.attitude);
+  return {.time = at.time,
+          .impacts = static_cast<int>(at.rows),
+          .touches = at.touches,
+          .is_known = at.is_known,
+          .beside = static_cast<int>(at.beside),
+          .position = entry(at.state.position),
+          .velocity = entry(at.state.velocity),
+          .angular_velocity = entry(at.state.angular_velocity),
+          .attitude = entry(at.state.attitude),
+          .inclination_deg = inclination * degrees,
+          .energy = at.energy,
+          .position_error = at.position_error,
+          .attitude_error = at.error.attitude,
+          .velocity_error = at.error.velocity,
+          .angular_velocity_error = at.error.angular_velocity,
+          .energy_error = at.energy_error,
+          .inclination_error_deg = at.tilt_error * degrees};
+}
+
+std::string words_of(const EndMotion& motion) {
+  const auto number = [](double value) { return significant(value, 6); };
+  const double begin = length(motion.velocity), end = length(motion.velocity_after);
+  if (motion.kind == "rests") return "";
+  if (motion.kind == "rolls") {
+    return motion.duration > 0 ? fmt::format("it slips for {} s and {} m, then rolls on at {} m/s",
+                                             number(motion.duration), number(motion.distance), number(end))
+                               : fmt::format("it rolls on at {} m/s", number(end));
+  }
+  if (motion.kind == "spins") {
+    return motion.ends() ? fmt::format("friction stops its spin {} s later", number(motion.duration))
+                         : fmt::format("it spins on at {} rad/s", number(length(motion.angular_velocity)));
+  }
+  if (!motion.ends()) return fmt::format("it slides on at {} m/s, which no friction stops", number(begin));
+  return fmt::format("friction stops its slide {} s and {} m later", number(motion.duration), number(motion.distance));
+}
+
+Value fields_of(const EndMotion& motion) {
+  const auto list = [](const EntryVector& v) { return std::vector<double>(v.begin(), v.end()); };
+  const auto finite = [](double value) { return std::isfinite(value) ? Value(value) : Value(); };
+  return Value::Fields{{"kind", motion.kind},
+                       {"start", motion.begin},
+                       {"duration", finite(motion.duration)},
+                       {"distance", finite(motion.distance)},
+                       {"velocity", list(motion.velocity)},
+                       {"angular_velocity", list(motion.angular_velocity)},
+                       {"velocity_after", list(motion.velocity_after)},
+                       {"angular_velocity_after", list(motion.angular_velocity_after)}};
+}
+
+void settle_outcome(bool followed, Run& run) {
+  if (!run.end_motion) return;
+  const EndMotion& motion = *run.end_motion;
+  if (motion.kind == "slides" && !(followed && motion.ends())) run.outcome = "slides-on";
+  if (motion.kind == "spins" && !(followed && motion.ends())) run.outcome = "spins-on";
+  if (motion.kind == "rolls") run.outcome = "rolls-on";
+  if (motion.kind == "rests" || (motion.kind != "rolls" && followed && motion.ends())) run.outcome = "at-rest";
+  const std::string words = words_of(motion);
+  if (words.empty()) return;
+  const char* const unknown = "; the body slides and turns on its round surface, which impacts do not describe";
+  if (const std::size_t at = run.message.find(unknown); at != std::string::npos)
+    run.message.replace(at, std::string_view(unknown).size(), "");
+  run.message += "; " + words;
+}
 
 Numbers Numbers::unknown() {
   constexpr double x = unknown_error;
@@ -291,6 +382,7 @@ Impact impact_of(const numeric::ImpactRecord& row, int n) {
 Run run_of(const analytic::Sequence& sequence, double drop_deg) {
   Run run = begun_run(RunModel::plane, sequence, sequence.root_evaluations);
   run.total_normal_impulse = Estimated{sequence.total_normal_impulse, sequence.total_normal_impulse_error};
+  if (sequence.slide) run.end_motion = end_motion(*sequence.slide);
   for (const analytic::ImpactRow& row : sequence.rows)
     run.impacts.push_back(impact_of(row, static_cast<int>(run.impacts.size()) + 1, drop_deg));
   return run;
@@ -298,6 +390,8 @@ Run run_of(const analytic::Sequence& sequence, double drop_deg) {
 
 Run run_of(const space::Sequence& sequence) {
   Run run = begun_run(RunModel::space, sequence, sequence.evaluations);
+  if (sequence.last_motion) run.end_motion = end_motion(*sequence.last_motion);
+  for (const space::StateAt& state : sequence.states) run.states.push_back(motion_at(state));
   for (const space::ImpactRow& row : sequence.rows)
     run.impacts.push_back(impact_of(row, static_cast<int>(run.impacts.size()) + 1));
   if (!sequence.rows.empty() && sequence.rows.front().flight.time > 0) {

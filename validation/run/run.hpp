@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <optional>
 #include <string>
 #include <vector>
@@ -82,12 +83,40 @@ struct RunTail {
   bool closed_form = false;  ///< else by extrapolation
 };
 
+/// The body at a time that was asked for; errors are bounds, of vectors on their length, not finite where not known.
+struct MotionAt {
+  double time = 0;        ///< since the first impact [s]
+  int impacts = 0;        ///< that have begun until then
+  bool touches = false;   ///< some of it is on the ground
+  bool is_known = false;  ///< else the model does not say where it is
+  int beside = 0;         ///< impact of which errors decide whether it is before or after this; 0: none
+  EntryVector position{}, velocity{}, angular_velocity{};
+  EntryParameters attitude{1, 0, 0, 0};
+  double inclination_deg = 0, energy = 0;
+  double position_error = unknown_error, attitude_error = unknown_error;  ///< [m], [rad]
+  double velocity_error = unknown_error, angular_velocity_error = unknown_error, energy_error = unknown_error;
+  double inclination_error_deg = unknown_error;
+};
+
+/// What the body does after its last impact, where that is known.
+struct EndMotion {
+  std::string kind{};                          ///< "rests", "slides", "spins", "rolls"
+  double begin = 0;                            ///< since the first impact [s]
+  double duration = 0;                         ///< until it rests or, if it rolls, rolls; infinite: never [s]
+  double distance = 0;                         ///< along the ground meanwhile [m]
+  EntryVector velocity{}, angular_velocity{};  ///< at its beginning
+  EntryVector velocity_after{}, angular_velocity_after{};  ///< at its end; where it never ends as at its beginning
+  [[nodiscard]] bool ends() const { return std::isfinite(duration); }
+};
+
 struct Run {
   RunModel model = RunModel::plane;
   std::vector<Impact> impacts{};
   std::optional<FirstTouch> first_touch{};  ///< of a drop with a release
   std::optional<RunTail> tail{};
-  Estimated impulse_between{};  ///< normal impulse of hops and contacts that last, between impacts [N·s]
+  std::optional<EndMotion> end_motion{};
+  std::vector<MotionAt> states{};  ///< at the times that were asked for
+  Estimated impulse_between{};     ///< normal impulse of hops and contacts that last, between impacts [N·s]
   const char* outcome = "";
   std::string message{};  ///< the outcome in words
   std::vector<std::string> warnings{};
@@ -113,6 +142,13 @@ inline constexpr double no_inclination = 360;
 /// The run of a sequence or simulation, without names of corners in space.
 [[nodiscard]] Run run_of(const analytic::Sequence& sequence, double drop_deg = no_inclination);
 [[nodiscard]] Run run_of(const analytic::space::Sequence& sequence);
+[[nodiscard]] MotionAt motion_at(const analytic::space::StateAt& state);
+/// "friction stops its slide after 1.22324 s and 3.66972 m", "it rolls on at 0.714 m/s from 0.2 s on"; empty: it rests.
+[[nodiscard]] std::string words_of(const EndMotion& motion);
+[[nodiscard]] Value fields_of(const EndMotion& motion);
+/// The outcome of a run whose bounces have ended in that motion.
+/// @param followed  to the rest that it comes to, if it does
+void settle_outcome(bool followed, Run& run);
 [[nodiscard]] Run run_of(const numeric::Simulation& simulation);
 
 // Sums over the impacts of a run, with the errors that follow from those of the impacts.

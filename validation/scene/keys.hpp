@@ -54,7 +54,7 @@ struct NameValue {
 struct ListValue {
   std::vector<double> (*get)(const Scene& scene);
   void (*put)(Scene& scene, const std::vector<double>& numbers);
-  std::vector<std::size_t> sizes;
+  std::vector<std::size_t> sizes;  ///< how many numbers; empty: one or more
   Range range;
   const char* words;    ///< what is allowed
   const char* example;  ///< as a scene file has it

@@ -38,6 +38,7 @@ const char* outcome_name(analytic::Outcome outcome) {
   switch (outcome) {
     case analytic::Outcome::no_further_impact: return "no-further-impact";
     case analytic::Outcome::impact_limit: return "impact-limit";
+    case analytic::Outcome::time_limit: return "time-limit";
     case analytic::Outcome::at_rest: return "at-rest";
     case analytic::Outcome::sustained_contact: return "sustained-contact";
     case analytic::Outcome::not_computed: return "not-computed";

@@ -358,6 +358,9 @@ Scene read_values(SceneValues values, const std::vector<SceneOverride>& override
   check_ground(values, scene, model);
   check_impact(values, scene);
   scene.settle_restitution();
+  std::ranges::sort(scene.times);
+  if (!scene.times.empty() && scene.times.front() < 0 && !scene.is_released())
+    values.refuse("run.at", "times from 0 on: the motion begins with the first impact where there is no drop.release");
   return scene;
 }
 

@@ -23,7 +23,7 @@ Scene Scene::at(double value) const {
   return one;
 }
 
-int Scene::most_impacts() const { return until_rest ? 100'000 : request.impacts; }
+int Scene::most_impacts() const { return until_rest || until ? 100'000 : request.impacts; }
 
 bool Scene::has_vectors() const { return !attitude.empty() || !velocity.empty() || !angular_velocity.empty(); }
 

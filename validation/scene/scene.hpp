@@ -171,6 +171,9 @@ struct Scene {
   numeric::Request request;
   numeric::Accuracy accuracy;
   bool until_rest = false;      ///< the discrete model goes on until nothing follows, whatever request.impacts is
+  std::optional<double> until;  ///< no impact after this time since the first is followed [s]
+  std::vector<double> times;    ///< times at which the state is wanted [s]
+  double rate = 0;              ///< of further ones, equally far apart from 0 on; 0: none [Hz]
   bool require_digits = false;  ///< fewer known digits are exit status 3
   std::string history;          ///< file for the time history; empty: none
   std::optional<SceneSweep> sweep;
@@ -178,6 +181,8 @@ struct Scene {
   [[nodiscard]] bool has_ground() const { return world.ground.stiffness > 0 || world.ground.modulus > 0; }
   /// Most impacts of the discrete model.
   [[nodiscard]] int most_impacts() const;
+  /// Whether states are wanted.
+  [[nodiscard]] bool has_times() const { return !times.empty() || rate > 0; }
   /// Whether the body falls from rest, from a height or clearance.
   [[nodiscard]] bool falls() const { return height || clearance; }
   /// Whether it flies freely from a release.

@@ -331,7 +331,8 @@ std::vector<double> SceneValues::numbers(const std::string& key, const std::vect
                                                                                                        : std::nan(""));
     }
   }
-  const bool right = std::find(sizes.begin(), sizes.end(), numbers.size()) != sizes.end() &&
+  const bool has_size = std::find(sizes.begin(), sizes.end(), numbers.size()) != sizes.end();
+  const bool right = (sizes.empty() ? !numbers.empty() : has_size) &&
                      std::all_of(numbers.begin(), numbers.end(), [&](double value) { return range.holds(value); });
   if (!right) refuse(key, words);
   return numbers;

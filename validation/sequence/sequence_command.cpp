@@ -10,6 +10,7 @@
 #include "validation/run/discrete_scene.hpp"
 #include "validation/run/impact_rows.hpp"
 #include "validation/run/shortfall.hpp"
+#include "validation/run/states.hpp"
 #include "validation/sequence/sequence_picture.hpp"
 #include "validation/sequence/sequence_report.hpp"
 
@@ -22,6 +23,7 @@ struct SequenceInput {
   OutputChoice output;
   PlotChoice plot;
   std::optional<TimeWindow> window;
+  bool states = false;
 };
 
 int status_of(const Scene& scene, const Run& run) {
@@ -58,6 +60,7 @@ int run_sequence(const SequenceInput& input) {
   const OutputChoice& choice = input.output;
   if (input.window && input.plot.path.empty())
     throw BadInput(fmt::format("--window {}: needs --plot FILE", input.window->text()));
+  require_states(input.states, prepared.scene);
   check_files(choice, plot_files(input.plot));
   PlotFile plot(input.plot);
   const DiscreteRun found = run_discrete(prepared);
@@ -67,7 +70,8 @@ int run_sequence(const SequenceInput& input) {
   // A table's one line on small tilts does not wait for edges that rattle on; JSON lists every outcome.
   analytic::space::TiltEffort tilts;
   if (choice.style.format != Format::json) tilts.rubs = 20;
-  write_rows_of(prepared, found, tilts, choice);
+  if (input.states) write_report(choice, with_states_alone(sequence_report(prepared, found, tilts)));
+  else write_rows_of(prepared, found, tilts, choice);
   if (picture)
     plot.write(*picture, run_words("sequence", "impact sequence, discrete model", prepared.scene, Model::discrete));
   return status_of(prepared.scene, found.run);
@@ -81,6 +85,8 @@ Command sequence_command() {
     command.add(read_argument("--method", input.method, read_sequence_method, "NAME",
                               "auto or discrete, the same (auto)", "Scene"));
     add_output_options(command, input.output);
+    command.add(choice_argument("--rows", input.states, {"impacts", "states"},
+                                "of CSV: at the times asked for (impacts)", "Output"));
     add_plot_options(command, input.plot);
     add_window_option(command, input.window, "of the picture");
     command.footer = "Example: clatter sequence --angle 10 --gravity 9.81 --restitution 0.8 --impacts 20";

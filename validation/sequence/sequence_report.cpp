@@ -17,6 +17,7 @@
 #include "validation/run/run.hpp"
 #include "validation/run/scene_value.hpp"
 #include "validation/run/shortfall.hpp"
+#include "validation/run/states.hpp"
 #include "validation/scene/body_properties.hpp"
 
 namespace clatter::validation {
@@ -92,6 +93,7 @@ std::string contact_words(const Scene& scene, const space::Body& body, const spa
     case space::ContactEnd::joining:
       return fmt::format("the body turns on {} until {}: {} stay on the ground", corners, until,
                          names_of(scene, body, contact.pivots));
+    case space::ContactEnd::rest: return fmt::format("the body lies on {} at {}", corners, until);
     case space::ContactEnd::open: break;
   }
   return fmt::format("the body turns on {} until {}: {}", corners, until, contact.reason);
@@ -124,13 +126,6 @@ void add_end_notes(const Scene& scene, const space::Drop& drop, const space::Seq
   notes.push_back(std::isfinite(latest)
                       ? fmt::format("the body settles on the face of {} before {} s", face, significant(latest, 3))
                       : fmt::format("the body settles on the face of {}, when is not known", face));
-  const analytic::ImpactLaw& law = drop.law.law;
-  if (law.friction != analytic::FrictionKind::coulomb || !(law.friction_value > 0) || !sequence.tail) return;
-  if (drop.gravity_along != 0) return;  // which a slope changes
-  const double speed = sequence.tail->velocity_after.head<2>().norm(), slowing = law.friction_value * drop.gravity;
-  if (!(speed > 0) || sequence.tail->angular_velocity_after != space::Vector3::Zero()) return;
-  notes.push_back(fmt::format("friction stops its slide {} s and {} m later", significant(speed / slowing, 3),
-                              significant(speed * speed / (2 * slowing), 3)));
 }
 
 std::string near_miss_words(int digits, const Run& run) {
@@ -194,6 +189,7 @@ std::vector<std::string> notes_of(const PreparedScene& prepared, const DiscreteR
         near_miss_words(digits, run)}) {
     notes.push_back(words);
   }
+  for (const std::string& words : state_notes(run)) notes.push_back(words);
   std::erase(notes, "");
   return notes;
 }
@@ -271,7 +267,7 @@ const char* contact_mode(const space::Drop& drop, const space::SustainedContact&
 Value contact_value(const Scene& scene, const space::Drop& drop, const space::SustainedContact& contact) {
   const space::Quaternion& q = contact.after.attitude;
   const space::StateErrors& error = contact.error;
-  const char* const ends[] = {"impact", "lift-off", "open", "joining"};
+  const char* const ends[] = {"impact", "lift-off", "joining", "rest", "open"};
   return Value::Fields{
       {"start", contact.begin},
       {"duration", contact.duration},
@@ -333,6 +329,7 @@ void add_end(const Scene& scene, const space::Drop& drop, const space::Sequence&
 void add_results(const Scene& scene, const Run& run, Value& fields) {
   if (run.first_touch) fields["first_touch"] = fields_of(*run.first_touch);
   if (run.tail) fields["tail"] = tail_fields(*run.tail);
+  if (run.end_motion) fields["end_motion"] = fields_of(*run.end_motion);
   fields["outcome"] = run.outcome;
   fields["message"] = run.message + "; the discrete model's impacts are instantaneous: no peak force or time";
   if (!run.warnings.empty()) fields["warnings"] = run.warnings;
@@ -371,6 +368,12 @@ std::vector<Column> columns_of(const PreparedScene& prepared, const Run& run) {
 
 double reach_of(const DiscreteDrop& drop) {
   return std::visit([](const auto& one) { return one.body.reach(); }, drop);
+}
+
+/// Whether a drop in space is one of an outline that moves in the plane.
+bool is_planar(const PreparedScene& prepared) {
+  const auto* const drop = std::get_if<space::Drop>(&prepared.drop);
+  return drop == nullptr || (drop->body.is_flat() && reason_in_space(prepared.scene).empty());
 }
 
 /// The report without its rows, which are made one at a time; all of it must outlive this.
@@ -430,6 +433,16 @@ Report SequenceRows::begun() const {
   report.fields["body"] = body_value(scene, Model::discrete);
   report.grid.columns = columns_of(prepared_, run);
   report.fields["impacts"] = Value::List{};
+  if (scene.has_times()) {
+    const Scales scales = scales_of(run, reach_of(prepared_.drop));
+    const auto of = [&](Scale scale) { return scales[static_cast<std::size_t>(scale)]; };
+    const StateSizes sizes{.length = reach_of(prepared_.drop),
+                           .speed = of(Scale::speed),
+                           .rate = of(Scale::rate),
+                           .energy = of(Scale::energy)};
+    report.further = state_grid(run, !in_space || is_planar(prepared_), scene.accuracy.digits, sizes);
+    report.fields["states"] = row_objects(*report.further);
+  }
   add_results(scene, run, report.fields);
   if (const auto* const sequence = std::get_if<space::Sequence>(&found_.sequence))
     add_end(scene, std::get<space::Drop>(prepared_.drop), *sequence, report.fields);

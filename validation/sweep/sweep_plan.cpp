@@ -258,6 +258,9 @@ void read_scene(const SweepRequest& request, std::vector<Setting>& settings, Sce
         fmt::format("{}: sweep: must be left out here; give --set drop.angle_deg=FROM:TO:STEP", request.file));
   }
   if (!plan.scene.history.empty()) values.refuse("run.history", "left out in a sweep");
+  for (const char* const key : {"run.at", "run.rate"}) {
+    if (key_named(key).is_given(plan.scene) && plan.scene.has_times()) values.refuse(key, "left out in a sweep");
+  }
   if (plan.scene.require_digits && !plan.scene.request.error_estimates)
     throw BadInput("run.require_digits: needs run.errors, without which no digit is known");
 }

@@ -177,7 +177,8 @@ DiscreteSequence SceneRunner::sequence(const DiscreteDrop& drop, bool with_error
   const analytic::SequenceOptions options{.impacts = scene_.most_impacts(),
                                           .digits = scene_.accuracy.digits,
                                           .amplification = with_errors,
-                                          .until_rest = scene_.until_rest};
+                                          .until_rest = scene_.until_rest,
+                                          .until = scene_.until.value_or(std::numeric_limits<double>::infinity())};
   const auto* const planar = std::get_if<analytic::Drop>(&drop);
   const RowLayout& layout = plan_.layout;
   const bool sums_only = layout.rows == RowKind::scene && layout.asked.empty() && layout.probes.empty();

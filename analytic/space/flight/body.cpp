@@ -82,6 +82,11 @@ Round Body::round(int point) const {
   return {.centre = centre, .axis = Vector3::Zero(), .shares = semiaxes / radius, .radius = radius};
 }
 
+bool Body::is_flat() const {
+  return rims.empty() && ellipsoids.empty() &&
+         std::ranges::all_of(vertices, [](const Vector3& v) { return v.y() == 0; });
+}
+
 bool Body::is_centred_sphere() const {
   return points() == 1 && sphere(0) != nullptr && sphere(0)->centre == Vector3::Zero();
 }
@@ -203,6 +208,17 @@ Body capsule(double mass, const Cylinder& shape) {
     body.ellipsoids.push_back({.centre = {side * l, 0, 0}, .semiaxes = Vector3::Constant(r)});
   }
   body.validate();
+  return body;
+}
+
+Body outline(const PlanarBody& planar) {
+  Body body;
+  body.mass = planar.mass;
+  body.inertia = planar.mass * planar.gyration_square * Matrix3::Identity();
+  for (int i = 0; i < planar.vertex_count; ++i) {
+    const Vertex& vertex = planar.vertices[static_cast<std::size_t>(i)];
+    body.vertices.emplace_back(vertex.x, 0, vertex.z);
+  }
   return body;
 }
 

@@ -10,6 +10,8 @@
 #include <optional>
 #include <vector>
 
+#include "analytic/plane/body.hpp"
+
 namespace clatter::analytic::space {
 
 using Vector2 = Eigen::Vector2d;
@@ -65,6 +67,11 @@ struct Body {
   [[nodiscard]] const Ellipsoid* sphere(int point) const;
   /// The rim or ellipsoid that the point is of.  Domain: no vertex.
   [[nodiscard]] Round round(int point) const;
+  /// All of it lies in the plane y = 0, as a thin rod's ends and the outline of a body that moves in that plane: two
+  /// points of it on the ground are all on which it can lie.
+  [[nodiscard]] bool is_flat() const;
+  /// Whether it lies on the ground where so many corners of it stay there.
+  [[nodiscard]] bool lies_on(std::size_t corners) const { return corners >= 3 || (corners == 2 && is_flat()); }
   /// A sphere about its centre of mass: no turn moves its lowest point.
   [[nodiscard]] bool is_centred_sphere() const;
   /// The same with equal moments of inertia: its attitude does not matter at all.
@@ -179,6 +186,10 @@ struct Cylinder {
 /// Sphere 0 is at −l/2; for L = 2r there is one.
 /// @throws std::domain_error for r not above 0 or L below 2r.
 [[nodiscard]] Body capsule(double mass, const Cylinder& shape);
+
+/// The outline of a body that moves in the plane y = 0.  Its moments of inertia are equal, so that nothing turns it out
+/// of that plane.
+[[nodiscard]] Body outline(const PlanarBody& body);
 
 /// Mass, centre and inertia of a polyhedron.
 struct MassProperties {

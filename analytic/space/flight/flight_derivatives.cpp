@@ -102,29 +102,53 @@ RotationDerivatives rotation_derivatives(const FreeFlight& flight, const Matrix3
   return d;
 }
 
-ArrivalDerivatives arrival_derivatives(const Body& body, const FreeFlight& flight, const FirstContact& contact,
-                                       const State& now, const Vector3& from, const Vector3& to) {
-  const double t = contact.time;
+namespace {
+
+using Derivatives = Eigen::Matrix<double, 10, 10>;
+using TimeGradient = Eigen::Matrix<double, 1, 10>;
+
+/// At a fixed time.
+Derivatives at_fixed_time(const Body& body, const FreeFlight& flight, double t, const State& now) {
   const auto [of_attitude, of_velocity] = rotation_derivatives(flight, body.inertia, t);
   const Matrix3 turn = cross_matrix(flight.start().angular_velocity);
-  ArrivalDerivatives d{.of_state = Eigen::Matrix<double, 10, 10>::Identity(), .of_time = {}};
-  auto& j = d.of_state;
+  Derivatives j = Derivatives::Identity();
   // A turn of attitude and ω together turns the whole motion.
   j.block<3, 3>(1, 1) += of_attitude * turn;
   j.block<3, 3>(1, 7) = of_attitude;
   j.block<3, 3>(7, 1) = -cross_matrix(now.angular_velocity) + of_velocity * turn;
   j.block<3, 3>(7, 7) = of_velocity;
-  d.of_time = -cross_matrix(now.attitude * to).row(2) * j.middleRows(1, 3);
+  return j;
+}
+
+void shift_time(const Body& body, const FreeFlight& flight, const State& now, const TimeGradient& of_time,
+                Derivatives& j) {
+  const Vector3 spin = now.attitude.conjugate() * now.angular_velocity;
+  const Vector3 acceleration = now.attitude * (body.inertia.inverse() * (body.inertia * spin).cross(spin));
+  j.row(0) += of_time;
+  j.middleRows(1, 3) += now.angular_velocity * of_time;
+  j.row(4) += flight.gravity_along() * of_time;
+  j.row(6) -= flight.gravity() * of_time;
+  j.bottomRows(3) += acceleration * of_time;
+}
+
+}  // namespace
+
+Derivatives flight_derivatives(const Body& body, const FreeFlight& flight, double time, const State& now,
+                               const TimeGradient& of_time) {
+  Derivatives j = at_fixed_time(body, flight, time, now);
+  shift_time(body, flight, now, of_time, j);
+  return j;
+}
+
+ArrivalDerivatives arrival_derivatives(const Body& body, const FreeFlight& flight, const FirstContact& contact,
+                                       const State& now, const Vector3& from, const Vector3& to) {
+  const double t = contact.time;
+  ArrivalDerivatives d{.of_state = at_fixed_time(body, flight, t, now), .of_time = {}};
+  d.of_time = -cross_matrix(now.attitude * to).row(2) * d.of_state.middleRows(1, 3);
   d.of_time.segment<3>(1) += cross_matrix(flight.start().attitude * from).row(2);
   d.of_time[6] += t;
   d.of_time /= -contact.normal_velocity;
-  const Vector3 spin = now.attitude.conjugate() * now.angular_velocity;
-  const Vector3 acceleration = now.attitude * (body.inertia.inverse() * (body.inertia * spin).cross(spin));
-  j.row(0) += d.of_time;
-  j.middleRows(1, 3) += now.angular_velocity * d.of_time;
-  j.row(4) += flight.gravity_along() * d.of_time;
-  j.row(6) -= flight.gravity() * d.of_time;
-  j.bottomRows(3) += acceleration * d.of_time;
+  shift_time(body, flight, now, d.of_time, d.of_state);
   return d;
 }
 

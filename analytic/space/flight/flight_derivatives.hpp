@@ -42,6 +42,12 @@ struct ArrivalDerivatives {
   Eigen::Matrix<double, 10, 10> of_state;
   Eigen::Matrix<double, 1, 10> of_time;
 };
+/// Changes of the state at `time` after the start of a flight, by rotation_derivatives(), where that time shifts by
+/// `of_time` with the state at its start: by −1 with the first number where the clock has not its error.
+/// @param now  flight.at(time)
+[[nodiscard]] Eigen::Matrix<double, 10, 10> flight_derivatives(const Body& body, const FreeFlight& flight, double time,
+                                                               const State& now,
+                                                               const Eigen::Matrix<double, 1, 10>& of_time);
 /// By rotation_derivatives() at a fixed time; the touch at h = 0 then shifts the time by
 ///     δt = −δh/h′,   δh = −(δθ₀ × r₀)_z + t δV_z + (δθ₁ × r₁)_z,                                        (5)
 /// r₀, r₁ from the centre of mass to the point that departed, at height 0, and to the one that arrives.

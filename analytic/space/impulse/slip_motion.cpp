@@ -54,12 +54,15 @@ SlipMotion::SlipMotion(Eigen::Index size)
     : y_(Values::Zero(size)), size_(static_cast<std::size_t>(size)), system_{derivative, nullptr, size_, this},
       step_(gsl_odeiv2_step_alloc(gsl_odeiv2_step_rk8pd, size_)) {}
 
-int SlipMotion::derivative(double, const double y[], double change[], void* motion) {
+int SlipMotion::derivative(double impulse, const double y[], double change[], void* motion) {
   auto& with = *static_cast<SlipMotion*>(motion);
   const auto size = static_cast<Eigen::Index>(with.size_);
   Eigen::Map<Eigen::VectorXd> rates(change, size);
   rates = with.rate(Eigen::Map<const Eigen::VectorXd>(y, size));
-  if (with.holds_direction_) rates.head<3>().setZero();
+  if (with.holds_direction_) {
+    rates.head<3>().setZero();
+    if (with.scales_along_) rates.tail(size - 3) *= (with.held_to_ - impulse) / (with.held_to_ - with.held_from_);
+  }
   return 0;
 }
 
@@ -73,11 +76,13 @@ void SlipMotion::go_straight_to(double stop, const Values& now) {
   const double whole = stop - spent_;
   double length = whole;
   holds_direction_ = true;
+  held_from_ = spent_;
+  held_to_ = stop;
   while (!is_alone(now) && spent_ < stop) {
     const bool is_last = length >= stop - spent_;
     const double taken = is_last ? stop - spent_ : length;
     Values next = y_, error = y_;
-    gsl_odeiv2_step_apply(step_.get(), 0, taken, next.data(), error.data(), nullptr, nullptr, &system_);
+    gsl_odeiv2_step_apply(step_.get(), spent_, taken, next.data(), error.data(), nullptr, nullptr, &system_);
     if (!(error_along(next, error) <= step_error_) && taken > shortest * whole) {
       length = taken / 2;
       continue;

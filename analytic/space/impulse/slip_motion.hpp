@@ -48,6 +48,7 @@ class SlipMotion {
   double step_error_ = 4e-15;
   int most_steps_ = 20000;
   bool at_once_ = false;        ///< the step is so short that the rate may jump in it
+  bool scales_along_ = false;   ///< what goes along with slip does so in proportion to its size
   bool only_friction_ = false;  ///< nothing but friction acts on slip, which can only become less
 
  private:
@@ -63,6 +64,7 @@ class SlipMotion {
 
   std::size_t size_;
   bool holds_direction_ = false;
+  double held_from_ = 0, held_to_ = 0;  ///< P between which slip falls in a straight line to zero
   gsl_odeiv2_system system_;
   std::unique_ptr<gsl_odeiv2_step, StepDeleter> step_;
 };

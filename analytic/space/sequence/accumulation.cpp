@@ -253,7 +253,7 @@ std::optional<Tail> Rattling::extrapolate(const Drop& drop, const Tolerance& tol
   std::ranges::sort(all);
   all.erase(std::unique(all.begin(), all.end()), all.end());
   tail.corners = all;
-  if (all.size() < 3) return tail;
+  if (!drop.body.lies_on(all.size())) return tail;
   tail.velocity_after.z() = 0;  // a face rests
   tail.angular_velocity_after.head<2>().setZero();
   return tail;
@@ -292,7 +292,7 @@ void end_state(const Drop& drop, const ImpactRow& last, const Vector3& lever, Ta
   tail.velocity_after = impact.velocity_after + impulse / body.mass + fall;
   tail.angular_velocity_after = impact.angular_velocity_after + change + drift;
   if (body.is_centred_sphere()) tail.velocity_after.z() = 0;
-  if (tail.corners.size() < 3 && !(last.corners.front().radius > 0)) return;  // neither a face nor a level rim
+  if (!body.lies_on(tail.corners.size()) && !(last.corners.front().radius > 0)) return;  // nor on a level rim
   tail.velocity_after.z() = 0;
   tail.angular_velocity_after.head<2>().setZero();
   const bool sticks = impact.path == PathKind::stick || impact.path == PathKind::slip_stick;

@@ -57,8 +57,9 @@ void ContactMotion::take(State s) {
     s.angular_velocity -= s.angular_velocity.dot(across) * across;
   }
   const Vector3 u = slip_of(s, points_[0]);
-  motion_ << s.attitude.w(), s.attitude.vec(), s.angular_velocity, u.head<2>();
-  if (points_[0].sticks) motion_.tail<2>().setZero();
+  const Vector3 on = s.position + s.attitude * points_[0].place;
+  motion_ << s.attitude.w(), s.attitude.vec(), s.angular_velocity, u.head<2>(), on.head<2>();
+  if (points_[0].sticks) slip_in(motion_).setZero();
   if (!is_hinge()) return;
   const Vector3 edge = (s.attitude * (points_[1].place - points_[0].place)).normalized();
   motion_.segment<3>(4) = s.angular_velocity.dot(edge) * edge;
@@ -200,7 +201,7 @@ bool ContactMotion::stop_slips() {
     GroundPoint& p = points_[i];
     if (p.sticks || p.begins || slip_of(state(), p).norm() > no_slip * speed_scale()) continue;
     p.sticks = true;
-    if (i == 0) motion_.tail<2>().setZero();
+    if (i == 0) slip_in(motion_).setZero();
   }
   return keep_or_begin_slip();
 }
@@ -337,7 +338,9 @@ std::vector<int> ContactMotion::arriving() const {
 void ContactMotion::leave(std::size_t number) {
   const State s = state();
   points_.erase(points_.begin() + static_cast<std::ptrdiff_t>(number));
-  if (!points_.empty()) motion_.tail<2>() = slip_of(s, points_[0]).head<2>();
+  if (points_.empty()) return;
+  slip_in(motion_) = slip_of(s, points_[0]).head<2>();
+  motion_.tail<2>() = (s.position + s.attitude * points_[0].place).head<2>();
 }
 
 SustainedContact ContactMotion::ended(ContactEnd end, const std::string& reason) const {
@@ -398,6 +401,18 @@ bool ContactMotion::go_on() {
   return law_.friction() == 0 || event_ != Event::none || stop_slips();
 }
 
+/// Whether a flat body lies on both its corners: at rest, or sliding and spinning so that friction never stops it.
+bool ContactMotion::lies() const {
+  constexpr double balanced = 1e-9;
+  if (points_.size() != 2 || !drop_.body.is_flat()) return false;
+  const double turning = motion_.segment<2>(4).norm(), spin = std::fabs(motion_[6]);
+  if (!(turning * reach_ <= no_slip * speed_scale())) return false;
+  const GroundForces f = forces(motion_);
+  if (!(f.turning.norm() * reach_ <= balanced * drop_.gravity)) return false;
+  if (law_.friction() == 0) return true;
+  return !slips() && spin * reach_ <= no_slip * speed_scale();
+}
+
 SustainedContact ContactMotion::follow() {
   for (std::size_t i = 0; i < drop_.body.vertices.size(); ++i) {
     if (!(height(state(), i) >= -1e-7 * reach_))
@@ -411,6 +426,7 @@ SustainedContact ContactMotion::follow() {
   if (!keep_or_begin_slip()) return ended(ContactEnd::open, slip_is_open);
   for (int steps = 0; steps < most_steps; ++steps) {
     if (!arriving().empty()) return ended(ContactEnd::arrival, "");
+    if (lies()) return ended(ContactEnd::rest, "");
     if (auto end = pass_event()) return *end;
     if (!go_on()) return ended(ContactEnd::open, slip_is_open);
   }

@@ -96,6 +96,7 @@ class ContactMotion {
   void leave(std::size_t number);
   [[nodiscard]] std::optional<SustainedContact> pass_event();
   bool go_on();
+  [[nodiscard]] bool lies() const;
   [[nodiscard]] SustainedContact ended(ContactEnd end, const std::string& reason) const;
   [[nodiscard]] bool is_free() const { return duration_ < detail::infinite; }
 
@@ -117,8 +118,9 @@ class ContactMotion {
   Event event_ = Event::none;
   std::size_t number_ = 0;
   double stiffness_ = 0;  ///< rate at which the direction of slip that begins is driven back [1/s]
-  gsl_odeiv2_system system_{derivative, nullptr, 9, this};
-  std::unique_ptr<gsl_odeiv2_step, StepDeleter> step_{gsl_odeiv2_step_alloc(gsl_odeiv2_step_rk8pd, 9)};
+  gsl_odeiv2_system system_{derivative, nullptr, GroundMotion::SizeAtCompileTime, this};
+  std::unique_ptr<gsl_odeiv2_step, StepDeleter> step_{
+      gsl_odeiv2_step_alloc(gsl_odeiv2_step_rk8pd, GroundMotion::SizeAtCompileTime)};
 };
 
 }  // namespace clatter::analytic::space

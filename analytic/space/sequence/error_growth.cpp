@@ -359,6 +359,25 @@ void ErrorGrowth::fly(const FreeFlight& flight, const FirstContact& contact, con
   if (predictable_) check_others(flight, contact, now.attitude, now.attitude * to_place);
 }
 
+ErrorGrowth::InFlight ErrorGrowth::in_flight(const FreeFlight& flight, double time, const Vector3& from) const {
+  if (!predictable_) return {};
+  Factor start(size, factor_.cols() + leaving_.cols());
+  start << factor_, leaving_;
+  const State now = flight.at(time);
+  const Gradient clock = -Gradient::Unit(0);
+  const Factor then = flight_derivatives(body_, flight, time, now, clock).lazyProduct(start);
+  Gradient height = now.velocity.z() * clock;
+  height.segment<3>(1) = cross_matrix(flight.start().attitude * from).row(2);
+  height[6] = time;
+  const double turned_by = 1 + 1e-3 * flight.rotation().fastest() * time;
+  return {.state = {.time = 0,
+                    .attitude = bound(then.middleRows<3>(1)) + 4 * epsilon * turned_by,
+                    .velocity = bound(then.middleRows<3>(4)) + 4 * epsilon * (now.velocity.norm() + gravity_ * time),
+                    .angular_velocity = bound(then.bottomRows<3>()) + 4 * epsilon * now.angular_velocity.norm()},
+          .height = bound(height.lazyProduct(start)) +
+                    8 * epsilon * (body_.reach() + time * (flight.start().velocity.norm() + gravity_ * time))};
+}
+
 double ErrorGrowth::begin_time() {
   const double error = predictable_ ? bound(factor_.row(0)) + bound(arriving_.row(0)) : infinite;
   factor_.row(0).setZero();

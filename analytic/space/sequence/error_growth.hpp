@@ -6,6 +6,7 @@
 #include <functional>
 #include <optional>
 
+#include "analytic/base/limits.hpp"
 #include "analytic/space/impulse/strike_derivatives.hpp"
 #include "analytic/space/sequence/impact_rows.hpp"
 #include "analytic/space/sequence/sustained_contact.hpp"
@@ -36,6 +37,14 @@ class ErrorGrowth {
   void strike(const Strike& strike, const StrikeDerivatives& derivatives, ImpactRow& row);
   /// Carries the errors through a flight.
   void fly(const FreeFlight& flight, const FirstContact& contact, const Vector3& from_place, const Vector3& to_place);
+  /// What the errors have become after this time of a flight that the last impact, or the drop, has begun, of a state
+  /// at exactly that time; and the bound on the error of its height.
+  /// @param from  of fly()
+  struct InFlight {
+    StateErrors state;
+    double height = detail::infinite;  ///< [m]
+  };
+  [[nodiscard]] InFlight in_flight(const FreeFlight& flight, double time, const Vector3& from) const;
   /// Counts time from the touch that fly() has come to.  Returns the bound on the error of the time until then.
   double begin_time();
   /// Carries the errors through a contact that lasts; amplification is not known thereafter.

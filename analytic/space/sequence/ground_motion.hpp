@@ -8,8 +8,12 @@
 
 namespace clatter::analytic::space {
 
-/// Attitude (w, x, y, z), angular velocity, horizontal velocity of the first corner on the ground.
-using GroundMotion = Eigen::Matrix<double, 9, 1>;
+/// Attitude (w, x, y, z), angular velocity, horizontal velocity and place of the first corner on the ground.
+using GroundMotion = Eigen::Matrix<double, 11, 1>;
+
+/// The velocity of the first corner along the ground.
+[[nodiscard]] inline auto slip_in(GroundMotion& y) { return y.segment<2>(7); }
+[[nodiscard]] inline Vector3 slip_in(const GroundMotion& y) { return {y[7], y[8], 0}; }
 
 [[nodiscard]] State state_of(const GroundMotion& y, std::span<const GroundPoint> points);
 
@@ -24,7 +28,8 @@ struct MotionScale {
   double reach;  ///< [m]
   double speed;  ///< [m/s]
 
-  /// The largest of the changes of attitude and velocities, each over its size.
+  /// The largest of the changes of attitude and velocities, each over its size; the place of the corner decides
+  /// nothing.
   [[nodiscard]] double largest(const GroundMotion& change) const;
 };
 

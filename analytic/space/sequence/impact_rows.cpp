@@ -54,6 +54,13 @@ Drop SequenceUnits::to_internal(const Drop& drop) const {
   return d;
 }
 
+SequenceOptions SequenceUnits::to_internal(const SequenceOptions& options) const {
+  SequenceOptions o = options;
+  scale(o.until, speed_ - length_);
+  for (double& time : o.times) scale(time, speed_ - length_);
+  return o;
+}
+
 double SequenceUnits::energy(double internal) const { return std::ldexp(internal, mass_ + 2 * speed_); }
 
 void SequenceUnits::to_si(State& state) const {
@@ -154,7 +161,27 @@ void SequenceUnits::to_si(SustainedContact& contact) const {
   scale(contact.energy_loss, mass_ + 2 * speed_);
 }
 
+void SequenceUnits::to_si(StateAt& at) const {
+  scale(at.time, length_ - speed_);
+  to_si(at.state);
+  to_si(at.error);
+  scale(at.position_error, length_);
+  scale(at.energy, mass_ + 2 * speed_);
+  scale(at.energy_error, mass_ + 2 * speed_);
+}
+
+void SequenceUnits::to_si(LastMotion& motion) const {
+  scale(motion.begin, length_ - speed_);
+  to_si(motion.state);
+  scale(motion.duration, length_ - speed_);
+  scale(motion.distance, length_);
+  scale(motion.velocity_after, speed_);
+  scale(motion.angular_velocity_after, speed_ - length_);
+}
+
 void SequenceUnits::to_si(Sequence& sequence) const {
+  if (sequence.last_motion) to_si(*sequence.last_motion);
+  for (StateAt& state : sequence.states) to_si(state);
   for (ImpactRow& row : sequence.rows) to_si(row);
   if (sequence.tail) to_si(*sequence.tail);
   for (SustainedContact& contact : sequence.contacts) to_si(contact);

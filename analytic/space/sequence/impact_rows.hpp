@@ -112,10 +112,27 @@ struct Standing {
   std::vector<int> corners;  ///< Corner::index
 };
 
+/// The body at a time that was asked for.
+struct StateAt {
+  double time = 0;                                                  ///< since the first impact [s]
+  std::size_t rows = 0;                                             ///< impacts until then
+  bool touches = false;                                             ///< some of it stays on the ground
+  bool is_known = false;                                            ///< else the model does not say how it moves then
+  State state;                                                      ///< x, y from those of the first impact
+  double energy = 0;                                                ///< as mechanical_energy() [J]
+  StateErrors error;                                                ///< bounds, of the state at exactly that time
+  double position_error = std::numeric_limits<double>::infinity();  ///< bound on the length of its error [m]
+  double tilt_error = std::numeric_limits<double>::infinity();    ///< part of the attitude's across the vertical [rad]
+  double energy_error = std::numeric_limits<double>::infinity();  ///< [J]
+  /// Impact whose time is so near that errors decide on which side this is; 0: none.  The errors bear both.
+  std::size_t beside = 0;
+};
+
 enum class ContactEnd {
   arrival,   ///< other corners come down: the next impact
   lift_off,  ///< the ground no longer pushes: a flight begins
   joining,   ///< another corner has come down without speed, and stays
+  rest,      ///< a body that is flat (Body::is_flat()) lies on them: still, or in a motion that friction does not stop
   open,      ///< the law leaves open how it goes on, or friction no longer holds a corner that stuck
 };
 
@@ -147,6 +164,22 @@ struct Rest {
   double latest = 0;
 };
 
+/// What the body does after its last impact and contact (last_motion.hpp).
+struct LastMotion {
+  enum class Kind {
+    rests,   ///< it does not move
+    slides,  ///< along the ground, spinning or not
+    spins,   ///< about the vertical, on the spot
+    rolls,   ///< rolls on for ever, after it may have slipped
+  } kind = Kind::rests;
+  double begin = 0;                          ///< since the first impact [s]
+  State state;                               ///< then
+  double duration = 0;                       ///< until it is at rest or, if it rolls, rolls; infinite: never [s]
+  double distance = 0;                       ///< that the centre of mass goes meanwhile [m]
+  Vector3 velocity_after = Vector3::Zero();  ///< then; if it never is, now [m/s]
+  Vector3 angular_velocity_after = Vector3::Zero();  ///< likewise [rad/s]
+};
+
 struct Sequence {
   std::vector<ImpactRow> rows;
   Outcome outcome = Outcome::no_further_impact;
@@ -155,6 +188,8 @@ struct Sequence {
   std::optional<Tail> tail;
   std::vector<SustainedContact> contacts;  ///< that the sequence went through, with SequenceOptions::until_rest
   std::optional<Standing> standing;        ///< if sustained_contact: on which corners
+  std::vector<StateAt> states;             ///< at SequenceOptions::times
+  std::optional<LastMotion> last_motion;   ///< where it is known what the body does after all that
   std::optional<Rest> rest;                ///< if what is left of the motion can end on one face only
   double energy_at_end =
       0;               ///< after the last of rows, tail and contacts; energy_before of the first less all losses [J]
@@ -176,6 +211,7 @@ class SequenceUnits {
   [[nodiscard]] Drop to_internal(const Drop& drop) const;
   void to_si(Sequence& sequence) const;
   [[nodiscard]] double energy(double internal) const;
+  [[nodiscard]] SequenceOptions to_internal(const SequenceOptions& options) const;
 
  private:
   void to_si(State& state) const;
@@ -187,6 +223,8 @@ class SequenceUnits {
   void to_si(Tail& tail) const;
   void to_si(StateErrors& error) const;
   void to_si(SustainedContact& contact) const;
+  void to_si(StateAt& state) const;
+  void to_si(LastMotion& motion) const;
 
   int length_ = 0, speed_ = 0, mass_ = 0;
 };

@@ -176,6 +176,20 @@ bool is_polyhedron(const Body& body) {
   return body.vertices.size() >= 4 && body.rims.empty() && body.ellipsoids.empty();
 }
 
+/// A drop of an outline as one of a prism, so wide that it does not roll over its sides; vertex i becomes 2i and 2i
+/// + 1.
+Drop prism(const Drop& flat) {
+  Drop wide = flat;
+  wide.body.vertices.clear();
+  for (const Vector3& vertex : flat.body.vertices) {
+    for (const double side : {-1.0, 1.0})
+      wide.body.vertices.push_back(vertex + side * 4 * flat.body.reach() * Vector3::UnitY());
+  }
+  return wide;
+}
+
+bool is_outline(const Body& body) { return body.vertices.size() > 2 && body.is_flat(); }
+
 /// By (2).
 std::optional<Rest> trapped(const Drop& drop, const State& now) {
   const ImpactLaw& law = drop.law.law;
@@ -197,6 +211,7 @@ std::optional<Rest> trapped(const Drop& drop, const State& now) {
 }  // namespace
 
 double vertical_energy(const Drop& drop, const State& now) {
+  if (is_outline(drop.body)) return vertical_energy(prism(drop), now);
   if (!is_polyhedron(drop.body)) return infinite;
   const auto face = RollingBody(drop.body).lowest(down(now));
   if (!face) return infinite;
@@ -213,6 +228,14 @@ std::optional<Rest> settles(const Drop& drop, const State& now, double time) {
   const ImpactLaw& law = drop.law.law;
   if (!(drop.gravity > 0) || law.law == RestitutionLaw::viscoelastic || !(law.restitution < 1)) return {};
   const Body& body = drop.body;
+  if (is_outline(body)) {
+    auto rest = settles(prism(drop), now, time);
+    if (!rest) return {};
+    for (int& corner : rest->corners) corner /= 2;
+    std::ranges::sort(rest->corners);
+    rest->corners.erase(std::unique(rest->corners.begin(), rest->corners.end()), rest->corners.end());
+    return rest;
+  }
   if (!is_polyhedron(body)) return {};
   const RollingBody rolling(body);
   const auto face = rolling.lowest(down(now));

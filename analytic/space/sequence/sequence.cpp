@@ -17,6 +17,7 @@
 #include "analytic/space/sequence/accumulation.hpp"
 #include "analytic/space/sequence/error_growth.hpp"
 #include "analytic/space/sequence/impact_rows.hpp"
+#include "analytic/space/sequence/last_motion.hpp"
 #include "analytic/space/sequence/resting_face.hpp"
 #include "analytic/space/sequence/row_impact.hpp"
 #include "analytic/space/sequence/sustained_contact.hpp"
@@ -24,6 +25,7 @@
 namespace clatter::analytic::space {
 
 using detail::epsilon;
+using detail::infinite;
 using detail::missing;
 
 namespace {
@@ -69,7 +71,10 @@ class Run : public SequenceLoop<Sequence, ErrorGrowth> {
     FirstContact flown;
     const std::vector<int> lowest = drop_.release_height ? fall(flown) : touch_down();
     follow([&] { go_on(lowest, flown); });
+    settle_after_all();
     result_.energy_at_end = energy(state_);
+    note_last_motion();
+    note_sides();
     return std::move(result_);
   }
 
@@ -80,6 +85,9 @@ class Run : public SequenceLoop<Sequence, ErrorGrowth> {
     flown = first_contact(body_, flight, {});
     result_.evaluations += flown.evaluations;
     if (flown.end != FlightEnd::contact) throw std::domain_error("the released body never reaches the ground");
+    time_ = -flown.time;
+    way_error_ = epsilon * *drop_.release_height;
+    note_flight(flight, Vector3::Zero(), 0);
     arrive(flight, flown, Vector3::Zero());  // the height of its centre of mass is given
     state_.position.head<2>().setZero();
     time_ = 0;
@@ -146,6 +154,11 @@ class Run : public SequenceLoop<Sequence, ErrorGrowth> {
     const FreeFlight flight(principal_, state_, drop_.gravity, drop_.gravity_along);
     flown = first_contact(body_, flight, touches_);
     result_.evaluations += flown.evaluations;
+    const auto lifted = std::exchange(lifted_, {});
+    const Vector3& from = lifted ? body_.vertices[static_cast<std::size_t>(*lifted)] : last.corners.front().place;
+    if (flown.end == FlightEnd::contact || flown.end == FlightEnd::no_contact)
+      note_flight(flight, from, flown.end == FlightEnd::contact ? time_ + flown.time : infinite);
+    if (flown.end == FlightEnd::contact && is_over(time_ + flown.time)) return Next::end;
     if (result_.evaluations > most_evaluations) {
       throw NumericalError("the body spins so fast that its flights take more than a million evaluations");
     }
@@ -158,8 +171,7 @@ class Run : public SequenceLoop<Sequence, ErrorGrowth> {
       return go_on_touching(arriving);
     }
     arriving = flown.together;
-    const auto lifted = std::exchange(lifted_, {});
-    arrive(flight, flown, lifted ? body_.vertices[static_cast<std::size_t>(*lifted)] : last.corners.front().place);
+    arrive(flight, flown, from);
     return Next::impact;
   }
 
@@ -169,6 +181,7 @@ class Run : public SequenceLoop<Sequence, ErrorGrowth> {
     if (result_.contacts.size() >= most_contacts) throw NumericalError("corners stay on the ground again and again");
     if (growth_ && !growth_->predictable()) regain(*result_.standing);
     SustainedContact contact = followed(*result_.standing);
+    note_contact(*result_.standing, contact);
     const bool open = contact.end == ContactEnd::open;
     if (!open) contact.tail = std::exchange(result_.tail, {});
     result_.contacts.push_back(std::move(contact));
@@ -176,6 +189,7 @@ class Run : public SequenceLoop<Sequence, ErrorGrowth> {
     result_.total_normal_impulse += now.normal_impulse;
     time_ += now.duration;
     state_ = now.after;
+    if (now.end == ContactEnd::rest) return end_lying(now);
     if (growth_ && growth_->predictable()) know(state_, time_, now.error);
     if (open) return end_open(now);
     result_.standing = {};
@@ -270,6 +284,11 @@ class Run : public SequenceLoop<Sequence, ErrorGrowth> {
     contact.begin = standing.time;
     if (!growth_ || !growth_->predictable()) return contact;
     const StateErrors& all = standing.error;
+    if (contact.end == ContactEnd::rest) {
+      contact.error = errors_of_rest(all, contact);
+      add_impulse_error(drop_, all, contact);
+      return contact;
+    }
     const StateErrors exact{.time = 0, .attitude = 0, .velocity = 0, .angular_velocity = 0};
     const auto derivatives = contact_derivatives(drop_, standing.state, contact, all);
     growth_->stay(contact, derivatives, std::exchange(regained_, false) ? exact : errors_of_hops(),
@@ -277,6 +296,17 @@ class Run : public SequenceLoop<Sequence, ErrorGrowth> {
     contact.error = growth_->bounds();
     add_impulse_error(drop_, all, contact);
     return contact;
+  }
+
+  /// Bounds on the errors in which a slide that friction brings to rest ends, twice the first order of how it slows
+  /// down.
+  [[nodiscard]] StateErrors errors_of_rest(const StateErrors& begin, const SustainedContact& contact) const {
+    const double slowing = drop_.law.law.most_friction() * drop_.gravity;
+    StateErrors e = begin;
+    if (slowing > 0 && contact.slips) e.time += 2 * (begin.velocity + reach_ * begin.angular_velocity) / slowing;
+    e.attitude += 2 * contact.duration * begin.angular_velocity + contact.duration * contact.duration * 1e-12;
+    if (slowing > 0) e.velocity = e.angular_velocity = 0;
+    return e;
   }
 
   /// Height, velocity and acceleration of a corner that lifts off are zero: the flight begins when it has risen.
@@ -297,6 +327,119 @@ class Run : public SequenceLoop<Sequence, ErrorGrowth> {
     throw NumericalError("a corner that lifts off does not rise");
   }
 
+  // States at the times that are asked for.
+
+  /// @param height  bound on the error of the height, which the way along the ground adds to
+  /// @param is_level  whether the body lies on a face or its ends
+  void note(const std::optional<State>& state, bool touches, const StateErrors& error, double height,
+            bool is_level = false) {
+    StateAt at;
+    at.time = options_.times[next_time_++];
+    at.rows = result_.rows.size();
+    at.touches = touches;
+    at.is_known = state.has_value();
+    if (state) {
+      at.state = *state;
+      at.energy = energy(*state);
+      at.error = error;
+      at.tilt_error = is_level ? 8 * epsilon : error.attitude;
+      at.position_error = std::hypot(way_error_ + std::fabs(at.time - time_) * error.velocity, height);
+      const Vector3& w = state->angular_velocity;
+      const Matrix3 axes = state->attitude.toRotationMatrix();
+      const Vector3 momentum = axes * (body_.inertia * (axes.transpose() * w));
+      const double along = drop_.gravity_along != 0 ? at.position_error * std::fabs(drop_.gravity_along) : 0;
+      at.energy_error = body_.mass * (state->velocity.norm() * error.velocity + drop_.gravity * height + along) +
+                        momentum.norm() * error.angular_velocity + w.cross(momentum).norm() * error.attitude +
+                        8 * epsilon * std::fabs(at.energy);
+    }
+    result_.states.push_back(std::move(at));
+  }
+
+  /// Notes the states of the flight from time_ until `end`.
+  void note_flight(const FreeFlight& flight, const Vector3& from, double end) {
+    while (awaits(end)) {
+      const double after = std::fmax(options_.times[next_time_] - time_, 0.0);
+      const auto errors = growth_ ? growth_->in_flight(flight, after, from) : ErrorGrowth::InFlight{};
+      note(flight.at(after), false, errors.state, errors.height);
+    }
+  }
+
+  void note_contact(const Standing& standing, const SustainedContact& contact) {
+    const bool is_followed = growth_ && growth_->predictable();
+    while (awaits(standing.time + contact.duration)) {
+      const double after = std::fmax(options_.times[next_time_] - standing.time, 0.0);
+      const auto there =
+          contact_at(drop_, standing.state, contact, after, is_followed ? standing.error : StateErrors{});
+      note(there ? std::optional(there->state) : std::nullopt, true, there ? there->error : StateErrors{},
+           there ? body_.reach() * there->error.attitude : infinite);
+    }
+  }
+
+  /// What the way along the ground errs by after a flight or contact, in which velocities and times erred by no more
+  /// than these at its ends.
+  void note_way(double duration, const State& start, const StateErrors& before, const StateErrors& after) {
+    way_error_ += duration * std::fmax(before.velocity, after.velocity) +
+                  start.velocity.head<2>().norm() * (before.time + after.time);
+  }
+
+  /// What is done after all, and the states meanwhile.
+  void note_last_motion() {
+    const bool has_ended = result_.outcome == Outcome::at_rest || result_.outcome == Outcome::sustained_contact;
+    const bool is_followed = result_.standing && can_follow(drop_, result_.standing->corners);
+    if (!has_ended || is_followed || lying_.empty()) {
+      while (awaits(infinite)) note({}, true, {}, infinite);
+      return;
+    }
+    const GroundedMotion motion(drop_, state_, lying_);
+    result_.last_motion = motion.summary();
+    if (result_.last_motion) result_.last_motion->begin = time_;
+    const StateErrors& error = end_errors_;
+    while (awaits(infinite)) {
+      // Before time_ a sum stands for hops that are rounding of the heights.
+      const double after = std::fmax(options_.times[next_time_] - time_, 0.0);
+      const auto there = motion.summary() ? motion.at(after) : std::nullopt;
+      StateErrors then = error;
+      const double slowing = drop_.law.law.most_friction() * drop_.gravity + std::fabs(drop_.gravity_along);
+      then.velocity += slowing * error.time;
+      then.attitude += after * error.angular_velocity + state_.angular_velocity.norm() * error.time;
+      const double turning = result_.last_motion && state_.angular_velocity.norm() > 0 ? 8 : 1;
+      then.velocity *= turning;
+      then.angular_velocity *= turning;
+      then.time = 0;
+      note(there, true, then, 8 * epsilon * reach_, true);
+    }
+  }
+
+  /// Next to an impact errors decide on which side of it a state is.
+  void note_sides() {
+    for (StateAt& at : result_.states) {
+      for (std::size_t i = 0; i < result_.rows.size() && at.is_known; ++i) {
+        const ImpactRow& row = result_.rows[i];
+        const bool is_beside = std::fabs(at.time - row.start) <= row.error.start && std::isfinite(row.error.start);
+        if (!is_beside || row.start == 0) continue;
+        at.beside = i + 1;
+        at.error.velocity += (row.impact.velocity_after - row.before.velocity).norm();
+        at.error.angular_velocity += (row.impact.angular_velocity_after - row.before.angular_velocity).norm();
+        at.energy_error += std::fabs(row.impact.energy_loss);
+      }
+    }
+  }
+
+  /// A flat body lies on its corners, as far as friction lets it move on.
+  Next end_lying(const SustainedContact& contact) {
+    lying_ = contact.pivots;
+    end_errors_ = contact.error;
+    state_.velocity.z() = 0;
+    state_.angular_velocity.head<2>().setZero();
+    if (drop_.law.law.rubs()) {
+      state_.velocity.setZero();
+      state_.angular_velocity.setZero();
+    }
+    result_.standing = {};
+    rest(false, slides(state_) || state_.angular_velocity.z() != 0, "bouncing and rocking have ended", "");
+    return Next::end;
+  }
+
   /// The law leaves open how the contact goes on; where it comes to rest can be known yet.
   Next end_open(const SustainedContact& contact) {
     result_.message += "; " + contact.reason;
@@ -312,7 +455,12 @@ class Run : public SequenceLoop<Sequence, ErrorGrowth> {
     if (corner.radius > 0) now = levelled(body_, now, corner);
     const Vector3& place = corner.place;
     now.position.z() = -(now.attitude * place).z();
-    if (growth_) growth_->fly(flight, flown, from, place);
+    if (growth_) {
+      const bool is_asked = awaits(infinite);
+      const StateErrors before = is_asked ? growth_->bounds() : StateErrors{};
+      growth_->fly(flight, flown, from, place);
+      if (is_asked) note_way(flown.time, flight.start(), before, growth_->bounds());
+    }
     state_ = now;
     time_ += flown.time;
   }
@@ -358,7 +506,7 @@ class Run : public SequenceLoop<Sequence, ErrorGrowth> {
   bool accumulates() {
     const ImpactRow& last = result_.rows.back();
     if (auto tail = bouncing_tail(drop_, last)) {
-      if (bounces_on(last.impact.velocity_after.z(), drop_.gravity)) return false;
+      if (bounces_on(last.impact.velocity_after.z(), drop_.gravity, tail->end_time)) return false;
       if (last.impact.velocity_after.z() == 0) rest_as_it_is("no rebound");
       else finish(std::move(*tail));
       return true;
@@ -375,7 +523,8 @@ class Run : public SequenceLoop<Sequence, ErrorGrowth> {
     auto tail = rattling_.extrapolate(drop_, {std::pow(10.0, -options_.digits), resolution});
     if (!tail || !undisturbed(drop_, state_, *tail) || !keeps_slipping(drop_, last, *tail)) return false;
     const double turned = tail->end_time * state_.angular_velocity.norm();
-    if (tail->corners.size() < 3 && turned > most_turn) return false;
+    if (!body_.lies_on(tail->corners.size()) && turned > most_turn) return false;
+    if (is_watched(time_ + tail->end_time) && !is_rounding(tail->end_time)) return false;
     rattling_.forget();
     tail->end_time += time_;
     finish(std::move(*tail));
@@ -392,8 +541,8 @@ class Run : public SequenceLoop<Sequence, ErrorGrowth> {
     const bool vanishes = tail->end_time <= std::fmax(unknown, 4 * epsilon * time_);
     // What follows the hops begins from the attitude at their end, which is known to first order in what is left.
     const double turned = tail->end_time * state_.angular_velocity.norm();
-    if (options_.until_rest && !vanishes && tail->corners.size() < 3 && turned > least_turn) return false;
-    if (!vanishes && !keeps_slipping(drop_, last, *tail)) return false;
+    if (options_.until_rest && !vanishes && !body_.lies_on(tail->corners.size()) && turned > least_turn) return false;
+    if (!vanishes && (!keeps_slipping(drop_, last, *tail) || is_watched(time_ + tail->end_time))) return false;
     end_state(drop_, last, accumulation_.lever(*tail), *tail);
     tail->end_time += time_;
     finish(std::move(*tail));
@@ -408,9 +557,13 @@ class Run : public SequenceLoop<Sequence, ErrorGrowth> {
   /// Whether a face that settles() does not hold on sloping ground may turn over one of its edges.
   [[nodiscard]] bool tips(const std::vector<int>& face) const { return drop_.gravity_along != 0 && face.size() > 1; }
 
+  /// Whether hops in this time rise by no more than heights are rounded.
+  [[nodiscard]] bool is_rounding(double time) const { return drop_.gravity * time * time <= 64 * epsilon * reach_; }
+
   /// The state in which hops end.
   [[nodiscard]] State end_of(const Tail& tail) const {
     State end = state_;
+    end.position.head<2>() += (tail.end_time - time_) / 2 * (state_.velocity + tail.velocity_after).head<2>();
     end.velocity = tail.velocity_after;
     end.angular_velocity = tail.angular_velocity_after;
     const Vector3 turn = (tail.end_time - time_) / 2 * (state_.angular_velocity + end.angular_velocity);
@@ -427,17 +580,48 @@ class Run : public SequenceLoop<Sequence, ErrorGrowth> {
     const bool slides_on = slides(end, tail.tangential_impulse_error / body_.mass);
     tail.energy_loss = energy(state_) - energy(end);
     result_.rest = settles(drop_, end, tail.end_time);
+    const bool goes_down = result_.rest && is_followed_down(tail);
+    if (goes_down) {
+      settling_ = std::exchange(result_.rest, {});
+      end_is_certain_ = true;
+    }
     if (!growth_) tail.forget();
     else if (growth_->predictable()) add_errors(drop_, result_.rows.back(), tail);
-    else end_is_certain_ = ends_for_certain(tail) || rests_for_certain();
-    const bool turns = !result_.rest && (tips(tail.corners) || tail.angular_velocity_after != Vector3::Zero());
+    else end_is_certain_ = settling_ || ends_for_certain(tail) || rests_for_certain();
+    const bool turns =
+        !result_.rest && (goes_down || tips(tail.corners) || tail.angular_velocity_after != Vector3::Zero());
     const bool spins = tail.angular_velocity_after.z() != 0;
     const bool comes_down = result_.rest && tail.corners.size() < result_.rest->corners.size();
     const std::string stays = which_stays(tail.corners, end);
+    end_errors_ = errors_after(tail);
+    way_error_ += (tail.end_time - time_) * (end_errors_.velocity + (end.velocity - state_.velocity).head<2>().norm());
     state_ = end;
+    if (!result_.rest || body_.lies_on(tail.corners.size()))
+      lying_ = result_.rest ? result_.rest->corners : tail.corners;
+    if (body_.lies_on(tail.corners.size())) {
+      state_.velocity.z() = 0;
+      state_.angular_velocity.head<2>().setZero();
+    }
     time_ = tail.end_time;
     if (turns) result_.standing = Standing{time_, state_, errors_after(tail), tail.corners};
     end_in(std::move(tail), turns, slides_on || spins, stays, comes_down ? ", then the body settles on a face" : "");
+  }
+
+  /// Whether the end is asked for and can be told of a body that has to settle on a face, but has not yet.
+  [[nodiscard]] bool is_followed_down(const Tail& tail) const {
+    return options_.until_rest && !body_.lies_on(tail.corners.size()) && can_follow(drop_, tail.corners) && growth_ &&
+           growth_->predictable();
+  }
+
+  /// A body that had to settle has done so where its last motion cannot be told.
+  void settle_after_all() {
+    const bool is_lost = result_.outcome == Outcome::not_computed || result_.outcome == Outcome::impact_limit ||
+                         result_.outcome == Outcome::sustained_contact;
+    if (!settling_ || !is_lost || result_.rows.empty()) return;
+    result_.rest = settling_;
+    result_.standing = {};
+    lying_.clear();
+    rest(false, slides(state_) || state_.angular_velocity.z() != 0, "the body settles on a face", "");
   }
 
   /// Error of the attitude in which bounces end, from the second order of the turn meanwhile and the error of its time.
@@ -486,10 +670,23 @@ class Run : public SequenceLoop<Sequence, ErrorGrowth> {
 
   /// Ends on the face found.
   void settle() {
-    end_is_certain_ = (growth_ && growth_->predictable()) || rests_for_certain();
+    end_is_certain_ = settling_ || (growth_ && growth_->predictable()) || rests_for_certain();
     result_.standing = {};
+    lie_still();
     rest(false, slides(state_) || state_.angular_velocity.z() != 0,
          result_.message.empty() ? "bouncing and rocking have ended" : result_.message, "");
+  }
+
+  /// What is left of bouncing and rocking is rounding, and no part of the motion that follows.
+  void lie_still() {
+    const double energy = vertical_energy(drop_, state_);
+    if (!(energy <= 64 * epsilon * body_.mass * drop_.gravity * reach_)) return;
+    lying_ = result_.rest->corners;
+    end_errors_ = errors_now();
+    end_errors_.velocity += std::sqrt(2 * energy / body_.mass);
+    end_errors_.attitude += energy / (body_.mass * drop_.gravity * reach_) * 64;
+    state_.velocity.z() = 0;
+    state_.angular_velocity.head<2>().setZero();
   }
 
   /// Whether the body already had to come to rest on that face in the last state that can be predicted.
@@ -511,6 +708,8 @@ class Run : public SequenceLoop<Sequence, ErrorGrowth> {
         staying.push_back(touch.point);
     }
     const bool turns = !result_.rest && (tips(corners) || state_.angular_velocity != Vector3::Zero());
+    lying_ = result_.rest ? result_.rest->corners : staying;
+    end_errors_ = errors_now();
     if (turns) result_.standing = Standing{time_, state_, errors_now(), staying};
     rest(turns, slides(state_), how, which_stays(corners, state_));
   }
@@ -563,9 +762,13 @@ class Run : public SequenceLoop<Sequence, ErrorGrowth> {
   SpaceAccumulation accumulation_;
   Rattling rattling_;
   std::optional<Known> known_;
-  std::optional<int> lifted_;   ///< the corner that a contact's end has left last
-  bool first_is_open_ = false;  ///< heights that touch down together differ by more than the rounding of the attitude
-  bool regained_ = false;       ///< errors were begun anew for the contact that follows
+  double way_error_ = 0;          ///< bound on that of the place along the ground [m]
+  std::optional<Rest> settling_;  ///< the face on which the body has to come to rest, once that is known
+  std::vector<int> lying_;        ///< points on which the body lies in the end
+  StateErrors end_errors_;        ///< of the state then
+  std::optional<int> lifted_;     ///< the corner that a contact's end has left last
+  bool first_is_open_ = false;    ///< heights that touch down together differ by more than the rounding of the attitude
+  bool regained_ = false;         ///< errors were begun anew for the contact that follows
 };
 
 }  // namespace
@@ -580,7 +783,8 @@ Sequence impact_sequence(const Drop& drop, const SequenceOptions& options) {
   } catch (const std::domain_error&) {
     throw NumericalError("the ratio of the drop's speeds, lengths or gravity is beyond double precision");
   }
-  Run run(internal, options);
+  const SequenceOptions own = units.to_internal(options);
+  Run run(internal, own);
   Sequence sequence = run.run();
   units.to_si(sequence);
   require_representable(sequence);

@@ -16,7 +16,7 @@ using detail::infinite;
 namespace {
 
 constexpr int stages = RadauRule::points;
-using Stages = Eigen::Matrix<double, 9, stages>;
+using Stages = Eigen::Matrix<double, 11, stages>;
 
 const RadauRule& radau_rule() {
   static const RadauRule the_rule;
@@ -136,7 +136,7 @@ void Collocation::set_equations(const Stages& next, Equations& equations, Number
       const Vector3 from_first = Quaternion(y[0], y[1], y[2], y[3]) * (p.place - points_[0].place);
       GroundMotion by_state = GroundMotion::Zero();  // of the slip aside
       by_state.segment<3>(4) = from_first.cross(aside);
-      by_state.tail<2>() = aside.head<2>();
+      by_state.segment<2>(7) = aside.head<2>();
       const int row = corners() * l + k;
       for (int m = 0; m < stages; ++m) {
         for (int j = 0; j < corners(); ++j) {
@@ -179,7 +179,7 @@ double Collocation::stiffness() const {
     double turns = 0;
     for (int j = 0; j < corners(); ++j) {
       GroundMotion by = end();
-      by.tail<5>() = by_angle_[static_cast<std::size_t>(j)].col(stages - 1).tail<5>();
+      by.segment<5>(4) = by_angle_[static_cast<std::size_t>(j)].col(stages - 1).segment<5>(4);
       turns += slip_of(by, points_, points_[turning_[static_cast<std::size_t>(k)]]).norm();
     }
     largest = std::fmax(largest, turns / speed_(k, stages - 1));

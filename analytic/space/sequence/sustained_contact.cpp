@@ -48,6 +48,8 @@ class Neighbours {
     followed_ = base_.advance(contact.duration);
   }
 
+  /// The state at the end, with bounds on its errors at exactly that time.
+  [[nodiscard]] std::optional<StateInContact> at_end(const StateErrors& errors) const;
   /// Derivatives of time and state at the end by those at the beginning; nothing where errors are too large for that.
   [[nodiscard]] std::optional<ContactDerivatives> derivatives(const StateErrors& errors) const;
 
@@ -124,7 +126,8 @@ double Neighbours::clearance() const {
 }
 
 std::optional<ContactDerivatives> Neighbours::derivatives(const StateErrors& errors) const {
-  if (!followed_ || contact_.end == ContactEnd::open || contact_.end == ContactEnd::joining) return {};
+  const bool has_margin = contact_.end == ContactEnd::arrival || contact_.end == ContactEnd::lift_off;
+  if (!followed_ || !has_margin) return {};
   const ContactMotion::Rates rates = base_.rates(contact_.end, vertex_);
   if (!(rates.margin < 0) && !lifts_at_once()) return {};
   const Changes of_state = errors.in_each_direction().tail<9>();
@@ -147,7 +150,44 @@ std::optional<ContactDerivatives> Neighbours::derivatives(const StateErrors& err
   return d;
 }
 
+std::optional<StateInContact> Neighbours::at_end(const StateErrors& errors) const {
+  if (!followed_) return {};
+  StateInContact there{.state = base_.state(), .error = {}};
+  if (!std::isfinite(errors.attitude + errors.velocity + errors.angular_velocity + errors.time)) return there;
+  const ContactMotion::Rates rates = base_.rates(ContactEnd::arrival, vertex_);
+  const Changes of_state = errors.in_each_direction().tail<9>();
+  Changes all, drift;
+  drift << there.state.angular_velocity, rates.acceleration, rates.turning;
+  all = errors.time * drift.cwiseAbs();
+  for (int k = 0; k < 9; ++k) {
+    if (k == 5 || (!slips_ && k / 3 == 1)) continue;  // nothing is left of these where the corner is held
+    const auto by = slope(k, of_state[k]);
+    if (!by) return there;
+    all += of_state[k] * by->state.cwiseAbs();
+  }
+  there.error = {.time = 0,
+                 .attitude = all.head<3>().norm(),
+                 .velocity = all.segment<3>(3).norm(),
+                 .angular_velocity = all.tail<3>().norm()};
+  return there;
+}
+
 }  // namespace
+
+std::optional<StateInContact> contact_at(const Drop& drop, const State& now, const SustainedContact& contact,
+                                         double time, const StateErrors& errors) {
+  SustainedContact part;
+  part.duration = time;
+  part.corners = contact.corners;
+  part.end = ContactEnd::arrival;
+  auto there = Neighbours(drop, now, part).at_end(errors);
+  if (!there) return {};
+  const StateErrors rounding = contact_rounding(drop, now, part);
+  there->error.attitude += 2 * rounding.attitude;
+  there->error.velocity += 2 * rounding.velocity;
+  there->error.angular_velocity += 2 * rounding.angular_velocity;
+  return there;
+}
 
 SustainedContact follow_contact(const Drop& drop, const State& now, const std::vector<int>& corners) {
   return ContactMotion(drop, now, corners).follow();

@@ -63,6 +63,17 @@ struct ContactDerivatives {
 [[nodiscard]] SustainedContact follow_contact(const Drop& drop, const State& now, const std::vector<int>& corners,
                                               const StateErrors& errors);
 
+/// The state at `time` after the beginning of a contact, and bounds on the errors that it has at exactly that time;
+/// nothing where it could not be computed.
+/// @param errors  of `now`, bounds
+struct StateInContact {
+  State state;
+  StateErrors error;
+};
+[[nodiscard]] std::optional<StateInContact> contact_at(const Drop& drop, const State& now,
+                                                       const SustainedContact& contact, double time,
+                                                       const StateErrors& errors);
+
 /// Sets normal_impulse_error from the errors of the states at its beginning and end.
 void add_impulse_error(const Drop& drop, const StateErrors& before, SustainedContact& contact);
 

@@ -21,6 +21,41 @@ class Words(unittest.TestCase):
         self.assertNotIn("2 − ΣP", run("angles", "--restitution", "0.5").stdout)
         self.assertNotIn("2 − ΣP", run("angles", "--gravity-number", "0.1").stdout)
 
+    def test_a_state_at_a_time_is_where_free_fall_and_the_slide_take_the_body(self):
+        drop = ("sequence", "--body", "box", "--size", "0.2x0.1x0.1", "--angle", "0", "--gravity", "9.81", "--restitution", "0.4",
+                "--friction", "0.5", "--tangential-velocity", "6")
+        run_ = json_of(*drop, "--at", "0.03,0.5,3", "--until-rest")
+        flight, slide, rest = run_["states"]
+        self.assertAlmostEqual(flight["position"][2], 0.05 + 0.4 * 0.03 - 9.81 / 2 * 0.03**2, delta=1e-14)
+        self.assertAlmostEqual(flight["velocity"][0], 6 - 0.5 * 1.4, delta=1e-14)
+        # All impulses are m (V + g t), and friction takes half of that until the slide has stopped.
+        speed = 6 - 0.5 * (1 + 9.81 * 0.5)
+        self.assertAlmostEqual(slide["velocity"][0], speed, delta=1e-12)
+        self.assertTrue(slide["touches"])
+        self.assertEqual((rest["velocity"], rest["touches"]), ([0, 0, 0], True))
+        end = run_["end_motion"]
+        self.assertEqual((run_["outcome"], end["kind"]), ("at-rest", "slides"))
+        self.assertAlmostEqual(end["start"] + end["duration"], 0.5 + speed / (0.5 * 9.81), delta=1e-12)
+        self.assertAlmostEqual(end["distance"], end["velocity"][0] ** 2 / 9.81, delta=1e-12)
+        self.assertEqual(json_of(*drop)["outcome"], "slides-on")
+        rows = run(*drop, "--at", "0.03,0.5", "--format", "csv", "--bare", "--rows", "states").stdout.splitlines()
+        self.assertEqual((len(rows), rows[0].split(",")[:3]), (3, ["time", "impacts", "touches"]))
+        self.assertEqual(json_of(*drop, "--until", "0.1")["outcome"], "time-limit")
+
+    def test_a_body_whose_end_stays_on_the_ground_goes_on_to_rest(self):
+        drop = ("sequence", "--angle", "30", "--gravity", "9.81", "--restitution", "0.5", "--friction", "0.3")
+        self.assertEqual(json_of(*drop)["outcome"], "impact-limit")
+        run_ = json_of(*drop, "--until-rest", "--at", "9")
+        self.assertEqual(run_["outcome"], "at-rest")
+        self.assertGreater(len(run_["contacts"]), 4)
+        self.assertEqual(run_["states"][0]["position"][2], 0)
+
+    def test_a_time_before_the_first_impact_and_states_without_times_are_refused(self):
+        for arguments, said in ((("--at=-1",), "run.at|--at"), (("--rows", "states"), "--rows states: needs --at or --rate")):
+            done = run("sequence", "--angle", "10", *arguments)
+            self.assertEqual(done.returncode, 2)
+            self.assertRegex(done.stderr, said)
+
     def test_the_impacts_that_are_counted_are_the_first_three(self):
         self.assertIn("how many of these three", " ".join(run("angles").stdout.split()))
         sequence = json_of("sequence", "--angle", "30", "--restitution", "0.2")

@@ -333,17 +333,18 @@ BOOST_AUTO_TEST_CASE(every_number_of_a_scene_can_be_put_where_the_reader_puts_it
     const bool whole = number.is_whole() || key == "drop.orientation";
     const std::string text = whole ? "5" : "0.0625";
     const std::vector<SceneOverride> overrides{{key, "--set", text}};
+    const Model model = number.use == Use::discrete ? Model::discrete : Model::continuous;
     bool read = false;
     for (const std::string& shape : shapes) {
       const std::string& drop = grounds.contains(key) ? grounds.at(key) : tilted;
       const SceneValues values("scene.toml", drop + shape, scene_keys());
       try {
-        const Scene expected = read_scene(values, overrides, Model::continuous);
-        Scene scene = read_scene(values, {{key, "--set", whole ? "4" : "0.03125"}}, Model::continuous);
-        BOOST_TEST(scene_line(scene) != scene_line(expected), key);
+        const Scene expected = read_scene(values, overrides, model);
+        Scene scene = read_scene(values, {{key, "--set", whole ? "4" : "0.03125"}}, model);
+        BOOST_TEST(scene_line(scene, model) != scene_line(expected, model), key);
         number.put_number(scene, std::stod(text));
         scene.settle();
-        BOOST_TEST(scene_line(scene) == scene_line(expected), key);
+        BOOST_TEST(scene_line(scene, model) == scene_line(expected, model), key);
         read = true;
       } catch (const BadInput&) {  // a key of another shape
       }
