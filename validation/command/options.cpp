@@ -108,6 +108,11 @@ PreparedScene read_discrete_flags(const SceneFlags& given) {
   return prepared;
 }
 
+void warn_of_restitution(const SceneFlags& given, const Scene& scene) {
+  if (is_given(given, "--restitution") && scene.impact.restitution && !scene.ground_restitution)
+    say("warning: " + discrete_restitution_words(scene));
+}
+
 bool is_given(const SceneFlags& given, const std::string& name) { return !given.texts.at(name).empty(); }
 
 bool names_ground(const SceneFlags& given) {

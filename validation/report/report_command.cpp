@@ -81,8 +81,10 @@ constexpr const char* page_style =
     "@media print{:root{color-scheme:light;--ink:#1a1a1a;--soft:#444;--paper:#fff;--line:#ccc;--box:#f4f4f4;"
     "--body:#2a6f97}*{print-color-adjust:exact;-webkit-print-color-adjust:exact}body{font-size:9.5pt;max-width:none;"
     "padding:0}h2{break-after:avoid;margin-top:.8rem}figure,tr,pre{break-inside:avoid}.wide{overflow:visible}"
-    "table{font-size:7.5pt}th,td{padding:.1rem .25rem;white-space:normal}figure.plot svg{max-height:8.2cm}"
-    ".answer{font-size:14pt}}@page{margin:14mm}";
+    "table{font-size:7.5pt}th,td{padding:.05rem .25rem;white-space:normal}figure.plot svg{max-height:9.6cm}"
+    "p,ul,pre,figure{margin:.25rem 0}ul{padding-left:1.2rem}p,li{max-width:none;line-height:1.3}"
+    ".lines,.wide p,figcaption,pre{font-size:7.5pt;line-height:1.25}.beside figure{flex-basis:16rem}"
+    ".answer{font-size:13pt}}@page{margin:14mm}";
 
 /// Without the declarations that only a file of its own may have.
 std::string svg_element(const std::string& svg) {
@@ -367,9 +369,10 @@ void find_blows(const SweepPlan& plan, const SweepBody& body, int threads, const
   work();
 }
 
+/// @param given  the drop whose attitude they change
 /// @param rank_by  column; empty: as the sweep has it
 /// @throws BadInput as read_sweep_plan; nothing if it was interrupted, or no drop has a number to rank it by.
-std::optional<AllAttitudes> all_attitudes(const ReportInput& input, const Attitudes& attitudes,
+std::optional<AllAttitudes> all_attitudes(const ReportInput& input, const Scene& given, const Attitudes& attitudes,
                                           const std::string& rank_by, const CooperativeInterrupt& interrupt) {
   const SweepRequest request = sweep_of(input, attitudes, rank_by);
   SweepPlan plan = read_sweep_plan(request);
@@ -421,7 +424,7 @@ std::optional<AllAttitudes> all_attitudes(const ReportInput& input, const Attitu
     return all.is_worse(all.drops[one].value, all.drops[other].value);
   });
   const SweptDrop& worst = all.drops[all.worst];
-  all.scene = shock_scene(input);
+  all.scene = given;
   plan.points.at(worst.point, values);
   all.scene.orientation.reset();
   all.scene.tilt_deg = 0;
@@ -498,7 +501,8 @@ Grid attitudes_grid(const AllAttitudes& all) {
     grid.rows.push_back(
         {Cell(fmt::format("{} {}", part_names[axes_of_attitude(worst.attitude)], orientation_name(worst.attitude + 1))),
          Cell(degrees_off(all.scene, worst.attitude, worst.down), 2), blow ? Cell(blow->impact) : Cell(),
-         cell(blow && has_peaks, blow ? blow->peak_g : 0), cell(blow && has_velocity, blow ? blow->velocity : 0),
+         cell(blow && has_peaks, blow ? three_digits(blow->peak_g) : 0),
+         cell(blow && has_velocity, blow ? blow->velocity : 0),
          cell(blow && blow->margin, blow && blow->margin ? blow->margin->value : 0),
          cell(is_deep, is_deep ? 1e3 * *blow->depth : 0),
          cell(is_deep && has_share, is_deep && has_share ? 100 * *blow->depth / *pad : 0), Cell(worst.value, 3),
@@ -524,7 +528,9 @@ std::string attitudes_html(const AllAttitudes& all, const Attitudes& attitudes) 
   shown.grid = attitudes_grid(all);
   return fmt::format(
              "<p>{} drops: each face, edge and corner of the box in its turn, turned about each axis by a "
-             "normally distributed angle with a standard deviation of {}°; numbers to three digits.</p>\n",
+             "normally distributed angle with a standard deviation of {}°; numbers to three digits. Worst and mildest "
+             "of "
+             "few drops are a sample's, so that attitudes alike by symmetry differ: --drops takes more.</p>\n",
              attitudes.drops, attitudes.scatter) +
          handout_table(shown) + legend_html(shown.grid);
 }
@@ -735,15 +741,20 @@ struct Findings {
 std::string bottoming_words(const AllAttitudes& all, const Ranking& ranking) {
   if (!all.scene.world.ground.is_pad() || !ranking.has_peaks) return "";
   const auto bottoming = all.count([](const SweptDrop& drop) { return drop.curve_depth > 1; });
-  return fmt::format("In {} of {} drops the pad bottoms out{}", bottoming, all.drops.size(),
-                     bottoming == 0 ? ""
-                     : all.scene.pad.under
-                         ? ", onto the stiffness of --under"
-                         : ", where its last slope goes on, which is too soft: --under PA/M says what "
-                           "is below");
+  const double deepest = std::ranges::max(all.drops, {}, &SweptDrop::curve_depth).curve_depth;
+  const Scene& scene = all.scene;
+  return fmt::format("The pad bottoms out in {} of {} drops{}", bottoming, all.drops.size(),
+                     bottoming == 0
+                         ? ""
+                         : fmt::format(", going to {} times its curve's depth, {}", said(deepest),
+                                       scene.half_space.floor
+                                           ? "onto the floor, of E*/h of what is left of it, which is rather too hard"
+                                       : scene.pad.under ? "onto the stiffness of --under"
+                                                         : "where its last slope goes on, which is too soft: "
+                                                           "--floor NAME or --under PA/M says what is below"));
 }
 
-/// The worst of all drops in a sentence: with a part that it survives or fails, with the least margin of all.
+/// The worst of all drops in a sentence: with a part in how many it survives, and the least margin of all.
 std::string worst_words(const AllAttitudes& all, const Answer& answer, const Ranking& ranking) {
   const std::size_t drops = all.drops.size();
   if (!answer.blow || !answer.blow->margin || ranking.by != Ranking::By::margin) {
@@ -752,14 +763,10 @@ std::string worst_words(const AllAttitudes& all, const Answer& answer, const Ran
                                                         said(all.drops[all.worst].value), all.column.unit);
     return fmt::format("Worst of {} drops: {}: {}", drops, all.name, words);
   }
-  const double margin = answer.blow->margin->value;
-  const auto failing = all.count([](const SweptDrop& drop) { return !(drop.value > 1); });
-  const std::string in = failing == 0                                 ? "none"
-                         : static_cast<std::size_t>(failing) == drops ? "all"
-                                                                      : std::to_string(failing);
-  return fmt::format("{} {}: least margin {} over {} drops, in {} of them below 1 ({}, impact {}). There {}",
-                     answer.fields.find("probe")->text(), margin > 1 ? "survives" : "fails", said(margin), drops, in,
-                     all.name, answer.blow->impact, answer.words);
+  return fmt::format("{} survives in {} of {} drops; least margin {}: {}, where {}",
+                     answer.fields.find("probe")->text(),
+                     all.count([](const SweptDrop& drop) { return drop.value > 1; }), drops,
+                     said(answer.blow->margin->value), all.name, answer.words);
 }
 
 /// Three digits with the unit of what is ranked by.
@@ -795,6 +802,18 @@ std::vector<std::string> notes_of_all(const AllAttitudes& all, const Answer& ans
   return notes;
 }
 
+/// Shows how deep each impact goes, and in a pad of known thickness which part of that it is.
+void show_depths(const Scene& scene, const numeric::Simulation& run, Grid& grid) {
+  for (Column& column : grid.columns) {
+    if (column.name == "indentation") column.shown = true;
+  }
+  const auto& pad = scene.pad.thickness;
+  if (!scene.world.ground.is_pad() || !pad || run.impacts.size() != grid.rows.size()) return;
+  grid.columns.push_back({"depth_percent", "of pad", "%", "depth in parts of the pad's thickness"});
+  for (std::size_t i = 0; i < grid.rows.size(); ++i)
+    grid.rows[i].emplace_back(100 * run.impacts[i].value.indentation / *pad, 3);
+}
+
 /// What --format json has, by the names of the commands that give it.
 void add_fields(const ReportInput& input, const ShockView& view, Findings& found) {
   const Scene& scene = found.scene;
@@ -812,6 +831,7 @@ void add_fields(const ReportInput& input, const ShockView& view, Findings& found
   const bool is_continuous = found.run.continuous.has_value();
   if (is_continuous) {
     found.impacts = simulation_report(scene, found.run.continuous->planned);
+    show_depths(scene, found.run.continuous->planned.run, found.impacts.grid);
   } else {
     const PreparedScene drop = prepared(scene);
     found.impacts = sequence_report(drop, run_discrete(drop));
@@ -837,7 +857,7 @@ std::optional<Findings> findings_of(ReportInput& input, const Attitudes& attitud
           : ranking_column({.model = model, .part = input.part}, probes.front(), is_lossless(given, model));
   const Ranking ranking = ranking_of(rank_by, probes, input);
   Findings found;
-  if (looks_at_all) found.all = all_attitudes(input, attitudes, rank_by, interrupt);
+  if (looks_at_all) found.all = all_attitudes(input, given, attitudes, rank_by, interrupt);
   if (interrupt.requested()) return {};
   found.scene = found.all ? found.all->scene : given;
   const Scene& scene = found.scene;

@@ -9,6 +9,7 @@
 #include "validation/output/number.hpp"
 #include "validation/run/discrete_scene.hpp"
 #include "validation/scene/floors.hpp"
+#include "validation/scene/probes.hpp"
 
 namespace clatter::validation {
 
@@ -48,10 +49,12 @@ std::optional<Blow> worst_blow(const std::vector<ShockRow>& rows, const Run& run
   return blow;
 }
 
-std::string said(double value) {
+double three_digits(double value) {
   const double unit = value > 0 ? std::pow(10.0, std::floor(std::log10(value)) - 2) : 1;
-  return shortest(unit < 1 ? std::round(value / unit) / std::round(1 / unit) : std::round(value / unit) * unit);
+  return unit < 1 ? std::round(value / unit) / std::round(1 / unit) : std::round(value / unit) * unit;
 }
+
+std::string said(double value) { return shortest(three_digits(value)); }
 
 std::string blow_words(const Blow& blow, const std::string& probe, const Ranking& ranking) {
   const auto half_sine = [&] { return equivalent_pulse(blow.velocity, blow.peak_g * standard_gravity); };
@@ -90,22 +93,29 @@ std::vector<std::string> assumed_words(const Scene& scene, Model model, const Bl
   const bool is_continuous = model == Model::continuous;
   if (is_lossless(scene, model)) {
     const char* const what = !is_continuous           ? "Impacts without loss (e = 1)"
-                             : scene.half_space.floor ? "Undamped floor (e = 1): no source gives a restitution"
                              : ground.is_pad()        ? "Undamped pad (e = 1): a curve gives no restitution"
+                             : scene.half_space.floor ? "Undamped floor (e = 1): no source gives a restitution"
                                                       : "Undamped ground (e = 1)";
     items.push_back(fmt::format(
         "{}; changes of velocity are up to twice those without rebound, and later impacts are too hard{}. {} gives one",
         what, blow.impact > 1 ? fmt::format(", as impact {} here is", blow.impact) : "",
         is_continuous ? "--floor-restitution E" : "--restitution E"));
+  } else if (!is_continuous) {
+    items.push_back("Impact law: " + law_words(scene, std::nullopt));
+  } else if (scene.ground_restitution) {
+    items.push_back(fmt::format("Restitution of the first impact: {}, as given", shortest(*scene.ground_restitution)));
+  } else {
+    items.emplace_back("The ground's damping is as given, and gives the restitution");
   }
-  if (is_continuous && scene.impact.restitution && !scene.ground_restitution) {
+  if (is_continuous && scene.impact.restitution && !scene.ground_restitution)
+    items.push_back(discrete_restitution_words(scene));
+  const HalfSpaceScene& half_space = scene.half_space;
+  if (is_continuous && half_space.floor && !half_space.body_modulus) {
     items.push_back(
-        fmt::format("--restitution {0} is for the discrete model alone: the floor's own is --floor-restitution {0}",
-                    shortest(*scene.impact.restitution)));
-  }
-  if (is_continuous && scene.half_space.floor && !scene.half_space.body_material && !scene.half_space.body_modulus) {
-    items.push_back(
-        fmt::format("The body's surface is taken as {}: --body-material names another", body_materials().front().name));
+        half_space.body_material
+            ? fmt::format("The body's surface: {}, as given", body_material_names()[*half_space.body_material])
+            : fmt::format("The body's surface is taken as {}: --body-material names another",
+                          body_materials().front().name));
   }
   return items;
 }

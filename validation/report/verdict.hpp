@@ -48,14 +48,15 @@ struct Blow {
                                              const Ranking& ranking);
 
 /// Three digits, as one says them: 39000, not 39027.
+[[nodiscard]] double three_digits(double value);
 [[nodiscard]] std::string said(double value);
 /// "camera takes 2660 g in impact 1, 7.52 m/s, as a half sine of 0.45 ms does; the part of 500 Hz answers with ...".
 [[nodiscard]] std::string blow_words(const Blow& blow, const std::string& probe, const Ranking& ranking);
-/// "0.0195 m, 244 % of the pad": empty without a depth, or a pad to compare it with.
+/// "19.5 mm deep, 244 % of the pad": empty without a pad.
 [[nodiscard]] std::string depth_words(const Scene& scene, double depth);
 /// What of the ground and the body was assumed, and is decisive: a ground without loss, a material that nobody named, a
 /// restitution that the model leaves alone.
-/// @param approach  of the first impact [m/s]
+/// @param blow  the worst
 [[nodiscard]] std::vector<std::string> assumed_words(const Scene& scene, Model model, const Blow& blow);
 
 }  // namespace clatter::validation

@@ -207,13 +207,20 @@ std::vector<std::string> Scene::summary(Model model, const KeyNames& unsettled) 
     springs.add(pad_words(*this), {"ground.curve", "ground.thickness", "ground.under"});
   } else {
     springs.add(fmt::format("k = {} N/m³", in_powers(ground.stiffness)), {"ground.stiffness"});
-    springs.add(fmt::format("c = {} N·s/m⁴", in_powers(ground.damping)), {"ground.damping"});
+    if (!ground_restitution) springs.add(fmt::format("c = {} N·s/m⁴", in_powers(ground.damping)), {"ground.damping"});
   }
   if (!ground.is_half_space())
     contact.add(
         after(springs.text(), fmt::format("over the {} area", area_names()[static_cast<std::size_t>(ground.area)])));
   if (half_space.floor && !ground.is_damped())
-    contact.add("undamped, e = 1 of 0 to 1: no source gives a restitution", {"ground.dissipation"});
+    contact.add("undamped, e = 1: from 0 to 1 no source gives a restitution",
+                {"ground.dissipation", "ground.restitution"});
+  else if (ground_restitution)
+    contact.add(fmt::format("e = {} in the first impact ({} {})", shortest(*ground_restitution),
+                            ground.has_dissipation() ? "dissipation" : "c =",
+                            ground.has_dissipation() ? significant(ground.dissipation, 4) + " s/m"
+                                                     : significant(ground.damping, 4) + " N·s/m⁴"),
+                {"ground.restitution"});
   else if (ground.has_dissipation())
     contact.add(fmt::format("dissipation {} s/m", in_powers(ground.dissipation)), {"ground.dissipation"});
   contact.add(sweeps_friction ? fmt::format("friction μ = {} to {}", shortest(sweep->from), shortest(sweep->to))

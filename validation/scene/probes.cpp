@@ -87,7 +87,7 @@ std::vector<numeric::Vector3> places_from(const numeric::Vector3& centre, const 
 
 std::string probe_doubts(const Scene& scene, const std::vector<Probe>& probes) {
   constexpr double rounding = 1e-9;
-  if (scene.body.is_polyhedron()) return "";  // in its file's frame
+  if (probes.empty() || scene.body.is_polyhedron()) return "";  // the latter's are in its file's frame
   const numeric::Vector3 extents = body_properties(scene, Model::continuous).extents;
   std::string names;
   for (const Probe& probe : probes) {
@@ -109,6 +109,11 @@ std::vector<std::string> doubts_of(const Scene& scene, Model model, const std::v
     if (doubt.starts_with(mark)) doubt.erase(0, mark.size());
   }
   return doubts;
+}
+
+std::string discrete_restitution_words(const Scene& scene) {
+  return fmt::format("--restitution {0} is the discrete model's alone: the ground's own is --floor-restitution {0}",
+                     shortest(*scene.impact.restitution));
 }
 
 void say_doubts(const Scene& scene, Model model, const std::vector<Probe>& probes) {

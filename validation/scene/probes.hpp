@@ -47,4 +47,7 @@ void say_doubts(const Scene& scene, Model model, const std::vector<Probe>& probe
 /// As the JSON echo has them.
 [[nodiscard]] Value probe_fields(const std::vector<Probe>& probes);
 
+/// That impact.restitution, which the scene has, says nothing of a ground that yields.
+[[nodiscard]] std::string discrete_restitution_words(const Scene& scene);
+
 }  // namespace clatter::validation

@@ -186,17 +186,17 @@ void check_body(const SceneValues& values, BodyScene& body) {
 
 void check_ground(const SceneValues& values, Scene& scene, Model model) {
   numeric::Ground& ground = scene.world.ground;
-  const bool is_half_space = values.has("ground.modulus") || values.has("ground.floor"),
-             is_pad = values.has("ground.curve");
+  const bool is_pad = values.has("ground.curve"), has_floor = values.has("ground.floor"),
+             is_half_space = !is_pad && (values.has("ground.modulus") || has_floor);
   const bool is_springs = !is_half_space && !is_pad;
-  if (!is_half_space)
+  if (!is_half_space && !has_floor)
     only_for(values, {"ground.body_modulus", "ground.body_material"}, "a ground with a modulus or a floor");
   if (!is_pad) only_for(values, {"ground.curve_units", "ground.thickness", "ground.under"}, "a pad with a curve");
   if (model == Model::continuous && is_springs)
     values.require("ground.stiffness",
                    "k_G in N/m3, such as 1e11, which clatter ground finds; or ground.modulus of an elastic half-space, "
                    "ground.floor by name, or ground.curve of a pad");
-  settle_half_space(scene.half_space, ground);
+  if (is_half_space) settle_half_space(scene.half_space, ground);
   if (!values.has("ground.stiffness") && is_springs) {
     only_for(values, {"ground.damping", "ground.restitution", "ground.static_friction", "ground.sliding_friction"},
              "a ground with a stiffness");
@@ -205,7 +205,9 @@ void check_ground(const SceneValues& values, Scene& scene, Model model) {
   else if (is_half_space || !values.has("ground.area")) ground.area = numeric::AreaMeasure::projected;
   if (is_pad) {
     read_pad(values, scene.pad);
-    settle_pad(scene.pad, ground);
+    if (has_floor && !(pad_left(scene.pad) > 0))
+      values.refuse("ground.floor", "left out under a pad without ground.thickness beyond its curve");
+    settle_pad(scene.pad, scene.half_space, ground);
   }
   // One coefficient given is both.
   if (!values.has("ground.sliding_friction")) ground.sliding_friction = ground.static_friction;
@@ -254,7 +256,7 @@ void check_drop(const SceneValues& values, Scene& scene) {
     const char* const key = scene.release.attitude.empty() ? "drop.attitude" : "drop.release.attitude";
     if (!is_attitude(scene.attitude)) values.refuse(key, key_named(key).allowed());
   } else if (!swept && !scene.topple && !scene.release.angle_deg && scene.body.shape != BodyScene::Shape::sphere) {
-    if (scene.is_released())
+    if (scene.is_released() && !values.has("drop.angle_deg"))
       values.require("drop.release.angle_deg", "the inclination at the release, or drop.release.attitude");
     values.require("drop.angle_deg", "the inclination at the first impact, or drop.attitude");
   }
@@ -315,25 +317,13 @@ void make_room_for_law(SceneValues& values, const std::vector<SceneOverride>& ov
   if (restitution != none && file_computes) values.drop("impact.law");
 }
 
-/// A floor under a pad is no half-space of its own: says what is asked instead.
-void refuse_floor_under_pad(const SceneValues& values, const std::vector<SceneOverride>& overrides) {
-  const auto has = [&](const char* key) {
-    return std::ranges::any_of(overrides, [&](const SceneOverride& o) { return o.key == key; }) ||
-           (overrides.empty() && values.has(key));
-  };
-  if (!has("ground.floor") || !has("ground.curve")) return;
-  throw BadInput(
-      "--floor and --curve: give one of them, not both; what is under a pad is --under PA/M, the stiffness beyond the "
-      "curve: E/h of the pressed pad, E of its solid (some 1e9 Pa of a polymer) and h what is left of its thickness, "
-      "on a floor that is harder than that");
-}
-
 Scene read_values(SceneValues values, const std::vector<SceneOverride>& overrides, Model model) {
   values.call_by(key_flags());
-  refuse_floor_under_pad(values, overrides);
   for (const Alternative& pair : alternatives()) refuse_both(overrides, pair.instead_of, pair.key);
   refuse_both(overrides, "run.tolerance", "run.step");
   make_room_for_law(values, overrides);
+  const auto is_curve = [](const SceneOverride& flag) { return flag.key == "ground.curve"; };
+  if (std::ranges::any_of(overrides, is_curve) && values.has("ground.modulus")) values.drop("ground.body_material");
   for (const SceneOverride& flag : overrides) {
     for (const Alternative& pair : alternatives()) {
       if (flag.key == pair.key) values.drop(pair.instead_of);
@@ -395,8 +385,8 @@ void Scene::settle() {
     attitude = orientation_attitude(number, body.size);
   }
   if (!attitude.empty()) angle_deg = inclination_of(attitude);
-  settle_half_space(half_space, world.ground);
-  if (has_ground()) settle_pad(pad, world.ground);  // else it is not read yet
+  if (pad.curve.empty() && pad.file.empty()) settle_half_space(half_space, world.ground);
+  else if (has_ground()) settle_pad(pad, half_space, world.ground);  // else it is not read yet
   if (!topple) return;
   const TouchMotion touch = toppled(*this);
   velocity.assign(touch.velocity.begin(), touch.velocity.end());

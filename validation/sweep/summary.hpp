@@ -80,7 +80,7 @@ class Summary {
 
   void add_number(Report& report, std::size_t column, const std::string& least, const std::string& largest) const;
   void add_texts(Report& report) const;
-  /// Of a column's numbers: a margin is worse where it is less.
+  /// Whether one number of a column is worse than another: a margin where it is less.
   [[nodiscard]] bool is_worse(std::size_t column, double one, double other) const;
   void add_attitudes(Report& report, const std::function<std::string(long long)>& name) const;
 
