@@ -361,7 +361,6 @@ PlannedRun run_to_digits(const Scene& scene, const numeric::Body& body, const nu
   judge(body, planned);
   const std::string out_of_plane = planar_warning(body, world, start);
   if (!out_of_plane.empty()) planned.warnings.push_back(out_of_plane);
-  if (const std::string doubts = pad_doubts(scene); !doubts.empty()) planned.warnings.push_back(doubts);
   const std::string sunk = submersion_warning(planned.run), deep = depth_warning(body, scene, planned.run);
   if (!sunk.empty()) planned.warnings.push_back(sunk);
   else if (!deep.empty()) planned.warnings.push_back(deep);

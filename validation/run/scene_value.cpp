@@ -259,6 +259,8 @@ std::vector<std::string> scene_head(const Scene& scene, Model model, std::option
     head.insert(head.begin() + 1, body_words(scene, model));
     if (const std::string doubts = unit_doubts(body_properties(scene, model)); !doubts.empty())
       head.insert(head.begin(), doubts);
+    if (const std::string doubts = pad_doubts(scene); !doubts.empty() && is_settled("ground.thickness"))
+      head.insert(head.begin(), "!: warning: " + doubts);
   }
   if (model == Model::discrete) {
     std::string words = "impact: " + law_words(scene, approach, unsettled);

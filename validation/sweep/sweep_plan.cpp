@@ -16,7 +16,6 @@
 #include "validation/run/scene_value.hpp"
 #include "validation/scene/body_properties.hpp"
 #include "validation/scene/orientation.hpp"
-#include "validation/scene/pad.hpp"
 #include "validation/shock/shock_options.hpp"
 #include "validation/sweep/sweep_file.hpp"
 
@@ -538,8 +537,6 @@ Report SweepPlan::report() const {
   report.head = scene_head(scene, model, {}, unsettled);
   if (const std::string doubts = probe_doubts(scene, layout.probes); !doubts.empty())
     report.head.insert(report.head.begin(), doubts);
-  if (const std::string doubts = pad_doubts(scene); !doubts.empty())
-    report.head.insert(report.head.begin(), "!: warning: " + doubts);
   report.fields["model"] = name;
   report.fields["scene"] = scene_value(scene);
   forget(unsettled, report.fields["scene"]);
