@@ -442,6 +442,19 @@ std::optional<AllAttitudes> all_attitudes(const ReportInput& input, const Scene&
   return all;
 }
 
+/// "margin of camera, first landing [g]": what drops are ranked by, for a reader.
+std::string ranked_words(const Column& ranking) {
+  std::string_view name = ranking.name;
+  const bool is_landing = name.starts_with(of_landing);
+  if (is_landing) name.remove_prefix(of_landing.size());
+  std::string words(name);
+  for (const auto& [column, its_words] :
+       {std::pair{margin_column, "margin of"}, {peak_column, "peak at"}, {shock_column, "|ΔV| of"}}) {
+    if (name.starts_with(column)) words = fmt::format("{} {}", its_words, name.substr(column.size()));
+  }
+  return words + (is_landing ? ", first landing" : "") + (ranking.unit.empty() ? "" : " [" + ranking.unit + "]");
+}
+
 /// Each face, edge and corner by the worst blow of its worst drop, the worst kind first and in it the worst attitude.
 Grid attitudes_grid(const AllAttitudes& all) {
   const bool has_peaks = std::ranges::any_of(all.blows, [](const auto& blow) { return blow && blow->peak_g > 0; });
@@ -463,12 +476,12 @@ Grid attitudes_grid(const AllAttitudes& all) {
              {"margin", "margin", "", "of the part in it: at 1 and below it fails", has_margin},
              {"depth_mm", "depth", "mm", "of the body's deepest point in it", has_depth},
              {"depth_percent", "of pad", "%", "the same in parts of the pad's thickness", has_share},
-             {"worst", "worst", all.column.unit, all.column.name + " of that drop", !is_of_blow},
+             {"worst", "worst", all.column.unit, ranked_words(all.column) + " of that drop", !is_of_blow},
              {"mildest", "mildest", all.column.unit,
               (is_of_blow ? std::string(has_margin  ? "margin"
                                         : has_peaks ? "peak"
                                                     : "|ΔV|")
-                          : all.column.name) +
+                          : ranked_words(all.column)) +
                   " of the mildest of its drops"},
              {"drops", "drops", "", "of this attitude"}},
             {},
@@ -915,25 +928,6 @@ std::optional<Findings> findings_of(ReportInput& input, const Attitudes& attitud
   return found;
 }
 
-/// The scene in a few lines; of a released one how it is let go.
-std::vector<std::string> head_of(const Scene& scene, Model model, const KeyNames& unsettled) {
-  std::vector<std::string> lines = scene.summary(model, unsettled);
-  if (!scene.is_released()) return lines;
-  const auto three = [](const Vector3& v) {
-    return fmt::format("({}, {}, {})", shortest(v.x()), shortest(v.y()), shortest(v.z()));
-  };
-  for (std::string& line : lines) {
-    if (!line.starts_with("drop: ")) continue;
-    line = fmt::format(
-        "drop: at the release {} {} m above the floor, velocity {} m/s, angular velocity {} rad/s; gravity "
-        "{} m/s²",
-        scene.release.clearance ? "the lowest point" : "the centre of mass",
-        shortest(scene.release.clearance ? *scene.release.clearance : *scene.release.height),
-        three(scene.touch_velocity()), three(scene.touch_angular_velocity()), shortest(scene.world.gravity));
-  }
-  return lines;
-}
-
 /// How the body touches in an impact.
 Eigen::Quaterniond attitude_in(const ShockRun& run, int impact) {
   const Run impacts = run.continuous ? run_of(run.continuous->planned.run) : *run.discrete_run;
@@ -968,9 +962,7 @@ std::string page_of(const ReportInput& input, const Findings& found, const Attit
     pictures += fmt::format(
         "<figure>{}<figcaption>All drops by the direction that is down in the body{}; the ring is the "
         "worst.</figcaption></figure>",
-        attitude_map(dots_of(*all), all->worst,
-                     all->column.name + (all->column.unit.empty() ? "" : " [" + all->column.unit + "]"),
-                     all->is_least_worst()),
+        attitude_map(dots_of(*all), all->worst, ranked_words(all->column), all->is_least_worst()),
         scene.is_released() ? " at the release" : "");
   }
   std::string answer = fmt::format("<p class=\"answer\">{}.</p>\n", html_escaped(found.lead));
@@ -989,7 +981,7 @@ std::string page_of(const ReportInput& input, const Findings& found, const Attit
   parts.push_back({"Assumptions", handout_list(assumptions(scene, model, unsettled))});
   parts.push_back({"What the model leaves out", handout_list(left_out(scene))});
   parts.push_back({"Commands that give these numbers again", handout_commands(found.commands)});
-  return handout_page(found.report.title, head_of(scene, model, unsettled), parts);
+  return handout_page(found.report.title, scene.summary(model, unsettled), parts);
 }
 
 int run_report(const ReportInput& given) {

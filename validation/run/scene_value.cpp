@@ -176,6 +176,12 @@ std::string Scene::drop_words(const KeyNames& unsettled) const {
   Phrases turns(unsettled), way(unsettled), words(unsettled);
   turns.add(turn, {"drop.angle_deg", "drop.attitude", "drop.orientation"});
   turns.add(tilt_words(*this), {"drop.tilt_deg"});
+  if (is_released()) {
+    way.add(fmt::format("at the release, {} {} m above the ground",
+                        release.clearance ? "the lowest point" : "the centre of mass",
+                        shortest(release.clearance ? *release.clearance : *release.height)),
+            {"drop.release.clearance", "drop.release.height"});
+  }
   if (topple) way.add(fmt::format("toppled from {} m", shortest(*topple)), {"drop.topple"});
   else if (height) way.add(fmt::format("from {} m", shortest(*height)), {"drop.height"});
   else if (clearance) way.add(clearance_words(*this), {"drop.clearance"});

@@ -257,7 +257,8 @@ void check_drop(const SceneValues& values, Scene& scene) {
     if (!is_attitude(scene.attitude)) values.refuse(key, key_named(key).allowed());
   } else if (!swept && !scene.topple && !scene.release.angle_deg && scene.body.shape != BodyScene::Shape::sphere) {
     if (scene.is_released() && !values.has("drop.angle_deg"))
-      values.require("drop.release.angle_deg", "the inclination at the release, or drop.release.attitude");
+      values.require("drop.release.angle_deg",
+                     "the inclination at the release, or an attitude, --orientation of a box");
     values.require("drop.angle_deg", "the inclination at the first impact, or drop.attitude");
   }
   if (!scene.is_released()) {

@@ -149,7 +149,7 @@ class Report(EmptyFolder):
         page = self.read("page.html")
         table = page.split("<h2>Attitudes")[1].split("</table>")[0]
         self.assertEqual([table.count(f">{kind} ") for kind in ("face", "edge", "corner")], [6, 12, 8])
-        self.assertIn("drop: at the release the lowest point 0.6 m above the floor, velocity (0, 0, 0) m/s, angular velocity (0, 2, 0) rad/s", page)
+        self.assertIn("drop: at the release, the lowest point 0.6 m above the ground, velocity (0, 0, 0) m/s, angular velocity (0, 2, 0) rad/s", page)
         self.assertIn("the attitude at the release is what is given", page)
 
     def test_blows_of_the_discrete_model_that_overlap_on_the_floor_are_told(self):
