@@ -332,7 +332,7 @@ void append_shape(std::vector<Key>& keys) {
                      },
                      {3},
                      sizes,
-                     "three lengths in m greater than 0, as in 0.106x0.044x0.019, [0.106, 0.044, 0.019] in a file",
+                     "three lengths in m greater than 0, as in [0.106, 0.044, 0.019]",
                      "[0.106, 0.044, 0.019]",
                      &wide_sizes},
            of_size},
