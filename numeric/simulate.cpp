@@ -36,18 +36,55 @@ Integration integration_for(const Accuracy& accuracy) {
   return integration;
 }
 
-std::string words_for(const Simulation& run, const Request& request, const Accuracy& accuracy, double time) {
+/// A motion that goes on.
+std::string words_for(const GroundMotion& motion) {
+  std::ostringstream text;
+  const double speed = motion.from.velocity.norm(), turning = motion.from.angular_velocity.norm();
+  switch (motion.kind) {
+    case GroundMotionKind::rests: break;
+    case GroundMotionKind::slides:
+      text << "slides on at " << speed << " m/s";
+      if (motion.acceleration.norm() > 0) text << ", ever faster";
+      text << ", and no friction stops it";
+      break;
+    case GroundMotionKind::spins: text << "spins on at " << turning << " rad/s, and no friction stops it"; break;
+    case GroundMotionKind::rolls:
+      text << "rolls on at " << speed << " m/s";
+      if (motion.decay > 0) text << ", which the ground's damping slows by " << 100 * motion.decay << " % a second";
+      break;
+  }
+  return text.str();
+}
+
+/// Where the run has come to rest.
+Rest rest_of(const DropRun& run) {
+  const GroundMotion& motion = *run.on_ground;
+  Rest rest{.time = run.end_time, .place = run.final_state.centre};
+  if (motion.stops_after > 0) rest.slid = motion.from.velocity.norm() * motion.stops_after / 2;
+  rest.distance = (rest.place - run.last_touch.centre).head<2>().norm();
+  return rest;
+}
+
+/// What the run says of its end at `time` [s].
+std::string words_for(const Simulation& run, const Request& request, const Accuracy& accuracy, const DropRun& end) {
+  const double time = end.end_time;
   std::ostringstream text;
   switch (run.outcome) {
     case Outcome::no_further_impact: text << "nothing reaches the ground any more"; break;
     case Outcome::impact_limit: text << "stopped after the " << request.impacts << " impacts asked for"; break;
-    case Outcome::at_rest: text << "the body lies still on the ground from " << time << " s"; break;
-    case Outcome::sustained_contact:
-      text << "from " << time << " s the body slides or spins on the ground steadily, and no friction stops it";
+    case Outcome::at_rest:
+      if (run.rest->slid > 0) {
+        text << "the body slides " << run.rest->distance << " m and stops at " << time << " s";
+      } else {
+        text << "the body lies still on the ground from " << time << " s";
+      }
       break;
+    case Outcome::sustained_contact: text << "from " << time << " s the body " << words_for(*run.on_ground); break;
     case Outcome::evaluation_limit:
       text << "the contact after " << time << " s had not ended after " << accuracy.evaluation_limit
-           << " force evaluations";
+           << " force evaluations; at " << end.reached_time << " s the body moves along the ground at "
+           << end.reached.velocity.head<2>().norm() << " m/s and turns at " << end.reached.angular_velocity.norm()
+           << " rad/s";
       break;
     case Outcome::step_too_small:
       text << "the contact after " << time << " s needs steps too small for the tolerance; ask for fewer digits";
@@ -57,6 +94,10 @@ std::string words_for(const Simulation& run, const Request& request, const Accur
       break;
     case Outcome::flight_undecided: text << "no touch-down found after " << time << " s within the work allowed"; break;
     case Outcome::interrupted: text << "stopped on request after " << time << " s of motion"; break;
+    case Outcome::time_limit:
+      text << "stopped at the time asked for, " << request.until << " s";
+      if (end.impact_goes_on) text << "; the impact that goes on then, since " << time << " s, is not listed";
+      break;
   }
   return text.str();
 }
@@ -71,26 +112,36 @@ DropRun run_checked(const Body& body, const World& world, const MotionState& sta
   }
 }
 
-/// The second run, until its impacts go another way than `rows` do.
+/// The second run, until its impacts go another way than `rows` do, at the first `states` of the times.
 DropRun run_again(const Body& body, const World& world, const MotionState& start, std::span<const ImpactRecord> rows,
-                  const Integration& main, const SecondRun& second) {
-  const Request alone{.impacts = static_cast<int>(rows.size()), .error_estimates = false, .amplification = false};
+                  std::span<const double> times, const Request& request, const Integration& main,
+                  const SecondRun& second) {
+  Request alone{.impacts = static_cast<int>(rows.size()), .error_estimates = false, .amplification = false};
+  alone.starts_on_ground = request.starts_on_ground;
+  alone.times.assign(times.begin(), times.end());
+  // An impact that has just ended in the main run may end a little later here.
+  alone.until = rows.empty() ? request.until
+                             : std::max(request.until, rows.back().value.start + 1.1 * rows.back().value.duration);
   Integration integration = second.integration;
   std::size_t place = 0;
   if (is_adaptive(integration.method)) {
     integration.next_tolerance = [&](const ImpactRecord& row) {
+      if (place >= rows.size()) return second.integration.steps.tolerance;
       const double looser = tolerance_beside(body, main.steps.tolerance, rows[place], row);
       return std::max(looser, second.integration.steps.tolerance);
     };
   }
-  const auto goes_on = [&](const ImpactRecord& row) { return !goes_another_way(rows[place++], row); };
+  const auto goes_on = [&](const ImpactRecord& row) {
+    return place < rows.size() && !goes_another_way(rows[place++], row);
+  };
   return run_checked(body, world, start, alone, integration, {.history = nullptr, .impact = goes_on});
 }
 
-void check_start(const Body& body, const MotionState& start) {
+void check_start(const Body& body, const MotionState& start, bool starts_on_ground) {
   const bool finite = start.centre.allFinite() && start.attitude.coeffs().allFinite() && start.velocity.allFinite() &&
                       start.angular_velocity.allFinite();
   if (!finite) throw std::domain_error("the start: every number of the state must be finite");
+  if (starts_on_ground) return;
   const double low = lowest_height(body, start);
   detail::require(low >= -1e-12 * body.radius(), "height of the lowest point", low, "at least 0");
 }
@@ -108,9 +159,13 @@ Simulation simulate(const Body& body, const World& world, const MotionState& sta
   accuracy.validate();
   request.validate();
   world.validate();
-  check_start(body, start);
+  check_start(body, start, request.starts_on_ground);
   const Integration integration = integration_for(accuracy);
   DropRun main = run_checked(body, world, start, request, integration, observer);
+  if (!request.times.empty()) {
+    detail::require(request.times.front() >= main.start_time, "run.times", request.times.front(),
+                    "at least the time of the start");
+  }
   Simulation simulation;
   simulation.outcome = main.outcome;
   simulation.method = integration.method;
@@ -120,21 +175,31 @@ Simulation simulate(const Body& body, const World& world, const MotionState& sta
   simulation.root_evaluations = main.root_evaluations;
   simulation.energy_start = main.energy_start;
   simulation.final_state = main.final_state;
+  simulation.state_evaluations = main.state_evaluations;
   simulation.impacts = std::move(main.impacts);
-  simulation.message = words_for(simulation, request, accuracy, main.end_time);
+  simulation.states = std::move(main.states);
+  simulation.on_ground = main.on_ground;
+  simulation.on_ground_from = main.on_ground_from;
+  if (simulation.outcome == Outcome::at_rest) simulation.rest = rest_of(main);
+  simulation.message = words_for(simulation, request, accuracy, main);
   const bool wants_estimates = request.error_estimates && simulation.outcome != Outcome::interrupted;
   const auto last = std::ranges::find(simulation.impacts, false, &ImpactRecord::predictable);
-  if (!wants_estimates || last == simulation.impacts.begin()) {
+  const std::span<const ImpactRecord> known(simulation.impacts.data(),
+                                            static_cast<std::size_t>(last - simulation.impacts.begin()));
+  const std::size_t states = states_with_errors(simulation.states, known.size(), simulation.impacts.size());
+  if (!wants_estimates || (known.empty() && states == 0)) {
     forget_errors(simulation.impacts);
+    forget_errors(simulation.states);
     return simulation;
   }
   const SecondRun second = second_run(integration, main.step);
-  const std::span<const ImpactRecord> known(simulation.impacts.data(),
-                                            static_cast<std::size_t>(last - simulation.impacts.begin()));
-  const DropRun other = run_again(body, world, start, known, integration, second);
+  const DropRun other =
+      run_again(body, world, start, known, std::span(request.times).first(states), request, integration, second);
   simulation.force_evaluations += other.force_evaluations;
   simulation.root_evaluations += other.root_evaluations;
+  simulation.state_evaluations += other.state_evaluations;
   estimate_errors(body, second.error_per_distance, simulation.impacts, other.impacts);
+  estimate_state_errors(body, second.error_per_distance, simulation.impacts, simulation.states, other.states);
   return simulation;
 }
 

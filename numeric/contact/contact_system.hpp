@@ -161,6 +161,12 @@ class ContactSystem {
   [[nodiscard]] bool is_submerged(const ContactState& y) const;
 
   [[nodiscard]] long evaluations() const { return evaluations_; }
+  /// Takes the last ones out of that count: they were not for the run itself.
+  void set_aside(long evaluations) {
+    evaluations_ -= evaluations;
+    evaluations_aside_ += evaluations;
+  }
+  [[nodiscard]] long evaluations_aside() const { return evaluations_aside_; }
   [[nodiscard]] const Body& body() const { return body_; }
   [[nodiscard]] const Ground& ground() const { return ground_; }
   /// Towards the ground, and along x [m/s²].
@@ -199,7 +205,7 @@ class ContactSystem {
   GroundPlane plane_;
   Vector3 east_ = Vector3::UnitX(), north_ = Vector3::UnitY();  ///< world axes in the body frame at touch-down
   FrictionPhase phase_;
-  long evaluations_ = 0;
+  long evaluations_ = 0, evaluations_aside_ = 0;
 };
 
 }  // namespace clatter::numeric

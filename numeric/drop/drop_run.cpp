@@ -11,6 +11,7 @@
 
 #include "numeric/drop/error_growth.hpp"
 #include "numeric/drop/history_pieces.hpp"
+#include "numeric/drop/state_notes.hpp"
 #include "numeric/motion/free_flight.hpp"
 #include "numeric/stepping/contact_run.hpp"
 
@@ -26,6 +27,8 @@ class HistoryWriter {
 
   /// An instant of the contact that began at `start` [s].
   void contact(const ContactSystem& system, const ContactInstant& at, double start);
+  /// Points of a slide that began at `start` and ends at rest.
+  void slide(const GroundMotion& motion, double start);
   /// Points of the flight that began at `start` and lasts `duration` [s], its ends left to the contacts.
   void flight(const FreeFlight& flight, double start, double duration);
 
@@ -59,6 +62,20 @@ void HistoryWriter::contact(const ContactSystem& system, const ContactInstant& a
   recorder_->record(row);
 }
 
+void HistoryWriter::slide(const GroundMotion& motion, double start) {
+  if (!recorder_) return;
+  constexpr int parts = 20;
+  for (int i = 1; i <= parts; ++i) {
+    const double time = motion.stops_after * i / parts;
+    HistorySample row = sample(start + time, motion.at(time));
+    row.in_contact = true;
+    row.force = i < parts ? motion.force : motion.rest_force;
+    row.energy_ground = i < parts ? motion.energy_stored : motion.rest.energy_stored;
+    row.point_velocity = row.state.velocity;
+    recorder_->record(row);
+  }
+}
+
 void HistoryWriter::flight(const FreeFlight& flight, double start, double duration) {
   if (!recorder_) return;
   const double turn = flight.at(0).angular_velocity.norm() * duration;
@@ -81,6 +98,8 @@ class PieceWriter {
   [[nodiscard]] bool is_wanted() const { return recorder_ != nullptr; }
   /// An accepted step of the contact `impact`, which began at `origin` [s].
   void step(const ContactSystem& system, std::span<const ContactInstant> instants, int impact, double origin);
+  /// A slide to rest at the end of the impact, which ends at `end` and began at `origin` [s].
+  void slide(const GroundMotion& motion, int impact, double end, double origin);
   /// The flight after that impact, in pieces in which the body turns by half a radian, if they are not too many.
   void flight(const FreeFlight& flight, int impact, double origin, double duration);
 
@@ -103,6 +122,18 @@ void PieceWriter::step(const ContactSystem& system, std::span<const ContactInsta
   }
   const double begin = instants.front().time, length = instants.back().time - begin;
   recorder_->record_piece({impact, true, origin, begin, length, row_});
+}
+
+void PieceWriter::slide(const GroundMotion& motion, int impact, double end, double origin) {
+  if (!recorder_) return;
+  row_.clear();
+  for (int j = 0; j < piece_points; ++j) {
+    // The last instant is that before the body turns into its equilibrium.
+    const double time = std::min(motion.stops_after * piece_point(j), std::nextafter(motion.stops_after, 0.0));
+    row_.push_back({motion.at(time), motion.force, Vector3::Zero()});
+  }
+  const double begin = end - motion.stops_after - origin;
+  recorder_->record_piece({impact, true, origin, begin, motion.stops_after, row_});
 }
 
 /// I ω̇′ + ω′ × I ω′ = 0; in the plane nothing turns the axis.
@@ -152,15 +183,6 @@ void note_angles(const MotionState& touch, ImpactNumbers& numbers) {
   numbers.contact_angle = std::atan2(std::fabs(axis.z()), along);
 }
 
-/// The state without what rounding has put out of the plane.
-MotionState in_plane(const MotionState& state) {
-  MotionState flat = state;
-  const Vector3 north = state.attitude.conjugate() * Vector3::UnitY();
-  flat.velocity.y() = 0;
-  flat.angular_velocity = north * north.dot(state.angular_velocity);
-  return flat;
-}
-
 class Run {
  public:
   Run(const Body& body, const World& world, const MotionState& start, const Request& request,
@@ -171,7 +193,7 @@ class Run {
         contact_(system_, *stepper_), rough_stepper_(make_stepper(Method::rkck)),
         rough_contact_(system_, *rough_stepper_), state_(world.planar ? in_plane(start) : start),
         growth_(body, start, gravity_, world.planar), history_(body, gravity_, observer.history),
-        pieces_(body, world.planar, observer.history) {
+        pieces_(body, world.planar, observer.history), notes_(body, gravity_, world.planar, request.times) {
     control_.steps = integration.steps;
     control_.evaluation_limit = integration.evaluation_limit;
     control_.estimate_local_slip =
@@ -179,9 +201,10 @@ class Run {
         world.ground.has_friction() && world.ground.friction == FrictionLaw::coulomb;
     control_.least_local_slip = request.local_slip ? 0 : integration.least_local_slip;
     control_.point_friction = world.point_friction;
-    if (observer.history || observer.progress) {
+    if (observer.history || observer.progress || std::isfinite(request.until)) {
       observe_ = [this](const ContactInstant& at) { return observe(at); };
     }
+    steps_.at_time = [this](std::size_t, const ContactInstant* at) { notes_.contact(system_, at); };
     if (!pieces_.is_wanted()) return;
     for (int j = 0; j < piece_points; ++j) steps_.parts.push_back(piece_point(j));
     steps_.show = [this](std::span<const ContactInstant> step) {
@@ -190,10 +213,13 @@ class Run {
   }
 
   DropRun run() {
-    while (fall() && strike()) continue;
+    if (request_.starts_on_ground && lowest_height(body_, state_) < 0) control_.is_pressed = true;
+    while ((control_.is_pressed ? begin_pressed() : fall()) && strike()) control_.is_pressed = false;
     result_.force_evaluations = system_.evaluations();
+    result_.state_evaluations = system_.evaluations_aside();
     result_.final_state = state_;
     result_.end_time = time_;
+    result_.states = notes_.take();
     return std::move(result_);
   }
 
@@ -203,22 +229,40 @@ class Run {
     return false;
   }
 
+  /// At the start the ground presses; false if a state before is asked for.
+  bool begin_pressed() {
+    if (notes_.begin_before(0)) return end(Outcome::interrupted);
+    system_.begin(state_);
+    const ContactLoad load = system_.pressed(0);
+    stored_before_ = load.energy;
+    pressed_point_ = load.pressure_centre();
+    result_.energy_start = mechanical_energy(body_, state_, gravity_) + stored_before_;
+    return true;
+  }
+
   /// The flight to the next touch-down; false if there is none.
   bool fall() {
     const FreeFlight flight(body_, state_, gravity_, world_.planar);
     const TouchDown down = next_touch_down(body_, flight);
     result_.root_evaluations += down.evaluations;
     assert(down.time >= 0);
-    if (down.kind == TouchDown::Kind::undecided) return end(Outcome::flight_undecided);
-    if (down.kind == TouchDown::Kind::never) return end(Outcome::no_further_impact);
-    if (static_cast<int>(result_.impacts.size()) == request_.impacts) return end(Outcome::impact_limit);
-    const bool first = result_.impacts.empty();
+    const bool first = result_.impacts.empty(), touches = down.kind == TouchDown::Kind::touch;
+    if (first && touches) result_.start_time = time_ = -down.time;
+    if (first && notes_.begin_before(time_)) return end(Outcome::interrupted);
+    const bool is_endless = down.kind == TouchDown::Kind::never;
+    notes_.flight(flight, time_, is_endless ? std::numeric_limits<double>::infinity() : down.time,
+                  request_.amplification && !first ? &growth_ : nullptr);
+    if (is_endless) return end(Outcome::no_further_impact);
+    const bool has_enough = static_cast<int>(result_.impacts.size()) >= request_.impacts;
+    if (touches && has_enough && notes_.are_complete()) return end(Outcome::impact_limit);
+    if (time_ + down.time > request_.until) return end(Outcome::time_limit);
+    if (!touches) return end(Outcome::flight_undecided);
     if (!first) {
       history_.flight(flight, time_, down.time);
       pieces_.flight(flight, static_cast<int>(result_.impacts.size()), time_, down.time);
       if (request_.amplification) growth_.fly(state_, down.time);
-      time_ += down.time;
     }
+    time_ = first ? 0 : time_ + down.time;
     const double fallen = std::fabs(state_.velocity.z()) * down.time + gravity_.down / 2 * down.time * down.time;
     placement_ = first ? 0 : std::numeric_limits<double>::epsilon() * fallen;
     state_ = flight.at(down.time);
@@ -228,21 +272,46 @@ class Run {
 
   /// The contact; false if it did not end in a lift-off.
   bool strike() {
-    const Vector3 point = touch_point(body_, state_);
+    const Vector3 point = control_.is_pressed ? pressed_point_ : touch_point(body_, state_);
+    notes_.open_contact(time_, request_.amplification ? &growth_ : nullptr, steps_.times);
     const ContactResult contact = contact_.run(state_, point, control_, observe_, steps_);
     result_.step = contact.step;
+    result_.last_touch = state_;
+    result_.impact_goes_on = true;
+    result_.reached = contact.after;
+    result_.reached_time = time_ + contact.duration;
+    if (result_.reached_time > request_.until) {
+      if (contact.goes_on) notes_.ground(*contact.goes_on, time_ + contact.goes_on_from);
+      return end(Outcome::time_limit);
+    }
     const bool lifts = contact.ending == ContactEnding::lift_off;
     if (!lifts && contact.ending != ContactEnding::at_rest && contact.ending != ContactEnding::sustained_contact) {
       return end(outcome_of(contact.ending));
     }
+    if (contact.goes_on) {
+      result_.on_ground = contact.goes_on;
+      result_.on_ground_from = time_ + contact.goes_on_from;
+    }
+    if (contact.duration == 0) {
+      notes_.ground_from_the_start(*contact.goes_on);
+      result_.impact_goes_on = false;
+      return end(outcome_of(contact.ending));
+    }
     assert(contact.duration > 0 && contact.touches >= 1);
-    if (!(contact.scales.depth > least_depth * placement_)) return end(Outcome::not_representable);
+    if (!(contact.scales.depth > least_depth * placement_)) {
+      notes_.forget_contact();
+      return end(Outcome::not_representable);
+    }
+    result_.impact_goes_on = false;
     result_.impacts.push_back(record(contact, point));
     if (request_.amplification) note_growth(contact);
+    notes_.close_contact(result_.impacts.back().amplification);
     if (integration_.next_tolerance) control_.steps.tolerance = integration_.next_tolerance(result_.impacts.back());
     if (observer_.impact && !observer_.impact(result_.impacts.back())) return end(Outcome::interrupted);
     state_ = world_.planar ? in_plane(contact.after) : contact.after;
     time_ += contact.duration;
+    if (contact.goes_on) rest_or_glide(*contact.goes_on);
+    stored_before_ = 0;
     return lifts || end(outcome_of(contact.ending));
   }
 
@@ -254,8 +323,8 @@ class Run {
     n.duration = contact.duration;
     note_angles(state_, n);
     n.approach_speed = -point_velocity(state_, point).z();
-    n.restitution = contact.touches > 1 ? std::numeric_limits<double>::quiet_NaN()
-                                        : point_velocity(after, point).z() / n.approach_speed;
+    n.restitution = contact.touches > 1 || control_.is_pressed ? std::numeric_limits<double>::quiet_NaN()
+                                                               : point_velocity(after, point).z() / n.approach_speed;
     n.impulse = body_.mass() * (after.velocity - state_.velocity - contact.duration * contact_gravity_.acceleration());
     n.peak_force = contact.peak_force;
     n.peak_time = contact.peak_time;
@@ -277,9 +346,17 @@ class Run {
     row.submerged = contact.submerged;
     row.amplification = std::numeric_limits<double>::quiet_NaN();
     row.energy_stored = contact.energy_stored;
-    const double gap = n.energy_loss - n.work_damping - n.work_friction - n.work_released - row.energy_stored;
+    const double gap =
+        n.energy_loss - n.work_damping - n.work_friction - n.work_released - (row.energy_stored - stored_before_);
     row.ledger_gap = gap / std::max(result_.energy_start, row.energy_stored);
     return row;
+  }
+
+  void rest_or_glide(const GroundMotion& motion) {
+    notes_.ground(motion, result_.on_ground_from);
+    if (motion.kind != GroundMotionKind::rests || !(motion.stops_after > 0)) return;
+    history_.slide(motion, result_.on_ground_from);
+    pieces_.slide(motion, static_cast<int>(result_.impacts.size()), time_, result_.impacts.back().value.start);
   }
 
   void note_growth(const ContactResult& contact) {
@@ -292,6 +369,7 @@ class Run {
 
   bool observe(const ContactInstant& at) {
     history_.contact(system_, at, time_);
+    if (time_ + at.time > request_.until) return false;
     if (!observer_.progress || ++observed_ % 64 != 0) return true;
     return observer_.progress(static_cast<int>(result_.impacts.size()), system_.evaluations());
   }
@@ -313,9 +391,12 @@ class Run {
   ErrorGrowth growth_;
   HistoryWriter history_;
   PieceWriter pieces_;
-  StepObserver steps_;  ///< shows the steps to pieces_, if they are wanted
+  StateNotes notes_;
+  StepObserver steps_;  ///< shows the steps to pieces_, if they are wanted, and instants to notes_
   double time_ = 0;
-  double placement_ = 0;  ///< rounding error of the height at the touch-down, from the flight's length [m]
+  double placement_ = 0;      ///< rounding error of the height at the touch-down, from the flight's length [m]
+  double stored_before_ = 0;  ///< in the springs at the start of a body that is pressed [J]
+  Vector3 pressed_point_ = Vector3::Zero();  ///< its pressure centre, body frame [m]
   long observed_ = 0;
   DropRun result_;
 };
@@ -323,12 +404,6 @@ class Run {
 }  // namespace
 
 double piece_point(int j) { return (1 - std::cos(std::numbers::pi * j / (piece_points - 1))) / 2; }
-
-double mechanical_energy(const Body& body, const MotionState& state, const Gravity& gravity) {
-  const Vector3& omega = state.angular_velocity;
-  return 0.5 * body.mass() * state.velocity.squaredNorm() + 0.5 * omega.dot(body.inertia() * omega) +
-         gravity.potential(body.mass(), state.centre);
-}
 
 DropRun run_drop(const Body& body, const World& world, const MotionState& start, const Request& request,
                  const Integration& integration, const Observer& observer) {

@@ -5,6 +5,7 @@
 #include <cassert>
 #include <cmath>
 #include <limits>
+#include <span>
 
 namespace clatter::numeric {
 namespace {
@@ -91,7 +92,8 @@ void add_rounding(const Body& body, const ImpactRecord& row, ImpactNumbers& erro
   add(error.approach_speed, n.velocity_after.norm() + body.radius() * n.angular_velocity_after.norm());
   // Heights are known to the rounding of the body's size, and touch-down and lift-off to that over the speed.
   const double separation = n.approach_speed * (n.restitution > 0 ? std::min(n.restitution, 1.0) : 1);
-  add(error.duration, body.radius() / separation);
+  // A body that began in the ground, or let down on it without a speed, has not come by.
+  if (n.approach_speed > 0) add(error.duration, body.radius() / separation);
   add(error.indentation, body.radius());
   if (n.start > 0) add(error.start, body.radius() / n.approach_speed);
   // The time of a flat maximum is known to the root of what its height is known to.
@@ -107,6 +109,81 @@ void add_rounding(const Body& body, const ImpactRecord& row, ImpactNumbers& erro
 /// Relative, of the impulses.
 double distance_of(const ImpactRecord& row, const ImpactRecord& second) {
   return (second.value.impulse - row.value.impulse).norm() / row.value.impulse.norm();
+}
+
+/// A part of a contact's time from its beginning or its end changes at most this part of what the contact does, over
+/// the part: of half a sine of force it is π/2 in the middle and less at the ends.
+constexpr double steepest = 2;
+/// A state has the errors of all impacts before it: 95 of 100 lie within bars that are so much wider.
+constexpr double wider_of_states = 1.5;
+
+double angle_between(const Eigen::Quaterniond& a, const Eigen::Quaterniond& b) {
+  const Eigen::Quaterniond turn = a.conjugate() * b;
+  return 2 * std::atan2(turn.vec().norm(), std::fabs(turn.w()));
+}
+
+/// What the rows say of an instant's time.
+struct TimeErrors {
+  double beside = 0;                     ///< by which an impact's beginning or end may lie on the other side of it [s]
+  const ImpactRecord* impact = nullptr;  ///< that one
+};
+
+/// Of the impact before the state, or that it is in, and the one after it.
+TimeErrors time_errors(const StateRecord& at, std::span<const ImpactRecord> impacts) {
+  TimeErrors errors;
+  const auto look = [&](std::size_t i) {
+    if (i >= impacts.size()) return;
+    const ImpactNumbers &row = impacts[i].value, &error = impacts[i].error;
+    // A body that stays on the ground leaves it with no change.
+    const bool lifts = impacts[i].energy_stored == 0;
+    const double begin = error.start, end = lifts ? error.start + error.duration : 0;
+    const double from_begin = std::fabs(at.time - row.start), from_end = std::fabs(at.time - row.start - row.duration);
+    const double beside = !(from_begin > begin) ? begin : !(from_end > end) ? end : 0;
+    if (beside > errors.beside) errors = {beside, &impacts[i]};
+  };
+  if (at.impacts > 0) look(static_cast<std::size_t>(at.impacts) - 1);
+  look(static_cast<std::size_t>(at.impacts));
+  return errors;
+}
+
+/// The change that the impact makes within `time`.
+StateErrors change_within(const Body& body, const ImpactRecord& impact, double time) {
+  const ImpactNumbers& n = impact.value;
+  const double part = std::min(steepest * time / n.duration, 1.0), speed = n.impulse.norm() / body.mass();
+  const double turning = speed * body.radius() * body.mass() * body.inverse_inertia().norm();
+  return {.position = part * speed * time,
+          .angle = part * turning * time,
+          .velocity = part * speed,
+          .angular_velocity = part * turning,
+          .energy = part * (std::fabs(n.energy_loss) + n.peak_force * n.indentation)};
+}
+
+/// 4 ε (1 + amplification) × the size of what a number is computed from; in a contact also the way of 4 ε × time.
+StateErrors rounding_of(const Body& body, const StateRecord& at, double approach_speed) {
+  const MotionState& s = at.state;
+  const double radius = body.radius(), turning = s.angular_velocity.norm(), force = at.force.norm();
+  const double speed = s.velocity.norm() + radius * turning + approach_speed;
+  const double part = 4 * epsilon * (1 + (std::isfinite(at.amplification) ? at.amplification : 1));
+  const double time = 4 * epsilon * std::fabs(at.time) + (at.in_contact && speed > 0 ? part * radius / speed : 0);
+  const double acceleration = force / body.mass(), twist = force * radius * body.inverse_inertia().norm();
+  return {.position = part * (s.centre.norm() + radius) + time * speed,
+          .angle = part + time * (turning + speed / radius),
+          .velocity = part * speed + time * acceleration,
+          .angular_velocity = part * speed / radius + time * twist,
+          .energy = part * (std::fabs(at.energy) + body.mass() * speed * speed) + time * force * speed};
+}
+
+StateErrors sum(const StateErrors& a, const StateErrors& b) {
+  return {a.position + b.position, a.angle + b.angle, a.velocity + b.velocity, a.angular_velocity + b.angular_velocity,
+          a.energy + b.energy};
+}
+
+StateErrors distance(const StateRecord& a, const StateRecord& b, double factor) {
+  return {.position = factor * (a.state.centre - b.state.centre).norm(),
+          .angle = factor * angle_between(a.state.attitude, b.state.attitude),
+          .velocity = factor * (a.state.velocity - b.state.velocity).norm(),
+          .angular_velocity = factor * (a.state.angular_velocity - b.state.angular_velocity).norm(),
+          .energy = factor * std::fabs(a.energy - b.energy)};
 }
 
 }  // namespace
@@ -173,6 +250,42 @@ void forget_errors(std::vector<ImpactRecord>& rows) {
   for (ImpactRecord& row : rows) {
     for_each_number(row.value, row.value, row.error, [](double, double) { return not_known; });
   }
+}
+
+std::size_t states_with_errors(std::span<const StateRecord> states, std::size_t rows, std::size_t impacts) {
+  std::size_t count = 0;
+  for (const StateRecord& at : states) {
+    const auto begun = static_cast<std::size_t>(at.impacts);
+    // A contact that is not listed has no word on its own errors, but on those that it begins with.
+    const bool is_before = begun <= rows || (at.in_contact && begun == rows + 1 && rows == impacts);
+    if (!at.known || !is_before || !is_predictable(at.amplification)) break;
+    ++count;
+  }
+  return count;
+}
+
+void estimate_state_errors(const Body& body, double error_per_distance, std::span<const ImpactRecord> impacts,
+                           std::vector<StateRecord>& states, std::span<const StateRecord> second) {
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    StateRecord& at = states[i];
+    const StateErrors left_out = at.error;
+    at.error = {};
+    if (!at.known || i >= second.size() || !second[i].known) continue;
+    const auto listed = std::min(static_cast<std::size_t>(at.impacts), impacts.size());
+    if (!std::ranges::all_of(impacts.first(listed),
+                             [](const ImpactRecord& row) { return std::isfinite(row.error.start); })) {
+      continue;
+    }
+    const double approach = listed > 0 ? impacts[listed - 1].value.approach_speed : 0;
+    at.error = sum(distance(at, second[i], wider_of_states * error_per_distance), rounding_of(body, at, approach));
+    if (std::isfinite(left_out.velocity)) at.error = sum(at.error, left_out);
+    const TimeErrors beside = time_errors(at, impacts);
+    if (beside.impact) at.error = sum(at.error, change_within(body, *beside.impact, beside.beside));
+  }
+}
+
+void forget_errors(std::vector<StateRecord>& states) {
+  for (StateRecord& at : states) at.error = {};
 }
 
 }  // namespace clatter::numeric

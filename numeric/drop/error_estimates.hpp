@@ -2,6 +2,7 @@
 // What a second run of a drop says about the errors of the first.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "numeric/drop/drop_run.hpp"
@@ -49,7 +50,21 @@ void estimate_errors(const Body& body, double error_per_distance, std::vector<Im
 /// number is computed from; of a time, also the body's radius over the speed at which the ground is reached or left.
 [[nodiscard]] ImpactNumbers rounding_errors(const Body& body, const ImpactRecord& row);
 
+/// How many of the states, from the first on, a second run can tell the errors of: those that are known and
+/// predictable, before or in the contact after the first `rows` of `impacts`.
+[[nodiscard]] std::size_t states_with_errors(std::span<const StateRecord> states, std::size_t rows,
+                                             std::size_t impacts);
+
+/// Fills in `error` of each state: 1.5 error_per_distance × |state − second's state|, what rounding leaves uncertain,
+/// grown by the amplification, and, within the error of its time beside the beginning or end of an impact, the change
+/// that this impact makes in that time.  Not known from an impact on whose errors are not known, and where the second
+/// run has no state.
+/// @param impacts  of the main run, with their errors.
+void estimate_state_errors(const Body& body, double error_per_distance, std::span<const ImpactRecord> impacts,
+                           std::vector<StateRecord>& states, std::span<const StateRecord> second);
+
 /// Errors of all rows: not known (NaN).
 void forget_errors(std::vector<ImpactRecord>& rows);
+void forget_errors(std::vector<StateRecord>& states);
 
 }  // namespace clatter::numeric

@@ -75,6 +75,7 @@ enum class Outcome {
   not_representable,  ///< numbers of this scene leave the range or resolution of doubles
   flight_undecided,   ///< the next touch-down could not be decided within the work allowed
   interrupted,        ///< by `progress`
+  time_limit,         ///< Request::until; an impact that goes on then is not listed
 };
 
 }  // namespace clatter::numeric

@@ -13,7 +13,16 @@ void World::validate() const {
   ground.validate();
 }
 
-void Request::validate() const { require(impacts >= 1, "run.impacts", impacts, "at least 1"); }
+void Request::validate() const {
+  require(impacts >= 1, "run.impacts", impacts, "at least 1");
+  if (until != std::numeric_limits<double>::infinity()) require(until >= 0, "run.until", until, "at least 0");
+  double last = -std::numeric_limits<double>::infinity();
+  for (const double time : times) {
+    require(time >= last, "run.times", time, "finite and at least the time before it");
+    require(time <= until, "run.times", time, "at most run.until");
+    last = time;
+  }
+}
 
 void Accuracy::validate() const {
   require(step >= 0, "run.step", step, "finite and at least 0");

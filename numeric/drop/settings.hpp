@@ -4,7 +4,9 @@
 
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <numbers>
+#include <vector>
 
 #include "numeric/contact/ground.hpp"
 #include "numeric/drop/history.hpp"
@@ -49,6 +51,14 @@ struct Request {
   /// contacts where the laws of friction may differ by more than 10^−digits of the contact's mean force.
   bool local_slip = false;
   bool local_slip_with_errors = true;  ///< false: only where asked for; it takes a tenth of the time
+  /// Times of Simulation::states, ascending, not before the start nor after `until` [s after the first touch-down]. The
+  /// run goes on past `impacts` until the last of them.
+  std::vector<double> times = {};
+  /// Whether the lowest point of the start may lie below the ground, which then presses from the beginning: times count
+  /// from the start, and the body is in its first impact.  One that rests there has none.
+  bool starts_on_ground = false;
+  /// When the run ends at the latest [s after the first touch-down], >= 0; infinite: never.
+  double until = std::numeric_limits<double>::infinity();
 
   /// @throws std::domain_error naming field, value and what is allowed.
   void validate() const;

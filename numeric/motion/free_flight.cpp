@@ -233,4 +233,18 @@ FirstTouch first_touch(const Body& body, const MotionState& state) {
   return touch;
 }
 
+double mechanical_energy(const Body& body, const MotionState& state, const Gravity& gravity) {
+  const Vector3& omega = state.angular_velocity;
+  return 0.5 * body.mass() * state.velocity.squaredNorm() + 0.5 * omega.dot(body.inertia() * omega) +
+         gravity.potential(body.mass(), state.centre);
+}
+
+MotionState in_plane(const MotionState& state) {
+  MotionState flat = state;
+  const Vector3 north = state.attitude.conjugate() * Vector3::UnitY();
+  flat.velocity.y() = 0;
+  flat.angular_velocity = north * north.dot(state.angular_velocity);
+  return flat;
+}
+
 }  // namespace clatter::numeric

@@ -63,6 +63,12 @@ struct FirstTouch {
 };
 [[nodiscard]] FirstTouch first_touch(const Body& body, const MotionState& state);
 
+/// Translational + rotational + potential (m g z) energy [J].
+[[nodiscard]] double mechanical_energy(const Body& body, const MotionState& state, const Gravity& gravity);
+
+/// The state without what rounding has put out of the plane of motion, world x and z.
+[[nodiscard]] MotionState in_plane(const MotionState& state);
+
 /// Velocity of the body's point u, world [m/s].
 [[nodiscard]] inline Vector3 point_velocity(const MotionState& state, const Vector3& u) {
   return state.velocity + state.attitude * state.angular_velocity.cross(u);

@@ -2,7 +2,10 @@
 // What a contact is expected to be, and what it has come to.
 #pragma once
 
+#include <optional>
+
 #include "numeric/body/body.hpp"
+#include "numeric/motion/ground_motion.hpp"
 #include "numeric/motion/motion_state.hpp"
 
 namespace clatter::numeric {
@@ -43,8 +46,11 @@ enum class ContactEnding {
 
 struct ContactResult {
   ContactEnding ending = ContactEnding::lift_off;
-  double duration = 0;                                            ///< [s]
-  MotionState after;                                              ///< at the end
+  double duration = 0;  ///< [s]
+  MotionState after;    ///< at the end
+  /// On the ground, from `goes_on_from` on: what it takes to come to rest is part of the contact.
+  std::optional<GroundMotion> goes_on;
+  double goes_on_from = 0;                                        ///< after touch-down [s]
   double work_damping = 0, work_released = 0, work_friction = 0;  ///< [J]
   double energy_stored = 0;                                       ///< in the ground's springs at the end [J]
   double peak_force = 0;                                          ///< largest F_n [N]

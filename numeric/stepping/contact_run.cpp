@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "numeric/stepping/steady_motion.hpp"
+
 namespace clatter::numeric {
 namespace {
 
@@ -23,18 +25,20 @@ double effective_mass(const Body& body, const MotionState& touch, const Vector3&
 /// From the depth to which the body, pushed straight down at its touch-down attitude, takes up the energy that its
 /// touching point `point` (body frame) brings:
 ///     (1 + c_G v/k_G) U(depth) = ½ m_eff v² + m g depth.
-/// `system` has begun with `touch`.  Not finite if there is no such depth.
-ContactScales contact_scales(ContactSystem& system, const MotionState& touch, const Vector3& point) {
+/// `system` has begun with `touch`.  Not finite if there is no such depth.  A body that is pressed has its depth and
+/// its springs' energy already.
+ContactScales contact_scales(ContactSystem& system, const MotionState& touch, const Vector3& point, bool is_pressed) {
   const Body& body = system.body();
   const double g = system.gravity();
   const double fall = -(touch.velocity + touch.attitude * touch.angular_velocity.cross(point)).z();
-  const double speed = std::max(fall, 0.0);
+  const double speed = is_pressed ? std::fabs(fall) : std::max(fall, 0.0);
+  const ContactLoad begun = is_pressed ? system.pressed(0) : ContactLoad{};
   const double kinetic = 0.5 * effective_mass(body, touch, point) * speed * speed;
   const Ground& ground = system.ground();
   const double stiffening =
       1 + (ground.has_dissipation() ? ground.dissipation * speed : ground.damping * speed / ground.stiffness);
   const auto takes_it_up = [&](double depth) {
-    return stiffening * system.pressed(depth).energy >= kinetic + body.mass() * g * depth;
+    return stiffening * (system.pressed(depth).energy - begun.energy) >= kinetic + body.mass() * g * depth;
   };
   double high = 1e-4 * body.radius();
   while (!takes_it_up(high) && high < 1e150 * body.radius()) high *= 4;
@@ -46,63 +50,16 @@ ContactScales contact_scales(ContactSystem& system, const MotionState& touch, co
     (takes_it_up(middle) ? high : low) = middle;
   }
   ContactScales scales;
+  high += begun.deepest;
   scales.depth = high;
-  scales.speed = std::sqrt(speed * speed + 2 * g * high);
+  scales.speed = std::sqrt(speed * speed + 2 * g * high + 2 * begun.energy / body.mass());
   scales.time = scales.speed > 0 ? 3 * high / scales.speed : std::numeric_limits<double>::infinity();
-  scales.energy = kinetic + body.mass() * g * high;
+  scales.energy = kinetic + body.mass() * g * high + begun.energy;
   return scales;
 }
 
-/// Part of the speed and acceleration of a fall below which a body lies still, and how many times the tolerance the
-/// errors of steps keep up, so that a rough run ends too.
-constexpr double least_rest = 1e-6, largest_rest = 1e-5, noise_per_tolerance = 300;
-
-/// Whether the body slides down a slope that friction cannot hold it on, ever faster.
-bool slides_down(const ContactSystem& system, const ContactInstant& at) {
-  const double along = system.gravity_along();
-  return std::fabs(along) > system.ground().sliding_friction * system.gravity() && velocity(at.state).x() * along > 0;
-}
-
-/// Acceleration along the ground that lasts for ever.
-Vector3 sliding_acceleration(const ContactSystem& system, const ContactInstant& at) {
-  if (!slides_down(system, at)) return Vector3::Zero();
-  const double along = system.gravity_along();
-  return {along - std::copysign(system.ground().sliding_friction * system.gravity(), along), 0, 0};
-}
-
-bool is_steady(const ContactSystem& system, const ContactInstant& at, double kept_up) {
-  const double g = system.gravity();
-  const double depth = at.diagnosis.load.deepest;
-  if (!(g > 0) || !(depth > 0)) return false;
-  const double radius = system.body().radius(), fall = std::sqrt(g * depth);
-  const double part = std::clamp(kept_up / fall, least_rest, largest_rest);
-  const double turning = angular_velocity(at.state).norm(), spin = at.diagnosis.spin;
-  const double tipping = std::sqrt(std::max(turning * turning - spin * spin, 0.0));
-  return std::fabs(velocity(at.state).z()) <= part * fall &&
-         radius * tipping <= part * fall + 1e-7 * radius * turning &&
-         (velocity(at.rate) - sliding_acceleration(system, at)).norm() <= part * g &&
-         radius * angular_velocity(at.rate).norm() <= part * g;
-}
-
-/// Sliding without friction or down a slope, or spinning about the pressure centre of a patch that counts as a point.
-bool goes_on_for_ever(const ContactSystem& system, const ContactInstant& at) {
-  return slides_down(system, at) || system.ground().sliding_friction == 0 ||
-         (system.phase().kind == FrictionPhase::Kind::stick && system.phase().point);
-}
-
-/// At rest, or in a steady motion that no friction will ever stop; nothing where the contact goes on.  A motion is
-/// steady if only sliding along the ground and spinning about the vertical are left, neither with an acceleration but a
-/// slope's: to a millionth of what a fall into this contact would have, or to `kept_up` [m/s].
-std::optional<ContactEnding> ending_on_the_ground(const ContactSystem& system, const ContactInstant& at,
-                                                  double kept_up) {
-  if (!is_steady(system, at, kept_up)) return std::nullopt;
-  const double speed = least_rest * std::sqrt(system.gravity() * at.diagnosis.load.deepest);
-  const double sliding = std::hypot(velocity(at.state).x(), velocity(at.state).y());
-  const double turning = system.body().radius() * std::fabs(at.diagnosis.spin);
-  if (sliding <= speed && turning <= speed) return ContactEnding::at_rest;
-  if (goes_on_for_ever(system, at)) return ContactEnding::sustained_contact;
-  return std::nullopt;
-}
+/// How many times the tolerance the errors of steps keep up, so that a rough run ends too.
+constexpr double noise_per_tolerance = 300;
 
 }  // namespace
 
@@ -117,7 +74,7 @@ ContactResult ContactRun::run(const MotionState& touch, const Vector3& point, co
   shown_ = &steps;
   system_.begin(touch);
   result_ = {};
-  result_.scales = contact_scales(system_, touch, point);
+  result_.scales = contact_scales(system_, touch, point, control.is_pressed);
   if (!std::isfinite(result_.scales.time) || !(result_.scales.depth > least_depth_seen * system_.body().radius())) {
     result_.ending = ContactEnding::not_representable;
     return result_;
@@ -127,6 +84,7 @@ ContactResult ContactRun::run(const MotionState& touch, const Vector3& point, co
   if (observer && !observer(now_)) return result_;
   result_.step = steps_.fixed();
   std::optional<ContactEnding> ending;
+  if (control.is_pressed) ending = ending_on_the_ground();
   while (!ending) ending = advance();
   result_.ending = *ending;
   collect();
@@ -142,14 +100,19 @@ void ContactRun::begin(const MotionState& touch, const Vector3& point) {
   local_slip_.begin(control_->least_local_slip * scales.energy / scales.depth);
   touches_.begin(point);
   switches_ = 0;
+  next_time_ = 0;
   now_.time = 0;
   now_.state = system_.initial();
   friction_.begin(touch, point, scales,
                   {.tolerance = control_->steps.tolerance,
                    .fixed_step = steps_.fixed(),
-                   .point_friction = control_->point_friction},
+                   .point_friction = control_->point_friction,
+                   .is_pressed = control_->is_pressed},
                   now_);
   now_.diagnosis = system_.diagnose(now_.state, now_.rate);
+  if (!control_->is_pressed) return;
+  peak_.begin(now_.diagnosis.load.force);
+  deepest_.begin(now_.diagnosis.load.deepest);
 }
 
 /// One accepted step, cut short where an event lies in it; the ending if that ends the contact.
@@ -169,9 +132,16 @@ std::optional<ContactEnding> ContactRun::advance() {
   if (!lifts) friction_.choose_local_slip(now_);
   const bool goes_on = !*observer_ || (*observer_)(now_);
   if (lifts) return ContactEnding::lift_off;
-  if (const auto ending = ending_on_the_ground(system_, now_, kept_up_speed())) return ending;
+  if (const auto ending = ending_on_the_ground()) return ending;
   if (!goes_on) return ContactEnding::interrupted;
   return std::nullopt;
+}
+
+std::optional<ContactEnding> ContactRun::ending_on_the_ground() {
+  result_.goes_on = motion_on_the_ground(system_, now_, kept_up_speed());
+  if (!result_.goes_on) return std::nullopt;
+  const bool rests = result_.goes_on->kind == GroundMotionKind::rests;
+  return rests ? ContactEnding::at_rest : ContactEnding::sustained_contact;
 }
 
 /// Speed that the errors of steps keep up in a body that ought to lie still [m/s].
@@ -209,6 +179,7 @@ void ContactRun::accept(const ContactInstant& next) {
   if (peak && *observer_) (*observer_)(*peak);
   deepest_.look(now_, next);
   if (shown_->show) show_step(next);
+  if (next_time_ < shown_->times.size()) show_times(next);
   now_ = next;
   friction_.follow(now_);
 }
@@ -227,6 +198,16 @@ void ContactRun::show_step(const ContactInstant& next) {
   shown_->show(inside_);
 }
 
+void ContactRun::show_times(const ContactInstant& next) {
+  const long evaluations = system_.evaluations();
+  for (; next_time_ < shown_->times.size() && shown_->times[next_time_] < next.time; ++next_time_) {
+    const double h = shown_->times[next_time_] - now_.time;
+    const bool is_number = !(h > 0) || step_.take(now_, h, aside_);
+    shown_->at_time(next_time_, !is_number ? nullptr : h > 0 ? &aside_ : &now_);
+  }
+  system_.set_aside(system_.evaluations() - evaluations);
+}
+
 void ContactRun::collect() {
   result_.duration = now_.time;
   result_.after = system_.motion(now_.state);
@@ -241,6 +222,26 @@ void ContactRun::collect() {
   result_.local_slip = local_slip_.impulse();
   result_.touches = std::max(touches_.touches(), 1);
   result_.end = contact_end(touches_.touched_a(), touches_.touched_b());
+  result_.goes_on_from = now_.time;
+  const std::optional<GroundMotion>& motion = result_.goes_on;
+  if (motion && motion->kind == GroundMotionKind::rests && motion->stops_after > 0) slide_to_rest(*motion);
+}
+
+/// Friction takes what the body moves with along the ground and falls by on its way, the dampers what is left of other
+/// motion and what its tilt sets free at the end.
+void ContactRun::slide_to_rest(const GroundMotion& motion) {
+  const double mass = system_.body().mass();
+  const Vector3 v = velocity(now_.state), turning = angular_velocity(now_.state);
+  const MotionState end = motion.at(std::nextafter(motion.stops_after, 0.0));
+  const Vector3 way = end.centre - motion.from.centre, turned = end.centre - motion.rest.state.centre;
+  const double tipped = mass * (system_.gravity() * turned.z() - system_.gravity_along() * turned.x()) +
+                        motion.energy_stored - motion.rest.energy_stored;
+  result_.work_friction += mass * (v.head<2>().squaredNorm() / 2 + system_.gravity_along() * way.x());
+  result_.work_damping +=
+      std::max(tipped + mass * v.z() * v.z() / 2 + turning.dot(system_.body().inertia() * turning) / 2, 0.0);
+  result_.duration += motion.stops_after;
+  result_.after = motion.rest.state;
+  result_.energy_stored = motion.rest.energy_stored;
 }
 
 }  // namespace clatter::numeric

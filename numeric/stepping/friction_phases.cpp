@@ -94,7 +94,11 @@ void FrictionPhases::begin(const MotionState& touch, const Vector3& point, const
   if (!from_rest_) {
     return start(Kind::slip, direction_of(slip, 1), now);
   }
-  const AlongGround ratio = system_.sticking_ratio(point);
+  AlongGround ratio = system_.sticking_ratio(point);
+  if (settings_.is_pressed) {
+    system_.set_phase({.kind = Kind::none, .direction = {}, .point = !spin_counts()});
+    ratio = system_.sticking_force(now.state) * (1 / system_.pressed(0).force);
+  }
   if (ratio.norm() <= ground.static_friction) return start(Kind::stick, none, now);
   start(Kind::slip, direction_of(ratio, -1), now);
 }

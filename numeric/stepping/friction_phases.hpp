@@ -59,12 +59,13 @@ class FrictionPhases {
     double tolerance = 1e-10;     ///< of the steps
     double fixed_step = 0;        ///< their length if that is fixed, else 0 [s]
     bool point_friction = false;  ///< see World
+    bool is_pressed = false;      ///< see ContactControl
   };
 
   explicit FrictionPhases(ContactSystem& system) : system_(system) {}
 
   /// The phase in which a contact begins at `now`: slip in the direction of the touching point `point` (body frame);
-  /// where that has none, what the light first load would do.
+  /// where that has none, what the light first load would do, or the load that presses already.
   void begin(const MotionState& touch, const Vector3& point, const ContactScales& scales, const Settings& settings,
              const ContactInstant& now);
 

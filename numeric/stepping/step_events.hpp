@@ -44,7 +44,10 @@ class ForcePeak {
  public:
   explicit ForcePeak(ContactStep& step) : step_(step) {}
 
-  void begin() { force_ = time_ = 0; }
+  void begin(double force = 0) {
+    force_ = force;
+    time_ = 0;
+  }
 
   /// Looks for a larger force in the accepted step from `now` to `next`: at its end, and at a maximum of F_n inside it.
   /// The peak of the cubic through the forces and their rates at both ends gives its time, which a secant of the rate
@@ -68,7 +71,7 @@ class DeepestPoint {
  public:
   explicit DeepestPoint(ContactStep& step) : step_(step) {}
 
-  void begin() { depth_ = 0; }
+  void begin(double depth = 0) { depth_ = depth; }
 
   /// Looks for a larger depth in the accepted step from `now` to `next`: at its end, and at a maximum inside it, which
   /// the cubic through the depths and their rates at both ends places.  The depth of the numerical solution there is

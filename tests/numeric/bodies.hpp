@@ -65,7 +65,7 @@ inline Ground with_friction(Ground ground, double friction) {
 }
 
 /// One impact without estimates, so that the work is one run's.
-inline constexpr Request plain{.impacts = 1, .error_estimates = false, .amplification = false};
+inline const Request plain{.impacts = 1, .error_estimates = false, .amplification = false};
 /// The same with more impacts.
 inline Request plain_impacts(int impacts) {
   return {.impacts = impacts, .error_estimates = false, .amplification = false};

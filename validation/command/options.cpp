@@ -61,6 +61,13 @@ std::vector<const Key*> flag_keys(Model model) {
   return keys;
 }
 
+const char* const scene_group = "Scene (alone, or each in place of its key in SCENE)";
+
+void add_flag_of(const Key& key, Command& command, SceneFlags& given) {
+  if (key.is_truth()) command.add_flag(key.flag, given.truths[key.flag], key.help, scene_group);
+  else command.add_text(key.flag, given.texts[key.flag], key.value_type(), key.help, scene_group);
+}
+
 }  // namespace
 
 // Some commands that read a scene for one model have the flags of the other alone.
@@ -86,12 +93,16 @@ void add_scene_argument(Command& command, std::string& source, bool required) {
 }
 
 void add_scene_flags(Command& command, SceneFlags& given, Model model) {
-  const char* const group = "Scene (alone, or each in place of its key in SCENE)";
   given.model = model;
   add_scene_argument(command, given.source, false);
   for (const Key* key : flag_keys(model)) {
-    if (key->is_truth()) command.add_flag(key->flag, given.truths[key->flag], key->help, group);
-    else command.add_text(key->flag, given.texts[key->flag], key->value_type(), key->help, group);
+    if (!key->is_of_times()) add_flag_of(*key, command, given);
+  }
+}
+
+void add_time_flags(Command& command, SceneFlags& given) {
+  for (const Key* key : flag_keys(given.model)) {
+    if (key->is_of_times()) add_flag_of(*key, command, given);
   }
 }
 
@@ -216,7 +227,7 @@ std::string time_left(double seconds) {
 
 std::string progress_bar(std::size_t done, std::size_t of) {
   constexpr std::size_t width = 30;
-  const std::size_t filled = of > 0 ? width * done / of : 0;
+  const std::size_t filled = of > 0 ? width * std::min(done, of) / of : 0;
   return std::string(filled, '#') + std::string(width - filled, '.') + fmt::format(" {} of {}", done, of);
 }
 

@@ -52,8 +52,10 @@ struct SceneFlags {
 
 /// Adds the argument SCENE.
 void add_scene_argument(Command& command, std::string& source, bool required);
-/// Adds SCENE and the flags of the keys that the model has.
+/// Adds SCENE and the flags of the keys that the model has, but for those of times.
 void add_scene_flags(Command& command, SceneFlags& flags, Model model = Model::continuous);
+/// Adds those, for a command that tells where the body is at them.
+void add_time_flags(Command& command, SceneFlags& flags);
 /// What was typed, for read_scene().
 [[nodiscard]] std::vector<SceneOverride> overrides_of(const SceneFlags& flags);
 /// @throws BadInput with one line.

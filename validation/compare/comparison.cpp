@@ -199,7 +199,10 @@ std::string explanation_of(const Comparison& comparison, const Scene& scene, con
 /// Impacts of which a limit can be held against the discrete model: all in the plane, in space those before the first
 /// that is open or cannot be predicted, and one at least.
 LimitRequest limit_request(const DiscreteSide& side, const Scene& scene) {
-  if (!side.in_space) return {.impacts = scene.request.impacts, .planar = true};
+  if (!side.in_space) {
+    const int listed = static_cast<int>(std::max<std::size_t>(side.impacts.size(), 1));
+    return {.impacts = scene.until ? listed : scene.request.impacts, .planar = true};
+  }
   LimitRequest request{.impacts = 0, .planar = false};
   for (const SequenceImpact& impact : side.impacts) {
     if (!has_limit(impact) || !impact.predictable) break;

@@ -421,7 +421,8 @@ SequenceImpact space_impact(const Scene& scene, const space::Drop& drop, const s
 }
 
 DiscreteSide space_side(const Scene& scene, const space::Drop& drop) {
-  const space::Sequence sequence = impact_sequence(drop, {.impacts = scene.request.impacts});
+  const space::Sequence sequence =
+      impact_sequence(drop, {.impacts = scene.request.impacts, .until = scene.request.until});
   const Run run = run_of(sequence);
   DiscreteSide side{.in_space = true,
                     .quantities = space_quantities,
@@ -449,7 +450,8 @@ DiscreteSide discrete_side(const Scene& scene, DiscreteBody& body) {
   const DiscreteDrop drop = body.drop(scene);
   const auto* const planar = std::get_if<analytic::Drop>(&drop);
   if (planar == nullptr) return space_side(scene, std::get<space::Drop>(drop));
-  const analytic::Sequence sequence = impact_sequence(*planar, {.impacts = scene.request.impacts});
+  const analytic::Sequence sequence =
+      impact_sequence(*planar, {.impacts = scene.request.impacts, .until = scene.request.until});
   if (!scene.world.planar && lands_sliding(sequence)) return space_side(scene, body.drop_in_space(scene));
   return planar_side(scene, *planar, sequence);
 }

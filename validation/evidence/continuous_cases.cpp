@@ -218,7 +218,7 @@ Simulation require_case(const ContinuousCase& scene, const ContinuousRun& how, c
   Simulation run;
   measure.seconds = timed([&] { run = run_case(scene, how, goes_on); });
   measure.evaluations = run.force_evaluations;
-  measure.outcome = outcome_name(run.outcome);
+  measure.outcome = outcome_name(run);
   const std::string reached = fmt::format("{} ({} impacts before)", run.message, run.impacts.size());
   if (run.outcome == Outcome::interrupted) throw EndedEarly(CellVerdict::time_limit, measure.outcome, reached);
   if (!has_ended_well(run.outcome)) throw EndedEarly(CellVerdict::ended_early, measure.outcome, reached);

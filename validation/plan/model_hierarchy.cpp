@@ -333,7 +333,7 @@ LevelResult ModelHierarchy::run(const LevelSetting& setting, int impacts) const 
     return {motion_rows(run_of(sequence)), sequence.evaluations, sequence.message};
   }
   const Simulation run = simulate(setting, impacts);
-  return {motion_rows(run_of(run)), run.force_evaluations, std::string(outcome_name(run.outcome)) + ": " + run.message};
+  return {motion_rows(run_of(run)), run.force_evaluations, std::string(outcome_name(run)) + ": " + run.message};
 }
 
 Truth true_values(const ModelHierarchy& hierarchy, double trusted) {
@@ -341,7 +341,7 @@ Truth true_values(const ModelHierarchy& hierarchy, double trusted) {
   truth.setting = {.level = hierarchy.full(), .method = Method::rk8pd, .tolerance = numeric::least_tolerance};
   const int impacts = hierarchy.scene().request.impacts;
   const Simulation run = hierarchy.simulate(truth.setting, impacts);
-  if (is_cut_short(run.outcome)) truth.cut_short = fmt::format("{}: {}", outcome_name(run.outcome), run.message);
+  if (is_cut_short(run.outcome)) truth.cut_short = fmt::format("{}: {}", outcome_name(run), run.message);
   if (run.impacts.empty()) return truth;
   LevelSetting coarser = truth.setting;
   coarser.tolerance *= 30;

@@ -20,9 +20,19 @@ struct PlanInput {
   PlotChoice plot;
 };
 
+/// @throws BadInput for a scene that ends at a time, or that begins without an impact.
+void require_counted_impacts(const Scene& scene, const char* command) {
+  const auto refuse = [&](const char* key) {
+    throw BadInput(fmt::format("{}: must be left out for clatter {}, which counts impacts", key, command));
+  };
+  if (scene.until) refuse("run.until");
+  if (scene.request.starts_on_ground) refuse("drop.start = \"rest\"");
+}
+
 int run_plan(const PlanInput& input) {
   const Scene scene = read_scene_flags(input.scene);
   require_level(scene, "plan");
+  require_counted_impacts(scene, "plan");
   const OutputChoice& choice = input.output;
   const auto is_typed = [&](const std::string& name) { return is_given(input.scene, "--" + name); };
   const PlanTarget target = plan_target(scene, {input.within, is_typed});
@@ -64,6 +74,7 @@ struct TradeoffInput {
 int run_tradeoff(const TradeoffInput& input) {
   const Scene scene = read_scene_flags(input.scene);
   require_level(scene, "tradeoff");
+  require_counted_impacts(scene, "tradeoff");
   const OutputChoice& choice = input.output;
   check_files(choice, plot_files(input.plot));
   if (scene.sweep)

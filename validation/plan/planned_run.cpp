@@ -10,9 +10,11 @@
 #include <utility>
 
 #include "numeric/drop/error_estimates.hpp"
+#include "numeric/motion/free_flight.hpp"
 #include "validation/output/number.hpp"
 #include "validation/plan/cost_table.hpp"
 #include "validation/run/shortfall.hpp"
+#include "validation/run/states.hpp"
 #include "validation/scene/facet_words.hpp"
 #include "validation/scene/names.hpp"
 #include "validation/scene/pad.hpp"
@@ -250,7 +252,10 @@ class Runner {
     accuracy.method = Method::rkck;
     accuracy.tolerance = tolerance;
     accuracy.evaluation_limit = std::min(accuracy.evaluation_limit, evaluations_of_a_pilot);
-    return simulate({.impacts = request_.impacts, .error_estimates = false, .amplification = false}, accuracy);
+    numeric::Request alone{.impacts = request_.impacts, .error_estimates = false, .amplification = false};
+    alone.starts_on_ground = request_.starts_on_ground;
+    alone.until = request_.until;
+    return simulate(alone, accuracy);
   }
 
   /// Over the impacts before the runs go different ways.
@@ -286,6 +291,56 @@ class Runner {
   const numeric::Observer& observer_;
   long evaluations_ = 0;
 };
+
+/// When the last of what the run tells ends [s].
+double end_of(const Simulation& run) {
+  if (run.rest) return run.rest->time;
+  const double last = run.impacts.empty() ? 0 : run.impacts.back().value.start + run.impacts.back().value.duration;
+  return run.on_ground ? std::max(last, run.on_ground_from) : last;
+}
+
+/// The state of the flight that ends in `touch`, at a time before that [s]; its errors are those of rounding.
+numeric::StateRecord before_touch(const numeric::Body& body, const numeric::World& world,
+                                  const numeric::MotionState& touch, double time) {
+  numeric::StateRecord at;
+  at.time = time;
+  at.known = true;
+  at.state = numeric::FreeFlight(body, touch, world.pull(), world.planar).at(time);
+  at.energy = numeric::mechanical_energy(body, at.state, world.pull());
+  const double turned = touch.angular_velocity.norm() * std::fabs(time), radius = body.radius();
+  const double speed = std::max(at.state.velocity.norm(), touch.velocity.norm());
+  const double spin = at.state.angular_velocity.norm();
+  at.error = {.position = rounding * (radius + speed * std::fabs(time)),
+              .angle = rounding * (1 + turned),
+              .velocity = rounding * (speed + world.gravity * std::fabs(time)),
+              .angular_velocity = rounding * spin * (1 + turned),
+              .energy = rounding * (std::fabs(at.energy) + body.mass() * speed * speed)};
+  return at;
+}
+
+/// The states at the scene's times, by one more run, which changes no other number.
+void add_states(const Scene& scene, const numeric::Body& body, const numeric::MotionState& start,
+                const numeric::Observer& observer, PlannedRun& planned) {
+  Simulation& run = planned.run;
+  if (!scene.has_times() || run.outcome == Outcome::interrupted) return;
+  const std::vector<double> times = state_times(scene, end_of(run));
+  const auto touch = std::ranges::lower_bound(times, 0.0);
+  for (auto time = times.begin(); time != touch; ++time)
+    run.states.push_back(before_touch(body, scene.world, start, *time));
+  if (touch == times.end()) return;
+  Accuracy accuracy = scene.accuracy;
+  accuracy.method = run.method;
+  accuracy.tolerance = run.tolerance;
+  accuracy.step = run.step;
+  numeric::Request request = scene.request;
+  request.impacts = 1;  // it goes on to the last of the times
+  request.until = infinity;
+  request.times.assign(touch, times.end());
+  Simulation told = numeric::simulate(body, scene.world, start, request, accuracy, {.progress = observer.progress});
+  run.state_evaluations += told.force_evaluations + told.state_evaluations;
+  add_facet_errors(scene, told);
+  run.states.insert(run.states.end(), told.states.begin(), told.states.end());
+}
 
 /// A warning that names the impacts in which the whole body sank; empty: none.
 std::string submersion_warning(const Simulation& run) {
@@ -359,6 +414,7 @@ PlannedRun run_to_digits(const Scene& scene, const numeric::Body& body, const nu
   if (scene.is_released()) planned.first_touch = first_touch_of(fall, start);
   add_facet_errors(scene, planned.run);
   judge(body, planned);
+  add_states(scene, body, start, observer, planned);
   const std::string out_of_plane = planar_warning(body, world, start);
   if (!out_of_plane.empty()) planned.warnings.push_back(out_of_plane);
   const std::string sunk = submersion_warning(planned.run), deep = depth_warning(body, scene, planned.run);
@@ -369,7 +425,7 @@ PlannedRun run_to_digits(const Scene& scene, const numeric::Body& body, const nu
 
 std::string shortfall(const Scene& scene, const PlannedRun& planned) {
   const numeric::Simulation& run = planned.run;
-  if (is_cut_short(run.outcome)) return fmt::format("{}: {}", outcome_name(run.outcome), run.message);
+  if (is_cut_short(run.outcome)) return fmt::format("{}: {}", outcome_name(run), run.message);
   if (!scene.require_digits || run.impacts.empty()) return "";
   if (!scene.request.error_estimates) return "run.require_digits: without run.errors no digit is known";
   const int impacts = static_cast<int>(run.impacts.size());

@@ -234,6 +234,30 @@ EndMotion end_motion(const analytic::LastSlide& slide) {
           .velocity_after = std::isfinite(slide.duration) ? EntryVector{} : velocity};
 }
 
+EndMotion end_motion(const numeric::Simulation& simulation) {
+  const numeric::GroundMotion& motion = *simulation.on_ground;
+  const bool stops = motion.kind == numeric::GroundMotionKind::rests;
+  EndMotion end{.kind = "rests",
+                .begin = simulation.on_ground_from,
+                .duration = motion.stops_after,
+                .velocity = entry(motion.from.velocity),
+                .angular_velocity = entry(motion.from.attitude * motion.from.angular_velocity)};
+  if (!stops) end.velocity_after = end.velocity, end.angular_velocity_after = end.angular_velocity;
+  if (simulation.rest) end.distance = simulation.rest->slid;
+  switch (motion.kind) {
+    case numeric::GroundMotionKind::rests:
+      if (motion.stops_after > 0) end.kind = motion.from.velocity.norm() > 0 ? "slides" : "spins";
+      break;
+    case numeric::GroundMotionKind::slides: end.kind = "slides"; break;
+    case numeric::GroundMotionKind::spins: end.kind = "spins"; break;
+    case numeric::GroundMotionKind::rolls:
+      end.kind = "rolls";
+      end.duration = 0;
+      break;
+  }
+  return end;
+}
+
 double length(const EntryVector& v) { return std::hypot(v[0], v[1], v[2]); }
 
 }  // namespace
@@ -257,6 +281,29 @@ MotionAt motion_at(const space::StateAt& at) {
           .angular_velocity_error = at.error.angular_velocity,
           .energy_error = at.energy_error,
           .inclination_error_deg = at.tilt_error * degrees};
+}
+
+MotionAt motion_at(const numeric::StateRecord& at) {
+  const numeric::MotionState& state = at.state;
+  const numeric::StateErrors& error = at.error;
+  const auto bound = [](double value) { return std::isnan(value) ? unknown_error : value; };
+  // An axis that is turned by a small angle changes its inclination by that at most.
+  return {.time = at.time,
+          .impacts = at.impacts,
+          .touches = at.in_contact,
+          .is_known = at.known,
+          .position = entry(state.centre),
+          .velocity = entry(state.velocity),
+          .angular_velocity = entry(state.attitude * state.angular_velocity),
+          .attitude = entry(state.attitude),
+          .inclination_deg = inclination_of(state.attitude) * degrees,
+          .energy = at.energy,
+          .position_error = bound(error.position),
+          .attitude_error = bound(error.angle),
+          .velocity_error = bound(error.velocity),
+          .angular_velocity_error = bound(error.angular_velocity),
+          .energy_error = bound(error.energy),
+          .inclination_error_deg = bound(error.angle) * degrees};
 }
 
 std::string words_of(const EndMotion& motion) {
@@ -407,9 +454,11 @@ Run run_of(const space::Sequence& sequence) {
 
 Run run_of(const numeric::Simulation& simulation) {
   Run run{.model = RunModel::continuous,
-          .outcome = outcome_name(simulation.outcome),
+          .outcome = outcome_name(simulation),
           .message = simulation.message,
           .is_cut_short = is_cut_short(simulation.outcome)};
+  if (simulation.on_ground) run.end_motion = end_motion(simulation);
+  for (const numeric::StateRecord& state : simulation.states) run.states.push_back(motion_at(state));
   run.impacts.reserve(simulation.impacts.size());
   for (const numeric::ImpactRecord& row : simulation.impacts)
     run.impacts.push_back(impact_of(row, static_cast<int>(run.impacts.size()) + 1));

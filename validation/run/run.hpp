@@ -143,6 +143,7 @@ inline constexpr double no_inclination = 360;
 [[nodiscard]] Run run_of(const analytic::Sequence& sequence, double drop_deg = no_inclination);
 [[nodiscard]] Run run_of(const analytic::space::Sequence& sequence);
 [[nodiscard]] MotionAt motion_at(const analytic::space::StateAt& state);
+[[nodiscard]] MotionAt motion_at(const numeric::StateRecord& state);
 /// "friction stops its slide after 1.22324 s and 3.66972 m", "it rolls on at 0.714 m/s from 0.2 s on"; empty: it rests.
 [[nodiscard]] std::string words_of(const EndMotion& motion);
 [[nodiscard]] Value fields_of(const EndMotion& motion);

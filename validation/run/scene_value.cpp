@@ -182,7 +182,8 @@ std::string Scene::drop_words(const KeyNames& unsettled) const {
                         shortest(release.clearance ? *release.clearance : *release.height)),
             {"drop.release.clearance", "drop.release.height"});
   }
-  if (topple) way.add(fmt::format("toppled from {} m", shortest(*topple)), {"drop.topple"});
+  if (request.starts_on_ground) way.add("at rest on the ground", {"drop.start"});
+  else if (topple) way.add(fmt::format("toppled from {} m", shortest(*topple)), {"drop.topple"});
   else if (height) way.add(fmt::format("from {} m", shortest(*height)), {"drop.height"});
   else if (clearance) way.add(clearance_words(*this), {"drop.clearance"});
   else if (velocity.empty()) way.add(fmt::format("at {} m/s", shortest(speed)), {"drop.speed"});

@@ -69,6 +69,15 @@ void add_to(numeric::ImpactRecord& row, const ImpactSizes& sizes, double before,
   }
 }
 
+/// @param since  the touch-down of the last impact [s], from which the state goes away by the error of its velocity
+void add_to(numeric::StateRecord& state, const ImpactSizes& sizes, double relative, double since) {
+  state.error.position += relative * sizes.speed * since;
+  state.error.angle += relative * sizes.spin * since;
+  state.error.velocity += relative * sizes.speed;
+  state.error.angular_velocity += relative * sizes.spin;
+  state.error.energy += relative * sizes.energy;
+}
+
 /// R (1 − cos(π/n)) beside a rod's axis; a sphere's facet spans a cap in which one meridian's cosine is added as a
 /// factor. What maps a unit ball to an ellipsoid stretches no distance by more than its longest semiaxis.
 double facet_depth(const BodyScene& body) {
@@ -87,11 +96,16 @@ void add_facet_errors(const Scene& scene, numeric::Simulation& run) {
   const double inside = facet_depth(body);
   double error = 0, amplification = 1;
   numeric::Vector3 spin = scene.touch_angular_velocity();
+  int row_number = 0;
   for (numeric::ImpactRecord& row : run.impacts) {
+    ++row_number;
     const double before = error > 0 ? error * growth(amplification, row.amplification) : 0;
     const double part = std::min(inside / row.value.indentation, 1.0);
     add_to(row, {row, spin, body}, before, part);
     error = before + part;
+    for (numeric::StateRecord& state : run.states) {
+      if (state.impacts == row_number) add_to(state, {row, spin, body}, error, state.time - row.value.start);
+    }
     amplification = row.amplification;
     spin = row.value.angular_velocity_after;
   }

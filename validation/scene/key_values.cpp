@@ -88,6 +88,11 @@ Echo echo_of(const Key& key, const Scene& scene, Model model) {
 
 }  // namespace
 
+const std::vector<std::string>& start_names() {
+  static const std::vector<std::string> names{"touch", "rest"};
+  return names;
+}
+
 const std::vector<std::string>& area_names() {
   static const std::vector<std::string> names{"surface", "projected"};
   return names;
@@ -147,6 +152,11 @@ std::string Key::argument() const {
   name_.erase(0, 2);
   std::replace(name_.begin(), name_.end(), '-', '_');
   return name_;
+}
+
+bool Key::is_of_times() const {
+  const std::string_view key = name;
+  return key == "run.until" || key == "run.at" || key == "run.rate";
 }
 
 bool Key::is_whole() const {

@@ -159,11 +159,19 @@ void append_motion(std::vector<Key>& keys) {
   keys.insert(
       keys.end(),
       {
+          {"drop.start", Use::continuous, "--start", "", "",
+           "begins with the first touch, or at rest on the ground, as deep as its weight presses it",
+           NameValue{&start_names(), [](const Scene& s) -> std::size_t {
+    return s.request.starts_on_ground; },
+                     [](Scene& s, std::size_t i) {
+    s.request.starts_on_ground = i == 1; }},
+           [](const Scene& s, Model) {
+    return only_if(s.request.starts_on_ground); }},
           {"drop.speed", Use::both, "--speed", "M/S", "m/s", "downward, of the centre of mass at first touch",
            NumberValue{[](Scene& s) -> double& {
     return s.speed; }, speeds, &positive_number},
            [](const Scene& s, Model model) {
-    return null_if(!s.velocity.empty() || (s.falls() && model == Model::continuous));
+    return null_if(!s.velocity.empty() || s.request.starts_on_ground || (s.falls() && model == Model::continuous));
            }},
           {"drop.height", Use::both, "--height", "M", "m", "or its height at release from rest",
            OptionalNumber{[](Scene& s) -> std::optional<double>& {
@@ -505,11 +513,11 @@ void append_run(std::vector<Key>& keys) {
            "if that is not enough",
            TruthValue{[](Scene& s) -> bool& { return s.until_rest; }},
            [](const Scene& s, Model) { return s.until_rest ? Echo::value : Echo::absent; }},
-          {"run.until", Use::discrete, "--until", "S", "s",
-           "no impact after this time since the first; 100000 impacts at most",
+          {"run.until", Use::both, "--until", "S", "s",
+           "the run ends at this time since the first impact; 100000 impacts at most",
            OptionalNumber{[](Scene& s) -> std::optional<double>& { return s.until; }, positive_number},
            [](const Scene& s, Model) { return only_if(s.until.has_value()); }},
-          {"run.at", Use::discrete, "--at", "T,...", "s",
+          {"run.at", Use::both, "--at", "T,...", "s",
            "times since the first impact at which the state is printed, too, with its errors",
            ListValue{[](const Scene& s) { return s.times; },
                      [](Scene& s, const std::vector<double>& v) { s.times = v; },
@@ -518,7 +526,7 @@ void append_run(std::vector<Key>& keys) {
                      "times in s",
                      "[0.1, 0.5]"},
            [](const Scene& s, Model) { return only_if(!s.times.empty()); }},
-          {"run.rate", Use::discrete, "--rate", "HZ", "Hz",
+          {"run.rate", Use::both, "--rate", "HZ", "Hz",
            "the same at equal steps from the first impact to run.until, or to the last impact",
            NumberValue{[](Scene& s) -> double& { return s.rate; }, positive_number},
            [](const Scene& s, Model) { return only_if(s.rate > 0); }},

@@ -96,6 +96,8 @@ struct Key {
   [[nodiscard]] bool is_for(Model model) const {
     return use == Use::both || (use == Use::continuous) == (model == Model::continuous);
   }
+  /// Whether it says at which times the motion is told, or ends: of the commands alone that tell it.
+  [[nodiscard]] bool is_of_times() const;
   [[nodiscard]] bool is_truth() const { return std::holds_alternative<TruthValue>(value); }
   [[nodiscard]] bool is_number() const;
   [[nodiscard]] bool is_whole() const;
@@ -144,6 +146,7 @@ void add_keys(const Scene& scene, Model model, Value& fields);
 /// Names of choices, in the order of their enumerators.
 [[nodiscard]] const std::vector<std::string>& shape_names();
 [[nodiscard]] const std::vector<std::string>& law_names();
+[[nodiscard]] const std::vector<std::string>& start_names();
 [[nodiscard]] const std::vector<std::string>& area_names();
 [[nodiscard]] const std::vector<std::string>& friction_law_names();
 [[nodiscard]] const std::vector<std::string>& method_names();

@@ -47,6 +47,17 @@ const char* outcome_name(analytic::Outcome outcome) {
   return "";
 }
 
+const char* outcome_name(const numeric::Simulation& run) {
+  if (run.outcome != Outcome::sustained_contact || !run.on_ground) return outcome_name(run.outcome);
+  switch (run.on_ground->kind) {
+    case numeric::GroundMotionKind::slides: return "slides-on";
+    case numeric::GroundMotionKind::spins: return "spins-on";
+    case numeric::GroundMotionKind::rolls: return "rolls-on";
+    case numeric::GroundMotionKind::rests: return "at-rest";
+  }
+  return "";
+}
+
 const char* outcome_name(Outcome outcome) {
   switch (outcome) {
     case Outcome::no_further_impact: return "no-further-impact";
@@ -58,6 +69,7 @@ const char* outcome_name(Outcome outcome) {
     case Outcome::not_representable: return "not-representable";
     case Outcome::flight_undecided: return "flight-undecided";
     case Outcome::interrupted: return "interrupted";
+    case Outcome::time_limit: return "time-limit";
   }
   return "";
 }
@@ -76,6 +88,7 @@ bool is_cut_short(Outcome outcome) {
     case Outcome::impact_limit:
     case Outcome::at_rest:
     case Outcome::sustained_contact:
+    case Outcome::time_limit:
     case Outcome::interrupted: return false;
   }
   return false;

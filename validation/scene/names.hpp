@@ -4,7 +4,7 @@
 
 #include "analytic/plane/sequence.hpp"
 #include "analytic/space/impulse/impact.hpp"
-#include "numeric/drop/impact_record.hpp"
+#include "numeric/simulate.hpp"
 
 namespace clatter::validation {
 
@@ -13,6 +13,8 @@ namespace clatter::validation {
 [[nodiscard]] const char* mode_name(numeric::FrictionMode mode);
 [[nodiscard]] const char* outcome_name(analytic::Outcome outcome);
 [[nodiscard]] const char* outcome_name(numeric::Outcome outcome);
+/// Of a body that goes on along the ground, how: "slides-on".
+[[nodiscard]] const char* outcome_name(const numeric::Simulation& run);
 /// Whether rows may be missing because a number could not be computed or a limit on the work was reached, not because
 /// of what the body does or how many impacts were asked for.  Exit status 3 then.
 [[nodiscard]] bool is_cut_short(analytic::Outcome outcome);

@@ -249,6 +249,28 @@ double inclination_of(const std::vector<double>& q) {
   return std::remainder(2 * std::atan2(-q[2], q[0]) / degree, 360);
 }
 
+/// What has no meaning for a body that lies on the ground.
+constexpr std::array motions_before_touch{"drop.speed",  "drop.height",         "drop.clearance",
+                                          "drop.topple", "drop.release.height", "drop.release.clearance"};
+
+bool starts_at_rest(const SceneValues& values) {
+  return values.has("drop.start") && values.text("drop.start") == start_names()[1];
+}
+
+void check_start(const SceneValues& values, const Scene& scene, Model model) {
+  if (model == Model::discrete && starts_at_rest(values))
+    values.refuse("drop.start", "\"touch\" or left out: the discrete model begins with the first impact");
+  if (!scene.request.starts_on_ground) return;
+  for (const char* const motion : motions_before_touch) {
+    if (values.has(motion)) values.refuse(motion, "left out with drop.start = \"rest\"");
+  }
+  if (values.has("ground.restitution"))
+    values.refuse("ground.restitution", "left out with drop.start = \"rest\", where no first impact has it");
+  if (!(scene.world.gravity > 0)) values.refuse("drop.start", "\"touch\" where world.gravity is 0");
+  if (!scene.velocity.empty() && scene.velocity[2] != 0)
+    values.refuse("drop.velocity", "along the ground with drop.start = \"rest\"");
+}
+
 void check_drop(const SceneValues& values, Scene& scene) {
   const bool swept = scene.sweep && scene.sweep->quantity == SceneSweep::Quantity::angle_deg;
   scene.settle();
@@ -285,7 +307,8 @@ Scene default_scene(const SceneValues& values) {
   scene.path = values.path();
   scene.world.ground.stiffness = 0;  // none, until it is given
   const auto is_given = [&](const char* key) { return values.has(key); };
-  scene.world.gravity = is_given("world.incline_deg") || std::ranges::any_of(falls_from, is_given) ? 9.81 : 0;
+  scene.world.gravity =
+      is_given("world.incline_deg") || starts_at_rest(values) || std::ranges::any_of(falls_from, is_given) ? 9.81 : 0;
   return scene;
 }
 
@@ -330,6 +353,9 @@ Scene read_values(SceneValues values, const std::vector<SceneOverride>& override
       if (flag.key == pair.key) values.drop(pair.instead_of);
       if (flag.key == pair.instead_of) values.drop(pair.key);
     }
+    if (flag.key == "drop.start" && flag.text == start_names()[1]) {
+      for (const char* const motion : motions_before_touch) values.drop(motion);
+    }
     if (flag.key == "run.method") values.drop(flag.text == "tvd-rk3" ? "run.tolerance" : "run.step");
     if (flag.key == "run.step") values.drop("run.tolerance");
     if (flag.key == "run.tolerance") values.drop("run.step");
@@ -342,12 +368,15 @@ Scene read_values(SceneValues values, const std::vector<SceneOverride>& override
   for (const Alternative& pair : alternatives()) values.exclude(pair.instead_of, pair.key);
   put_values(values, scene, model);
   check_sweep(values, scene);
+  check_start(values, scene, model);
   check_drop(values, scene);
   check_accuracy(values, scene.accuracy);
   values.exclude("impact.impulse_ratio", "impact.friction");
   check_body(values, scene.body);
   check_ground(values, scene, model);
   check_impact(values, scene);
+  if (scene.until) scene.request.until = *scene.until;
+  if (model == Model::continuous) scene.request.impacts = scene.most_impacts();
   scene.settle_restitution();
   std::ranges::sort(scene.times);
   if (!scene.times.empty() && scene.times.front() < 0 && !scene.is_released())

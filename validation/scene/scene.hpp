@@ -168,7 +168,7 @@ struct Scene {
   PadScene pad;                              ///< what a ground with kinks was made of
   HalfSpaceScene half_space;                 ///< what a ground with a modulus was made of
   std::optional<double> ground_restitution;  ///< at the first approach, which gives the ground's damping
-  numeric::Request request;
+  numeric::Request request;  ///< with starts_on_ground the body lies still there, but for what drags and turns it
   numeric::Accuracy accuracy;
   bool until_rest = false;      ///< the discrete model goes on until nothing follows, whatever request.impacts is
   std::optional<double> until;  ///< no impact after this time since the first is followed [s]

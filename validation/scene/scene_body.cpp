@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "analytic/law/viscoelastic.hpp"
+#include "numeric/equilibrium.hpp"
 #include "numeric/motion/free_flight.hpp"
 #include "validation/output/bad_input.hpp"
 #include "validation/output/number.hpp"
@@ -82,6 +83,13 @@ numeric::MotionState Scene::start(const numeric::Body& dropped, double* fall) co
   state.velocity = touch_velocity();
   state.angular_velocity = state.attitude.conjugate() * touch_angular_velocity();
   state = numeric::on_ground(dropped, state);
+  if (request.starts_on_ground) {
+    if (fall) *fall = 0;
+    numeric::MotionState rest = numeric::equilibrium(dropped, world, state).state;
+    rest.velocity = {state.velocity.x(), state.velocity.y(), 0};
+    rest.angular_velocity = rest.attitude.conjugate() * touch_angular_velocity();
+    return rest;
+  }
   double fallen = 0;
   if (height) {
     state.velocity.z() = -fallen_speed(state.centre.z());

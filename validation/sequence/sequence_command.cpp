@@ -82,6 +82,7 @@ int run_sequence(const SequenceInput& input) {
 Command sequence_command() {
   return command_of<SequenceInput>(run_sequence, [](Command& command, SequenceInput& input) {
     add_scene_flags(command, input.scene, Model::discrete);
+    add_time_flags(command, input.scene);
     command.add(read_argument("--method", input.method, read_sequence_method, "NAME",
                               "auto or discrete, the same (auto)", "Scene"));
     add_output_options(command, input.output);
@@ -90,7 +91,8 @@ Command sequence_command() {
     add_plot_options(command, input.plot);
     add_window_option(command, input.window, "of the picture");
     command.footer = "Example: clatter sequence --angle 10 --gravity 9.81 --restitution 0.8 --impacts 20";
-    command.columns = {{"sequence", [] { return with_more(sequence_columns(), impact_columns(RunModel::space, {})); }}};
+    command.columns = {{"sequence", [] { return with_more(sequence_columns(), impact_columns(RunModel::space, {})); }},
+                       {"states", state_columns}};
   });
 }
 

@@ -353,7 +353,7 @@ std::vector<std::string> notes_of(const ShockRun& run, const ShockView& view) {
     notes.push_back(other_law_remark(run.scene, simulation));
     if (run.scene.impact.restitution && !notes.back().empty())
       notes.push_back("the floor's own restitution is --floor-restitution, in both models");
-    notes.push_back(fmt::format("{}: {}", outcome_name(simulation.outcome), simulation.message));
+    notes.push_back(fmt::format("{}: {}", outcome_name(simulation), simulation.message));
   } else if (run.discrete_run) {
     notes.push_back(fmt::format("{}: {}", run.discrete_run->outcome, run.discrete_run->message));
   }
@@ -391,7 +391,7 @@ Value envelopes_value(const ShockRun& run) {
 void add_outcome(const ShockRun& run, Report& report) {
   if (run.continuous) {
     const numeric::Simulation& simulation = run.continuous->planned.run;
-    report.fields["outcome"] = outcome_name(simulation.outcome);
+    report.fields["outcome"] = outcome_name(simulation);
     report.fields["message"] = simulation.message;
     report.fields["warnings"] = run.continuous->planned.warnings;
     const std::string facets = facet_words(run.scene, simulation);

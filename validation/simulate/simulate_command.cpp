@@ -14,6 +14,7 @@
 #include "validation/run/history_file.hpp"
 #include "validation/run/scene_value.hpp"
 #include "validation/run/shortfall.hpp"
+#include "validation/run/states.hpp"
 #include "validation/scene/body_properties.hpp"
 #include "validation/scene/failure.hpp"
 #include "validation/simulate/simulation_picture.hpp"
@@ -30,6 +31,7 @@ struct SimulateInput {
   OutputChoice output;
   PlotChoice plot;
   std::optional<TimeWindow> window;
+  bool states = false;
 };
 
 /// @throws BadInput if the window has nothing to act on.
@@ -116,7 +118,8 @@ int run_single(const Scene& scene, const numeric::Body& body, const SimulateInpu
   }
   if (plot.is_wanted()) check_times(planned.run, picture, input.window);
   if (history) history->commit();
-  write_report(input.output, simulation_report(scene, planned));
+  Report report = simulation_report(scene, planned);
+  write_report(input.output, input.states ? with_states_alone(std::move(report)) : report);
   draw(scene, planned.run, picture, window, plot);
   warn(planned.warnings);
   return status_of(scene, planned);
@@ -161,6 +164,8 @@ int run_simulate(const SimulateInput& input) {
   warn_of_restitution(input.scene, scene);
   const OutputChoice& choice = input.output;
   check_window(input, scene);
+  require_states(input.states, scene);
+  if (scene.sweep && scene.has_times()) throw BadInput("run.at, run.rate: left out with a table [sweep]");
   std::vector<RunFile> written = plot_files(input.plot);
   written.insert(written.begin(), {"--history", scene.history});
   check_files(choice, written);
@@ -174,7 +179,10 @@ int run_simulate(const SimulateInput& input) {
 Command simulate_command() {
   return command_of<SimulateInput>(run_simulate, [](Command& command, SimulateInput& input) {
     add_scene_flags(command, input.scene);
+    add_time_flags(command, input.scene);
     add_output_options(command, input.output);
+    command.add(choice_argument("--rows", input.states, {"impacts", "states"},
+                                "of CSV: at the times asked for (impacts)", "Output"));
     add_plot_options(command, input.plot);
     add_window_option(command, input.window, "of pictures and histories");
     command.footer =

@@ -12,6 +12,7 @@
 #include "validation/run/run.hpp"
 #include "validation/run/scene_value.hpp"
 #include "validation/run/shortfall.hpp"
+#include "validation/run/states.hpp"
 #include "validation/run/swept_column.hpp"
 #include "validation/scene/body_properties.hpp"
 #include "validation/scene/facet_words.hpp"
@@ -145,8 +146,9 @@ std::vector<std::string> notes_of(const Scene& scene, const PlannedRun& planned)
     notes.push_back(depth_words(scene, planned));
   }
   for (const std::string& remark : remarks_of(scene, run)) notes.push_back(remark);
-  for (const std::string& words : {method_words(run), accuracy_words(scene, planned),
-                                   fmt::format("{}: {}", outcome_name(run.outcome), run.message)}) {
+  for (const std::string& words : state_notes(run_of(run))) notes.push_back(words);
+  for (const std::string& words :
+       {method_words(run), accuracy_words(scene, planned), fmt::format("{}: {}", outcome_name(run), run.message)}) {
     notes.push_back(words);
   }
   std::erase(notes, "");
@@ -207,7 +209,7 @@ Value shortfall_value(const Scene& scene, const PlannedRun& planned) {
 
 void add_results(const Scene& scene, const PlannedRun& planned, Value& fields) {
   const Simulation& run = planned.run;
-  fields["outcome"] = outcome_name(run.outcome);
+  fields["outcome"] = outcome_name(run);
   fields["warnings"] = planned.warnings;
   if (const std::string facets = facet_words(scene, run); !facets.empty()) fields["warnings"].push_back(facets);
   fields["message"] = run.message + "; restitution is null where an impact has several touches";
@@ -223,6 +225,7 @@ void add_results(const Scene& scene, const PlannedRun& planned, Value& fields) {
   fields["shortfall"] = shortfall_value(scene, planned);
   fields["energy_start"] = run.energy_start;
   if (planned.first_touch) fields["first_touch"] = fields_of(*planned.first_touch);
+  if (const std::optional<EndMotion> motion = run_of(run).end_motion) fields["end_motion"] = fields_of(*motion);
   fields["cost"] =
       Value::Fields{{"force_evaluations", run.force_evaluations}, {"root_evaluations", run.root_evaluations}};
 }
@@ -232,7 +235,7 @@ void add_run(const SweptRun& swept, const Scene& scene, Report& report) {
   const Simulation& run = swept.planned.run;
   Grid impacts{impact_columns(RunModel::continuous, {}), rows_of(swept.scene, swept.planned)};
   report.fields["runs"].push_back(Value::Fields{{scene.sweep->name(), swept.value},
-                                                {"outcome", outcome_name(run.outcome)},
+                                                {"outcome", outcome_name(run)},
                                                 {"message", run.message},
                                                 {"shortfall", shortfall_value(swept.scene, swept.planned)},
                                                 {"impacts", row_objects(impacts)}});
@@ -243,10 +246,9 @@ void add_run(const SweptRun& swept, const Scene& scene, Report& report) {
     if (!is_first) row.front() = Cell();  // readers see the value once
     report.digest->rows.push_back(std::move(row));
   }
-  if (run.impacts.empty())
-    report.digest->rows.push_back({Cell(swept.value, 6), Cell("–"), Cell(outcome_name(run.outcome))});
+  if (run.impacts.empty()) report.digest->rows.push_back({Cell(swept.value, 6), Cell("–"), Cell(outcome_name(run))});
   if (run.impacts.empty() || is_cut_short(run.outcome))
-    report.remarks.push_back(fmt::format("{}: {}: {}", shortest(swept.value), outcome_name(run.outcome), run.message));
+    report.remarks.push_back(fmt::format("{}: {}: {}", shortest(swept.value), outcome_name(run), run.message));
 }
 
 }  // namespace
@@ -264,6 +266,14 @@ Report simulation_report(const Scene& scene, const PlannedRun& planned) {
   report.fields["scene"] = scene_value(scene);
   report.fields["body"] = body_value(scene);
   report.fields["impacts"] = row_objects(report.grid);
+  if (scene.has_times()) {
+    const bool is_still = planned.run.impacts.empty();  // nothing says then how fast it might be
+    const double speed = is_still ? 1 : planned.sizes[5], rate = is_still ? 1 : planned.sizes[8];
+    report.further = state_grid(
+        run_of(planned.run), reason_in_space(scene).empty(), scene.accuracy.digits,
+        {.length = rate > 0 ? speed / rate : 0, .speed = speed, .rate = rate, .energy = planned.run.energy_start});
+    report.fields["states"] = row_objects(*report.further);
+  }
   add_results(scene, planned, report.fields);
   shorten_durations(scene, report.grid);
   return report;

@@ -89,6 +89,8 @@ class Run : public SequenceLoop<Sequence, ErrorGrowth> {
     way_error_ = epsilon * *drop_.release_height;
     note_flight(flight, Vector3::Zero(), 0);
     arrive(flight, flown, Vector3::Zero());  // the height of its centre of mass is given
+    // Places count from where the body touches, those before that too.
+    for (StateAt& before : result_.states) before.state.position.head<2>() -= state_.position.head<2>();
     state_.position.head<2>().setZero();
     time_ = 0;
     result_.first_flight_error = growth_ ? growth_->begin_time() : missing;

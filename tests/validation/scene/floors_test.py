@@ -78,6 +78,7 @@ class Floors(Folder):
         self.assertIn("e = 0.4 in the first impact (dissipation", head)
         self.refused("not both", "simulate", *FLAT, "--floor", "concrete", "--floor-restitution", "0.4", "--dissipation", "1")
         self.refused("greater than 0", "simulate", *FLAT, "--floor", "concrete", "--floor-restitution", "0")
+        self.refused("no first impact", "simulate", *FLAT[:-4], "--gravity", "9.81", "--start", "rest", "--floor", "wood", "--floor-restitution", "0.4")
 
     def test_ground_prints_what_a_scene_and_flags_take(self):
         shown = json_of("ground", "--floor", "concrete")

@@ -93,8 +93,10 @@ class Sources(Folder):
         for command in ("sequence", "simulate", "compare"):
             text = self.run_program(command, "--help").stdout
             for key in self.keys():
-                if key["key"] in ("run.until_rest", "run.until", "run.at", "run.rate"):  # of the discrete model alone
+                if key["key"] == "run.until_rest":  # of the discrete model alone
                     self.assertEqual(key["flag"] + " " in text, command == "sequence")
+                elif key["key"] in ("run.until", "run.at", "run.rate"):  # of the commands that tell where the body is
+                    self.assertEqual(key["flag"] + " " in text, command != "compare")
                 elif key["flag"] and not (command == "sequence" and key["flag"] not in text):
                     self.assertIn(key["flag"] + " ", text + " ", command)
 
