@@ -18,7 +18,7 @@ const page = await browser.newPage({ viewport: { width: 1280, height: 900 }, red
 await page.goto(`${pathToFileURL(path.resolve(process.env.DEMO_PAGE, "page.html")).href}#predict=0&body=phone&angle=30&tilt=40&height=1&gravity=9.81&e=0.75&stiffness=1e8&damping=1e7&impacts=4&impact=2`);
 await page.waitForSelector('#impact-table tr[data-model="continuous"]');
 await page.screenshot({ path: path.join(here, "figures", "demo.png") });
-await page.setViewportSize({ width: 960, height: 540 });
+await page.setViewportSize({ width: 960, height: 600 });
 await page.goto(pathToFileURL(path.resolve(process.env.REPORT_PAGE)).href);
 await page.screenshot({ path: path.join(here, "figures", "report.png") });
 await browser.close();

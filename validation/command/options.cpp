@@ -15,6 +15,7 @@
 #include "validation/output/symbols.hpp"
 #include "validation/run/scene_value.hpp"
 #include "validation/scene/keys.hpp"
+#include "validation/scene/probes.hpp"
 
 namespace clatter::validation {
 
@@ -107,11 +108,20 @@ void add_time_flags(Command& command, SceneFlags& given) {
 
 Scene read_scene_flags(const SceneFlags& given) {
   const SceneValues values = scene_values(given.source);
-  return read_scene(values, overrides_of(given), given.model);
+  Scene scene = read_scene(values, overrides_of(given), given.model);
+  say_doubts(scene, given.model);
+  return scene;
 }
 
 PreparedScene read_discrete_flags(const SceneFlags& given) {
-  return read_discrete_scene(scene_values(given.source), overrides_of(given));
+  PreparedScene prepared = read_discrete_scene(scene_values(given.source), overrides_of(given));
+  say_doubts(prepared.scene, Model::discrete);
+  return prepared;
+}
+
+void warn_of_restitution(const SceneFlags& given, const Scene& scene) {
+  if (is_given(given, "--restitution") && scene.impact.restitution && !scene.ground_restitution)
+    say("warning: " + discrete_restitution_words(scene));
 }
 
 bool is_given(const SceneFlags& given, const std::string& name) { return !given.texts.at(name).empty(); }

@@ -146,6 +146,11 @@ TextRows::Column TextRows::name_and_unit(std::string_view text) const {
     const std::string_view unit = trimmed(text.substr(at + 1));
     if (is_unit(unit)) return {std::string(trimmed(text.substr(0, at))), std::string(unit)};
   }
+  // "Stress in kPa", "kPa of stress".
+  const std::size_t last = text.rfind(' '), first = text.find(' ');
+  if (first == std::string_view::npos) return {std::string(text), ""};
+  if (is_unit(text.substr(last + 1))) return {std::string(text.substr(0, first)), std::string(text.substr(last + 1))};
+  if (is_unit(text.substr(0, first))) return {std::string(text.substr(last + 1)), std::string(text.substr(0, first))};
   return {std::string(trimmed(text)), ""};
 }
 

@@ -61,6 +61,8 @@ const Argument* find_option(const Command& command, const std::string& name) {
   require_scene_by_keys(command, name);
   if (command.name == "angles" && name == "--angle")
     throw BadInput("--angle: angles takes a range of them, --from, --to and --step");
+  if (name == "--probe" || name == "--part")
+    throw BadInput(fmt::format("{}: is for shock, sweep and report; leave it out of {}", name, command.name));
   throw BadInput(fmt::format("option {}: unknown{}; did you mean {}?", name,
                              command.name.empty() ? "" : " for " + command.name,
                              nearest_name(name, command.option_names())));

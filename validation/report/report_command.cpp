@@ -3,12 +3,15 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
-#include <limits>
+#include <iterator>
 #include <numbers>
+#include <numeric>
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "validation/command/command.hpp"
@@ -21,9 +24,11 @@
 #include "validation/output/picture.hpp"
 #include "validation/output/report.hpp"
 #include "validation/report/report_pictures.hpp"
+#include "validation/report/verdict.hpp"
 #include "validation/run/discrete_scene.hpp"
 #include "validation/run/scene_value.hpp"
 #include "validation/scene/body_properties.hpp"
+#include "validation/scene/failure.hpp"
 #include "validation/scene/keys.hpp"
 #include "validation/scene/orientation.hpp"
 #include "validation/sequence/sequence_picture.hpp"
@@ -59,8 +64,10 @@ constexpr const char* page_style =
     "body{font:16px/1.5 system-ui,sans-serif;color:var(--ink);background:var(--paper);max-width:60rem;margin:0 auto;"
     "padding:1rem}"
     "h1{font-size:1.2rem;font-weight:normal;color:var(--soft);margin:0}h2{font-size:1.2rem;margin-top:1.5rem;"
-    "border-bottom:1px solid var(--line)}.answer{font-size:1.4rem;line-height:1.35;margin:.4rem 0}"
-    ".lines{color:var(--soft);margin-top:.3rem}.wide{overflow-x:auto}.beside{display:flex;flex-wrap:wrap;gap:0 1rem}"
+    "border-bottom:1px solid var(--line)}.answer{font-size:1.35rem;line-height:1.3;margin:.4rem 0;max-width:none}"
+    ".notes ul{margin:.4rem 0;padding-left:1.2rem}.notes li{font-size:.9rem;line-height:1.35;max-width:none}"
+    ".lines{font-size:.9rem;line-height:1.35;max-width:none;color:var(--soft);margin-top:.3rem}.wide{overflow-x:auto}"
+    ".beside{display:flex;flex-wrap:wrap;gap:0 1rem}"
     ".beside figure{flex:1 1 20rem;margin:.5rem 0;align-self:flex-start}"
     "table{border-collapse:collapse;font-size:.85rem;font-variant-numeric:tabular-nums}"
     "th,td{padding:.15rem .6rem;border-bottom:1px solid var(--line);vertical-align:bottom;white-space:nowrap}"
@@ -74,8 +81,10 @@ constexpr const char* page_style =
     "@media print{:root{color-scheme:light;--ink:#1a1a1a;--soft:#444;--paper:#fff;--line:#ccc;--box:#f4f4f4;"
     "--body:#2a6f97}*{print-color-adjust:exact;-webkit-print-color-adjust:exact}body{font-size:9.5pt;max-width:none;"
     "padding:0}h2{break-after:avoid;margin-top:.8rem}figure,tr,pre{break-inside:avoid}.wide{overflow:visible}"
-    "table{font-size:7.5pt}th,td{padding:.1rem .25rem;white-space:normal}figure.plot svg{max-height:8.2cm}"
-    ".answer{font-size:14pt}}@page{margin:14mm}";
+    "table{font-size:7.5pt}th,td{padding:.05rem .25rem;white-space:normal}figure.plot svg{max-height:9.6cm}"
+    "p,ul,pre,figure{margin:.25rem 0}ul{padding-left:1.2rem}p,li{max-width:none;line-height:1.3}"
+    ".lines,.wide p,figcaption,pre{font-size:7.5pt;line-height:1.25}.beside figure{flex-basis:16rem}"
+    ".answer{font-size:13pt}}@page{margin:14mm}";
 
 /// Without the declarations that only a file of its own may have.
 std::string svg_element(const std::string& svg) {
@@ -151,20 +160,26 @@ std::string handout_picture(const Picture& picture, const std::string& caption) 
                      svg_element(run_gnuplot(picture_script(picture, PictureFormat::svg, ""))), html_escaped(caption));
 }
 
-/// Size of the specific force at the probes over time: the first two impacts, then each of the first three in a panel
-/// of its own, from its touch-down on; none without a contact.
-std::optional<Picture> probe_history_picture(const ShockRun& run) {
-  constexpr int most_impacts = 3, first_ones = 2;
+/// Size of the specific force at the probes over time: the first two impacts together where they follow each other at
+/// once, then each of the first three, and the one that is asked for, in a panel of its own from its touch-down on;
+/// none without a contact.
+std::optional<Picture> probe_history_picture(const ShockRun& run, int asked_impact) {
+  constexpr int most_impacts = 3;
+  constexpr double most_apart = 4;  // contact times, beyond which two blows are lines in an empty panel
   if (!run.continuous || run.continuous->rows.empty()) return std::nullopt;
   Picture picture{.what = "What an accelerometer reads at the probes", .scene = {}};
-  picture.panels.push_back(
-      history_panel(run, 0, [](const numeric::HistoryPiece& piece) { return piece.impact <= first_ones; }));
-  picture.panels.back().plot.x_label = "impacts 1 and 2: time after touch-down [ms]";
-  const int last = run.continuous->rows.back().impact;
-  if (last == 1) picture.panels.clear();
-  for (int impact = 1; impact <= std::min(last, most_impacts); ++impact) {
-    const auto row = std::find_if(run.continuous->rows.begin(), run.continuous->rows.end(),
-                                  [&](const ShockRow& one) { return one.impact == impact; });
+  const std::vector<ShockRow>& rows = run.continuous->rows;
+  const auto row_of = [&](int impact) { return std::ranges::find(rows, impact, &ShockRow::impact); };
+  const int last = rows.back().impact;
+  if (last > 1 && row_of(2)->start < most_apart * row_of(1)->duration) {
+    picture.panels.push_back(
+        history_panel(run, 0, [](const numeric::HistoryPiece& piece) { return piece.impact <= 2; }));
+    picture.panels.back().plot.x_label = "impacts 1 and 2: time after touch-down [ms]";
+  }
+  for (int impact = 1; impact <= last; ++impact) {
+    if (impact > most_impacts && impact != asked_impact) continue;
+    const auto row = row_of(impact);
+    if (row == rows.end()) continue;
     picture.panels.push_back(history_panel(run, row->start, [&](const numeric::HistoryPiece& piece) {
       return piece.impact == impact && piece.in_contact;
     }));
@@ -203,13 +218,14 @@ std::string scene_words(const ReportInput& input, const std::vector<double>& att
 std::string probe_words(const ReportInput& input) {
   std::string words;
   for (const std::string& probe : input.probes) words += " --probe " + shell_word(probe);
-  if (input.part) words += fmt::format(" --part {}:{}", shortest((*input.part)[0]), shortest((*input.part)[1]));
+  if (input.part) words += " --part " + shell_word(part_text(*input.part));
   return words;
 }
 
 /// The sweep of a box's attitudes by the same scene, to digits enough for a statistic; flags of the drop's own attitude
 /// stay out.
-SweepRequest sweep_of(const ReportInput& input, const Attitudes& attitudes) {
+/// @param rank_by  column; empty: as the sweep has it
+SweepRequest sweep_of(const ReportInput& input, const Attitudes& attitudes, const std::string& rank_by) {
   SweepRequest request{.file = input.scene.source,
                        .text = {},
                        .sets = {"drop.attitude=26", "run.digits=3"},
@@ -222,7 +238,8 @@ SweepRequest sweep_of(const ReportInput& input, const Attitudes& attitudes) {
                        .columns = {},
                        .no_errors = true,
                        .summary = true,
-                       .rank_by = input.rank_by};
+                       .part = input.part,
+                       .rank_by = rank_by};
   if (request.file.empty()) request.text = "";
   for (const SceneOverride& given : overrides_of(input.scene)) {
     if (!turns_body(given.key) && given.key != "run.errors" && given.key != "run.digits")
@@ -235,39 +252,129 @@ std::string sweep_command_of(const SweepRequest& request) {
   std::string words = "clatter sweep " + shell_word(request.file) + " --model " + name_of(*request.model);
   for (const std::string& set : request.sets) words += " --set " + shell_word(set);
   for (const std::string& probe : request.probes) words += " --probe " + shell_word(probe);
+  if (request.part) words += " --part " + shell_word(part_text(*request.part));
   if (!request.rank_by.empty()) words += " --rank-by " + shell_word(request.rank_by);
   return words + fmt::format(" --random {} --scatter {} --no-errors --summary", *request.random, *request.scatter);
 }
 
+/// One of the drops in all attitudes.
+struct SweptDrop {
+  long long point = 0;
+  int attitude = 0;  ///< of a box, by number, from 0
+  Vector3 down = Vector3::Zero();
+  double value = 0;         ///< that it is ranked by
+  double beyond_value = 0;  ///< the same with the impacts that the ranking leaves out, or NaN
+  int beyond_impact = 0;
+  double curve_depth = 0;  ///< depth over that of the pad's last point, or NaN
+};
+
 /// What the drops in all attitudes give.
 struct AllAttitudes {
-  std::vector<RankedDrop> drops;
+  std::vector<SweptDrop> drops;
   std::size_t worst = 0;
-  Column column;        ///< by which they are ranked
-  Scene scene;          ///< of the worst
-  std::string name;     ///< of its attitude: "corner -x-y+z down, 3.2° off"
-  Report report;        ///< percentiles, and in its fields the largest of each attitude
-  std::string command;  ///< empty: no file that a command could name
+  Column column;                           ///< by which they are ranked
+  std::vector<std::size_t> worst_of;       ///< of each attitude that has a drop: its worst one
+  std::vector<std::optional<Blow>> blows;  ///< of those: the worst of each
+  Scene scene;                             ///< of the worst
+  std::string name;                        ///< of its attitude: "corner -x-y+z down, 3.2° off"
+  Report report;                           ///< percentiles, and in its fields the largest of each attitude
+  std::string command;                     ///< empty: no file that a command could name
+
+  [[nodiscard]] bool is_least_worst() const { return is_worst_least(column.name); }
+  [[nodiscard]] bool is_worse(double one, double other) const { return is_least_worst() ? one < other : one > other; }
+  [[nodiscard]] std::ptrdiff_t count(auto&& wanted) const { return std::ranges::count_if(drops, wanted); }
 };
+
+/// How far off an attitude of a box, by number from 0, a direction is [°].
+double degrees_off(const Scene& scene, int number, const Vector3& down) {
+  const std::vector<double> q = orientation_attitude(number + 1, scene.body.size);
+  const Vector3 level = down_of(Eigen::Quaterniond(q[0], q[1], q[2], q[3]));
+  return std::atan2(down.cross(level).norm(), down.dot(level)) * 180 / std::numbers::pi;
+}
+
+/// "face", "edge" or "corner": those of 1 to 3 axes.
+std::size_t axes_of_attitude(int number) {
+  const std::array<int, 3> signs = orientation_signs(number + 1);
+  return static_cast<std::size_t>(std::ranges::count_if(signs, [](int sign) { return sign != 0; }));
+}
+constexpr const char* part_names[] = {"", "face", "edge", "corner"};
 
 /// "corner -x-y+z down, 3.2° off", of a box's attitude by number, from 0.
 std::string name_of_drop(const Scene& scene, int number, const Vector3& down) {
-  const std::array<int, 3> signs = orientation_signs(number + 1);
-  const auto axes = std::ranges::count_if(signs, [](int sign) { return sign != 0; });
-  const std::vector<double> q = orientation_attitude(number + 1, scene.body.size);
-  const Vector3 level = down_of(Eigen::Quaterniond(q[0], q[1], q[2], q[3]));
-  const double off = std::atan2(down.cross(level).norm(), down.dot(level)) * 180 / std::numbers::pi;
-  return fmt::format("{} {} down, {}° off",
-                     axes == 1   ? "face"
-                     : axes == 2 ? "edge"
-                                 : "corner",
-                     orientation_name(number + 1), significant(off, 2));
+  return fmt::format("{} {} down, {}° off", part_names[axes_of_attitude(number)], orientation_name(number + 1),
+                     significant(degrees_off(scene, number, down), 2));
 }
 
+/// What the ranking of a sweep's column says of blows: of the probe that the column names, else of the first.
+Ranking ranking_of(std::string_view column, const std::vector<Probe>& probes, const ReportInput& input) {
+  Ranking ranking{.part = input.part, .has_peaks = model_of(input) == Model::continuous};
+  ranking.landing_alone = column.starts_with(of_landing);
+  if (ranking.landing_alone) column.remove_prefix(of_landing.size());
+  const bool is_velocity = column.starts_with(shock_column) || !ranking.has_peaks;
+  ranking.by = column.starts_with(peak_column)    ? Ranking::By::peak
+               : column.starts_with(shock_column) ? Ranking::By::velocity
+               : input.part                       ? Ranking::By::margin
+               : is_velocity                      ? Ranking::By::velocity
+                                                  : Ranking::By::peak;
+  for (std::size_t i = 0; i < probes.size(); ++i) {
+    if (column.ends_with("_" + probes[i].name)) ranking.probe = i;
+  }
+  return ranking;
+}
+
+/// The worst blow of a drop of the sweep, as the sweep itself computes it; without a probe that of the largest force.
+std::optional<Blow> blow_of(const SweepPlan& plan, const SweepBody& body, long long point, const Ranking& ranking) {
+  Scene scene = plan.scene;
+  std::vector<double> values;
+  plan.points.at(point, values);
+  plan.put_point(values, scene);
+  const std::vector<Probe>& probes = plan.layout.probes;
+  if (!ranking.has_peaks) {
+    const ShockRun run = run_shock(scene, probes, {.continuous = false, .sensitivity = false, .count = 2});
+    return worst_blow(run.discrete, *run.discrete_run, scene, ranking);
+  }
+  if (!probes.empty()) {
+    const ContinuousShock shock = continuous_shock(
+        scene, *body.solid, places_from(body_properties(scene, Model::continuous).centre, probes), false);
+    return worst_blow(shock.rows, run_of(shock.planned.run), scene, ranking);
+  }
+  const Run run = run_of(run_to_digits(scene, *body.solid).run);
+  if (run.impacts.empty()) return std::nullopt;
+  const auto hardest =
+      std::ranges::max_element(run.impacts, {}, [](const Impact& one) { return one.value.peak_force; });
+  return Blow{.impact = hardest->n, .value = hardest->value.peak_force, .depth = hardest->value.indentation};
+}
+
+/// The worst blows of the worst drop of each attitude.
+void find_blows(const SweepPlan& plan, const SweepBody& body, int threads, const Ranking& ranking, AllAttitudes& all) {
+  std::vector<std::optional<std::size_t>> worst(orientation_count);
+  for (std::size_t i = 0; i < all.drops.size(); ++i) {
+    std::optional<std::size_t>& so_far = worst[static_cast<std::size_t>(all.drops[i].attitude)];
+    if (!so_far || all.is_worse(all.drops[i].value, all.drops[*so_far].value)) so_far = i;
+  }
+  for (const auto& one : worst) {
+    if (one) all.worst_of.push_back(*one);
+  }
+  all.blows.resize(all.worst_of.size());
+  std::atomic<std::size_t> next = 0;
+  const auto work = [&] {
+    for (std::size_t i = next++; i < all.blows.size(); i = next++) {
+      // A drop that has a number in the sweep has no failure here.
+      static_cast<void>(
+          failure_of_scene([&] { all.blows[i] = blow_of(plan, body, all.drops[all.worst_of[i]].point, ranking); }));
+    }
+  };
+  std::vector<std::jthread> crew;
+  for (int i = 1; i < threads; ++i) crew.emplace_back(work);
+  work();
+}
+
+/// @param given  the drop whose attitude they change
+/// @param rank_by  column; empty: as the sweep has it
 /// @throws BadInput as read_sweep_plan; nothing if it was interrupted, or no drop has a number to rank it by.
-std::optional<AllAttitudes> all_attitudes(const ReportInput& input, const Attitudes& attitudes,
-                                          const CooperativeInterrupt& interrupt) {
-  const SweepRequest request = sweep_of(input, attitudes);
+std::optional<AllAttitudes> all_attitudes(const ReportInput& input, const Scene& given, const Attitudes& attitudes,
+                                          const std::string& rank_by, const CooperativeInterrupt& interrupt) {
+  const SweepRequest request = sweep_of(input, attitudes, rank_by);
   SweepPlan plan = read_sweep_plan(request);
   plan.packed = true;
   const SweepBody body = plan.body_values.empty() ? make_sweep_body(plan, plan.scene) : SweepBody{};
@@ -275,24 +382,33 @@ std::optional<AllAttitudes> all_attitudes(const ReportInput& input, const Attitu
   const std::optional<std::size_t> ranking = summary.ranking();
   if (!ranking) return {};
   AllAttitudes all;
-  all.column = sweep_columns(plan.layout)[*ranking];
+  const std::vector<Column> columns = sweep_columns(plan.layout);
+  all.column = columns[*ranking];
+  const auto place_of = [&](const std::string& name) {
+    return static_cast<std::size_t>(std::ranges::find(columns, name, &Column::name) - columns.begin());
+  };
+  const std::string& by = all.column.name;
+  const std::string beyond = by.starts_with(of_landing) ? by.substr(of_landing.size()) : "";
+  const std::size_t curve = place_of("curve_depth"), beyond_value = place_of(beyond),
+                    beyond_impact = place_of(beyond + "_impact");
   RangeQueue queue({0, plan.points.count()}, range_size(plan));
   SweepHooks hooks;
   Progress progress;
-  std::vector<PackedCell> row(sweep_columns(plan.layout).size());
-  std::vector<long long> points;
+  std::vector<PackedCell> row(columns.size());
   std::vector<double> values;
+  const auto number = [&](std::size_t place) { return place < row.size() ? row[place].number : std::nan(""); };
   hooks.write = [&](const RangeRows& rows) {
     summary.add(rows.text);
     for (PackedRows packed(rows.text); packed.next(row);) {
       if (!std::isfinite(row[*ranking].number)) continue;
-      points.push_back(static_cast<long long>(row.front().number));
-      plan.points.at(points.back(), values);
-      const Vector3 down = down_of(Eigen::Quaterniond(values[0], values[1], values[2], values[3]));
-      const auto number = static_cast<int>(plan.points.attitude_of(points.back()));
-      all.drops.push_back({down, row[*ranking].number,
-                           fmt::format("{}: {} {}", name_of_drop(plan.scene, number, down),
-                                       significant(row[*ranking].number, 4), all.column.unit)});
+      SweptDrop drop{.point = static_cast<long long>(row.front().number), .value = row[*ranking].number};
+      plan.points.at(drop.point, values);
+      drop.down = down_of(Eigen::Quaterniond(values[0], values[1], values[2], values[3]));
+      drop.attitude = static_cast<int>(plan.points.attitude_of(drop.point));
+      drop.curve_depth = number(curve);
+      drop.beyond_value = number(beyond_value);
+      drop.beyond_impact = std::isfinite(number(beyond_impact)) ? static_cast<int>(number(beyond_impact)) : 0;
+      all.drops.push_back(drop);
     }
     const auto done = static_cast<std::size_t>(queue.taken()), of = static_cast<std::size_t>(plan.points.count());
     progress.show(fmt::format("attitudes: {}{}", progress_bar(done, of), progress.time_left(done, of)));
@@ -300,17 +416,22 @@ std::optional<AllAttitudes> all_attitudes(const ReportInput& input, const Attitu
   hooks.tick = [] {};
   hooks.stop = [&] { return interrupt.requested(); };
   Ranks ranks;
-  run_on_threads(queue, thread_count(input.threads, ranks), runners_of(plan, body), hooks);
+  const int threads = thread_count(input.threads, ranks);
+  run_on_threads(queue, threads, runners_of(plan, body), hooks);
   if (interrupt.requested() || all.drops.empty()) return {};
-  all.worst = static_cast<std::size_t>(std::ranges::max_element(all.drops, {}, &RankedDrop::value) - all.drops.begin());
-  all.scene = shock_scene(input);
-  plan.points.at(points[all.worst], values);
+  find_blows(plan, body, threads, ranking_of(by, plan.layout.probes, input), all);
+  all.worst = *std::ranges::min_element(all.worst_of, [&](std::size_t one, std::size_t other) {
+    return all.is_worse(all.drops[one].value, all.drops[other].value);
+  });
+  const SweptDrop& worst = all.drops[all.worst];
+  all.scene = given;
+  plan.points.at(worst.point, values);
   all.scene.orientation.reset();
   all.scene.tilt_deg = 0;
   all.scene.attitude.assign(values.begin(), values.end());
   all.scene.settle();
-  all.name =
-      name_of_drop(all.scene, static_cast<int>(plan.points.attitude_of(points[all.worst])), all.drops[all.worst].down);
+  all.scene.settle_restitution();
+  all.name = name_of_drop(all.scene, worst.attitude, worst.down);
   all.report = plan.report();
   all.report.grid.columns = Summary::columns();
   summary.fill(
@@ -321,34 +442,110 @@ std::optional<AllAttitudes> all_attitudes(const ReportInput& input, const Attitu
   return all;
 }
 
-/// The attitudes by the largest of their drops, as far as a reader asks; then how all the drops are distributed.
+/// "margin of camera, first landing [g]": what drops are ranked by, for a reader.
+std::string ranked_words(const Column& ranking) {
+  std::string_view name = ranking.name;
+  const bool is_landing = name.starts_with(of_landing);
+  if (is_landing) name.remove_prefix(of_landing.size());
+  std::string words(name);
+  for (const auto& [column, its_words] :
+       {std::pair{margin_column, "margin of"}, {peak_column, "peak at"}, {shock_column, "|ΔV| of"}}) {
+    if (name.starts_with(column)) words = fmt::format("{} {}", its_words, name.substr(column.size()));
+  }
+  return words + (is_landing ? ", first landing" : "") + (ranking.unit.empty() ? "" : " [" + ranking.unit + "]");
+}
+
+/// Each face, edge and corner by the worst blow of its worst drop, the worst kind first and in it the worst attitude.
+Grid attitudes_grid(const AllAttitudes& all) {
+  const bool has_peaks = std::ranges::any_of(all.blows, [](const auto& blow) { return blow && blow->peak_g > 0; });
+  const bool has_margin = std::ranges::any_of(all.blows, [](const auto& blow) { return blow && blow->margin; });
+  const bool has_velocity = std::ranges::any_of(all.blows, [](const auto& blow) { return blow && blow->velocity > 0; });
+  const bool has_depth = std::ranges::any_of(all.blows, [](const auto& blow) { return blow && blow->depth; });
+  // Whether the blow's own numbers have what is ranked by.
+  const bool is_of_blow = std::ranges::all_of(all.worst_of, [&, i = std::size_t{0}](std::size_t drop) mutable {
+    const std::optional<Blow>& blow = all.blows[i++];
+    return !blow || blow->value == all.drops[drop].value;
+  });
+  const auto& pad = all.scene.pad.thickness;
+  const bool has_share = has_depth && all.scene.world.ground.is_pad() && pad;
+  Grid grid{{word_column("attitude", "down", "part of the box that points down"),
+             {"off_deg", "off", "°", "how far its worst drop is off that"},
+             {"impact", "impact", "", "whose blow is the worst of that drop"},
+             {"peak_g", "peak", "g", "largest specific force at the probe in that blow", has_peaks},
+             {"delta_v", "|ΔV|", "m/s", "change of the probe's velocity in it", has_velocity},
+             {"margin", "margin", "", "of the part in it: at 1 and below it fails", has_margin},
+             {"depth_mm", "depth", "mm", "of the body's deepest point in it", has_depth},
+             {"depth_percent", "of pad", "%", "the same in parts of the pad's thickness", has_share},
+             {"worst", "worst", all.column.unit, ranked_words(all.column) + " of that drop", !is_of_blow},
+             {"mildest", "mildest", all.column.unit,
+              (is_of_blow ? std::string(has_margin  ? "margin"
+                                        : has_peaks ? "peak"
+                                                    : "|ΔV|")
+                          : ranked_words(all.column)) +
+                  " of the mildest of its drops"},
+             {"drops", "drops", "", "of this attitude"}},
+            {},
+            1};
+  std::vector<std::size_t> order(all.worst_of.size());
+  std::iota(order.begin(), order.end(), 0U);
+  std::array<double, 4> worst_of_kind;
+  worst_of_kind.fill(std::nan(""));
+  const auto drop = [&](std::size_t i) -> const SweptDrop& { return all.drops[all.worst_of[i]]; };
+  for (const std::size_t i : order) {
+    double& so_far = worst_of_kind[axes_of_attitude(drop(i).attitude)];
+    if (!std::isfinite(so_far) || all.is_worse(drop(i).value, so_far)) so_far = drop(i).value;
+  }
+  std::ranges::stable_sort(order, [&](std::size_t a, std::size_t b) {
+    const std::size_t one = axes_of_attitude(drop(a).attitude), other = axes_of_attitude(drop(b).attitude);
+    if (one != other && worst_of_kind[one] != worst_of_kind[other])
+      return all.is_worse(worst_of_kind[one], worst_of_kind[other]);
+    return one != other ? one < other : all.is_worse(drop(a).value, drop(b).value);
+  });
+  for (const std::size_t i : order) {
+    const std::optional<Blow>& blow = all.blows[i];
+    const SweptDrop& worst = drop(i);
+    double mildest = worst.value;
+    const auto drops = all.count([&](const SweptDrop& one) { return one.attitude == worst.attitude; });
+    for (const SweptDrop& one : all.drops) {
+      if (one.attitude == worst.attitude && all.is_worse(mildest, one.value)) mildest = one.value;
+    }
+    const auto cell = [&](bool there, double value) { return there ? Cell(value, 3) : Cell(); };
+    const bool is_deep = blow && blow->depth;
+    grid.rows.push_back(
+        {Cell(fmt::format("{} {}", part_names[axes_of_attitude(worst.attitude)], orientation_name(worst.attitude + 1))),
+         Cell(degrees_off(all.scene, worst.attitude, worst.down), 2), blow ? Cell(blow->impact) : Cell(),
+         cell(blow && has_peaks, blow ? three_digits(blow->peak_g) : 0),
+         cell(blow && has_velocity, blow ? blow->velocity : 0),
+         cell(blow && blow->margin, blow && blow->margin ? blow->margin->value : 0),
+         cell(is_deep, is_deep ? 1e3 * *blow->depth : 0),
+         cell(is_deep && has_share, is_deep && has_share ? 100 * *blow->depth / *pad : 0), Cell(worst.value, 3),
+         Cell(mildest, 3), Cell(static_cast<int>(drops))});
+  }
+  return grid;
+}
+
+/// What the headings of a table mean, as far as their columns say it.
+std::string legend_html(const Grid& grid) {
+  std::string html;
+  for (const Column& column : grid.columns) {
+    if (!column.shown || column.meaning.empty()) continue;
+    html +=
+        fmt::format("{}<b>{}</b> {}", html.empty() ? "" : "; ",
+                    html_escaped(column.heading.empty() ? column.name : column.heading), html_escaped(column.meaning));
+  }
+  return "<p class=\"lines\">" + html + ".</p>\n";
+}
+
 std::string attitudes_html(const AllAttitudes& all, const Attitudes& attitudes) {
   Report shown;
-  shown.grid.columns = {word_column("attitude", "attitude", ""),
-                        {"largest", fmt::format("largest {}", all.column.name), all.column.unit, ""}};
-  std::vector<std::pair<double, std::string>> ranked;
-  for (const Value& one : std::get<Value::List>(all.report.fields.at("attitudes").content())) {
-    if (const Value* of = one.find(all.column.name))
-      ranked.emplace_back(*of->at("largest").number(), one.at("attitude").text());
-  }
-  std::ranges::stable_sort(ranked, std::ranges::greater{}, &std::pair<double, std::string>::first);
-  constexpr std::size_t most = 8;
-  for (std::size_t i = 0; i < std::min(most, ranked.size()); ++i)
-    shown.grid.rows.push_back({Cell(ranked[i].second), Cell(ranked[i].first, 4)});
-  Report spread = all.report;
-  spread.notes.clear();
-  std::erase_if(spread.grid.rows, [&](const Row& row) {
-    const std::string name = row.front().value.text();
-    const bool is_asked = name.starts_with(peak_column) || name.starts_with(shock_column) ||
-                          name == "largest_peak_force" || name == "hardest_impulse_normal" || name == all.column.name;
-    return !is_asked || name.ends_with("_impact");
-  });
-  std::erase_if(spread.grid.columns, [](const Column& column) { return column.name == "count"; });
-  for (Row& row : spread.grid.rows) row.erase(row.begin() + 2);
+  shown.grid = attitudes_grid(all);
   return fmt::format(
-      "<p>{} drops: each face, edge and corner of the box in its turn, turned about each axis by a "
-      "normally distributed angle with a standard deviation of {}°.</p>\n<div class=\"beside\">{}{}</div>",
-      attitudes.drops, attitudes.scatter, handout_table(shown), handout_table(spread));
+             "<p>{} drops: each face, edge and corner of the box in its turn, turned about each axis by a "
+             "normally distributed angle with a standard deviation of {}°; numbers to three digits. Worst and mildest "
+             "of "
+             "few drops are a sample's, so that attitudes alike by symmetry differ: --drops takes more.</p>\n",
+             attitudes.drops, attitudes.scatter) +
+         handout_table(shown) + legend_html(shown.grid);
 }
 
 /// A picture of the discrete model's sequence.  @throws as run_discrete
@@ -359,62 +556,22 @@ std::string sequence_picture_html(const Scene& scene) {
 }
 
 /// Pulses or changes of velocity at the probes, then pictures of them and of their spectra.
-std::string shock_html(const ShockRun& run, ShockView view) {
+std::string shock_html(const ShockRun& run, ShockView view, int impact) {
   if (run.continuous) view.rows = ShockRows::pulses;
-  std::string html = handout_table(shock_report(run, view));
-  if (const auto picture = probe_history_picture(run))
-    html += handout_picture(*picture, "Contacts alone, each impact apart: two blows are two.");
+  const Report report = shock_report(run, view);
+  std::string html = handout_table(report) + legend_html(report.table());
+  if (const auto picture = probe_history_picture(run, impact)) {
+    html +=
+        handout_picture(*picture,
+                        "What an accelerometer reads at the probes, from each touch-down on. Two humps in one impact "
+                        "are two touches of which one begins before the other has ended.");
+  }
   Picture picture = shock_picture(run, view);
   picture.scene.clear();  // which the page has
   if (picture.panels.empty()) return html;
-  return html + handout_picture(picture, view.part ? "Response spectra with and without the second blow, and the "
-                                                     "damage boundary of the part."
+  return html + handout_picture(picture, view.part ? "Response spectra with and without the second blow, and all blows "
+                                                     "beside the damage boundary of the part."
                                                    : "Response spectra with and without the second blow.");
-}
-
-/// Three digits, as one says them: 39000, not 39027.
-std::string said(double value) {
-  const double unit = value > 0 ? std::pow(10.0, std::floor(std::log10(value)) - 2) : 1;
-  return shortest(unit < 1 ? std::round(value / unit) / std::round(1 / unit) : std::round(value / unit) * unit);
-}
-
-/// What a drop does at its worst: to the probe and in the impact of the largest peak, or change of velocity.
-struct Answer {
-  std::string words{};
-  Value fields{};
-};
-
-/// "camera: 2658 g in impact 1, 7.52 m/s within 0.47 ms"; with a part its margin.
-Answer answer_of(const ShockRun& run, const std::optional<FragilePart>& part) {
-  const bool has_peaks = run.continuous.has_value();
-  const auto size = [&](const ShockRow& row) { return has_peaks ? row.value.peak_size : row.value.delta_v_size; };
-  const auto worst = std::ranges::max_element(run.rows(), {}, size);
-  if (worst == run.rows().end()) {
-    if (!run.continuous) return {"no probe was named", Value(Value::Fields{})};
-    const Estimated peak = totals(run_of(run.continuous->planned.run)).largest_peak;
-    return {fmt::format("the largest force is {} N", said(peak.value)), Value::Fields{{"peak_force", peak.value}}};
-  }
-  const std::string& probe = run.probes[worst->probe].name;
-  const double g = worst->value.peak_size / standard_gravity, velocity = worst->value.delta_v_size;
-  Answer answer{.fields = Value::Fields{{"probe", probe}, {"impact", worst->impact}, {"delta_v", velocity}}};
-  if (!has_peaks) {
-    answer.words = fmt::format("{} is changed by {} m/s in impact {}", probe, said(velocity), worst->impact);
-    return answer;
-  }
-  answer.fields["peak_g"] = g;
-  answer.fields["width"] = worst->value.width;
-  answer.words = fmt::format("{} takes {} g in impact {}, {} m/s within {} ms", probe, said(g), worst->impact,
-                             said(velocity), said(1e3 * worst->value.width));
-  if (!part) return answer;
-  double least = std::numeric_limits<double>::infinity();
-  for (const PulseShape shape : {PulseShape::half_sine, PulseShape::rectangle})
-    least = std::fmin(least, margin(*part, shape, velocity, worst->value.peak_size));
-  answer.fields["margin"] = least;
-  const std::string bears =
-      fmt::format("a part of {} Hz that bears {} g", said(part->frequency), said(part->fragility / standard_gravity));
-  answer.words += least > 1 ? fmt::format("; {} holds, margin {}", bears, said(least))
-                            : fmt::format("; {} fails, margin {}", bears, said(least));
-  return answer;
 }
 
 std::vector<std::string> assumptions(const Scene& scene, Model model, const KeyNames& unsettled) {
@@ -440,15 +597,20 @@ std::vector<std::string> assumptions(const Scene& scene, Model model, const KeyN
   return items;
 }
 
-const std::vector<std::string>& left_out() {
-  static const std::vector<std::string> items{
+std::vector<std::string> left_out(const Scene& scene) {
+  return {
       "whatever bends: housings, screens, boards and batteries that move make other peaks than a rigid body's, larger "
       "ones where they strike or resonate",
       "damage: a damage boundary and a spectrum say what a part goes through, not whether a crack grows",
-      "floors that yield, crack or remember the last blow, and soft pads beyond their linear range",
-      "the hand, cable or air that turns the body before it touches: the attitude at the touch is what is given here",
+      "what yields, cracks or remembers the last blow, floor and body alike: under a corner on a hard floor the "
+      "pressure "
+      "is far above what plastics bear, and the peak less than it says here",
+      "soft packages: a carton or cushion is no rigid body on a floor, but a pad under one (--curve)",
+      fmt::format(
+          "the hand, cable or air that turns the body before it touches: the attitude at the {} is what is given "
+          "here",
+          scene.is_released() ? "release" : "touch"),
       "repeated drops: each one here is the first"};
-  return items;
 }
 
 /// How many of the first impacts a start known to 16 digits determines.
@@ -536,17 +698,134 @@ bool is_of_box(const ReportInput& input) {
 /// Keys of which a page about a drop of many says nothing: its attitude has a name there.
 const KeyNames attitude_keys{"drop.attitude", "drop.angle_deg", "drop.orientation", "drop.tilt_deg"};
 
+/// What a drop does at its worst.
+struct Answer {
+  std::optional<Blow> blow;  ///< none: nothing struck a probe
+  std::string words;
+  Value fields = Value(Value::Fields{});
+};
+
+Answer answer_of(const ShockRun& run, const Ranking& ranking) {
+  Answer answer;
+  const Run impacts = run.continuous ? run_of(run.continuous->planned.run) : *run.discrete_run;
+  if (run.probes.empty()) {
+    if (!run.continuous) return {.blow = {}, .words = "no probe was named"};
+    const double peak = totals(impacts).largest_peak.value;
+    answer.words = fmt::format("the largest force is {} N", said(peak));
+    answer.fields["peak_force"] = peak;
+    return answer;
+  }
+  answer.blow = worst_blow(run.rows(), impacts, run.scene, ranking);
+  if (!answer.blow) return {.blow = {}, .words = "nothing strikes"};
+  const Blow& blow = *answer.blow;
+  const std::string& probe = run.probes[ranking.probe].name;
+  answer.words = blow_words(blow, probe, ranking);
+  answer.fields = Value::Fields{{"probe", probe}, {"impact", blow.impact}, {"delta_v", blow.velocity}};
+  if (ranking.has_peaks) {
+    answer.fields["peak_g"] = blow.peak_g;
+    answer.fields["width"] = blow.width;
+    answer.fields["pulse_duration"] = equivalent_pulse(blow.velocity, blow.peak_g * standard_gravity).duration;
+    answer.fields["depth"] = *blow.depth;
+    if (const std::string deep = depth_words(run.scene, *blow.depth); !deep.empty()) answer.words += "; " + deep;
+  }
+  if (!blow.margin) return answer;
+  answer.fields["verdict"] = blow.margin->value > 1 ? "survives" : "fails";
+  answer.fields["margin"] = blow.margin->value;
+  answer.fields["decided_by"] = blow.margin->by_velocity ? "delta_v" : "peak";
+  if (ranking.part->kind == FragilePart::Kind::oscillator)
+    answer.fields["response_g"] = ranking.part->fragility / standard_gravity / blow.margin->value;
+  return answer;
+}
+
 /// What a page is about.
 struct Findings {
   std::optional<AllAttitudes> all;  ///< none: of the drop as given alone
   Scene scene;                      ///< of the worst drop of all, or as given
   ShockRun run;
   Answer answer;
-  std::string lead;  ///< the answer in a sentence
-  Report impacts;    ///< of the model, as its own command prints them
+  std::string lead;                ///< the answer in a sentence
+  std::vector<std::string> notes;  ///< what it depends on
+  Report impacts;                  ///< of the model, as its own command prints them
   std::vector<std::string> commands;
   Report report;  ///< for other programs
 };
+
+/// "In 257 of 260 drops the pad bottoms out"; empty without a pad.
+std::string bottoming_words(const AllAttitudes& all, const Ranking& ranking) {
+  if (!all.scene.world.ground.is_pad() || !ranking.has_peaks) return "";
+  const auto bottoming = all.count([](const SweptDrop& drop) { return drop.curve_depth > 1; });
+  const double deepest = std::ranges::max(all.drops, {}, &SweptDrop::curve_depth).curve_depth;
+  const Scene& scene = all.scene;
+  return fmt::format("The pad bottoms out in {} of {} drops{}", bottoming, all.drops.size(),
+                     bottoming == 0
+                         ? ""
+                         : fmt::format(", going to {} times its curve's depth, {}", said(deepest),
+                                       scene.half_space.floor
+                                           ? "onto the floor, of E*/h of what is left of it, which is rather too hard"
+                                       : scene.pad.under ? "onto the stiffness of --under"
+                                                         : "where its last slope goes on, which is too soft: "
+                                                           "--floor NAME or --under PA/M says what is below"));
+}
+
+/// The worst of all drops in a sentence: with a part in how many it survives, and the least margin of all.
+std::string worst_words(const AllAttitudes& all, const Answer& answer, const Ranking& ranking) {
+  const std::size_t drops = all.drops.size();
+  if (!answer.blow || !answer.blow->margin || ranking.by != Ranking::By::margin) {
+    const std::string words = answer.blow ? answer.words
+                                          : fmt::format("its {} is {} {}", all.column.name,
+                                                        said(all.drops[all.worst].value), all.column.unit);
+    return fmt::format("Worst of {} drops: {}: {}", drops, all.name, words);
+  }
+  return fmt::format("{} survives in {} of {} drops; least margin {}: {}, where {}",
+                     answer.fields.find("probe")->text(),
+                     all.count([](const SweptDrop& drop) { return drop.value > 1; }), drops,
+                     said(answer.blow->margin->value), all.name, answer.words);
+}
+
+/// Three digits with the unit of what is ranked by.
+std::string in_unit(const AllAttitudes& all, double value) {
+  return said(value) + (all.column.unit.empty() ? "" : " " + all.column.unit);
+}
+
+/// What the answer leaves out of all drops, and how far it is known.
+std::vector<std::string> notes_of_all(const AllAttitudes& all, const Answer& answer, const Ranking& ranking) {
+  std::vector<std::string> notes;
+  const SweptDrop& worst = all.drops[all.worst];
+  const auto beyond = std::ranges::max_element(all.drops, [&](const SweptDrop& one, const SweptDrop& other) {
+    return all.is_worse(other.beyond_value, one.beyond_value);
+  });
+  if (ranking.landing_alone && all.is_worse(beyond->beyond_value, worst.value)) {
+    notes.push_back(fmt::format(
+        "Impacts after the first landing follow bounces without loss and are left out; with them the {} is {} ({}, "
+        "impact {})",
+        all.is_least_worst() ? "least margin" : "largest", in_unit(all, beyond->beyond_value),
+        name_of_drop(all.scene, beyond->attitude, beyond->down), beyond->beyond_impact));
+  }
+  constexpr double close = 0.02;  // of numbers to three digits whose errors were not looked for
+  const auto place = std::ranges::find(all.worst_of, all.worst) - all.worst_of.begin();
+  const std::optional<Blow>& swept = all.blows[static_cast<std::size_t>(place)];
+  const bool is_ranked_by = swept && swept->value == worst.value;  // else by what blows do not have
+  if (answer.blow && is_ranked_by && !(std::fabs(answer.blow->value / worst.value - 1) <= close)) {
+    notes.push_back(fmt::format("To three digits this drop has {} in place of {}: {}", in_unit(all, worst.value),
+                                in_unit(all, answer.blow->value),
+                                answer.blow->predictable
+                                    ? "small differences of the start decide which blows follow"
+                                    : fmt::format("impact {} depends on digits that nobody has", answer.blow->impact)));
+  }
+  return notes;
+}
+
+/// Shows how deep each impact goes, and in a pad of known thickness which part of that it is.
+void show_depths(const Scene& scene, const numeric::Simulation& run, Grid& grid) {
+  for (Column& column : grid.columns) {
+    if (column.name == "indentation") column.shown = true;
+  }
+  const auto& pad = scene.pad.thickness;
+  if (!scene.world.ground.is_pad() || !pad || run.impacts.size() != grid.rows.size()) return;
+  grid.columns.push_back({"depth_percent", "of pad", "%", "depth in parts of the pad's thickness"});
+  for (std::size_t i = 0; i < grid.rows.size(); ++i)
+    grid.rows[i].emplace_back(100 * run.impacts[i].value.indentation / *pad, 3);
+}
 
 /// What --format json has, by the names of the commands that give it.
 void add_fields(const ReportInput& input, const ShockView& view, Findings& found) {
@@ -565,6 +844,7 @@ void add_fields(const ReportInput& input, const ShockView& view, Findings& found
   const bool is_continuous = found.run.continuous.has_value();
   if (is_continuous) {
     found.impacts = simulation_report(scene, found.run.continuous->planned);
+    show_depths(scene, found.run.continuous->planned.run, found.impacts.grid);
   } else {
     const PreparedScene drop = prepared(scene);
     found.impacts = sequence_report(drop, run_discrete(drop));
@@ -582,8 +862,15 @@ std::optional<Findings> findings_of(ReportInput& input, const Attitudes& attitud
   const Scene given = shock_scene(input);
   const std::vector<Probe> probes = probes_of(input);
   require_worst_attitudes(input, given);
+  if (view.part && probes.empty()) throw BadInput("--part: needs --probe NAME:X,Y,Z, or [[probe]], where the part is");
+  const Model model = model_of(input);
+  const std::string rank_by =
+      !input.rank_by.empty() || probes.empty()
+          ? input.rank_by
+          : ranking_column({.model = model, .part = input.part}, probes.front(), is_lossless(given, model));
+  const Ranking ranking = ranking_of(rank_by, probes, input);
   Findings found;
-  if (looks_at_all) found.all = all_attitudes(input, attitudes, interrupt);
+  if (looks_at_all) found.all = all_attitudes(input, given, attitudes, rank_by, interrupt);
   if (interrupt.requested()) return {};
   found.scene = found.all ? found.all->scene : given;
   const Scene& scene = found.scene;
@@ -593,36 +880,70 @@ std::optional<Findings> findings_of(ReportInput& input, const Attitudes& attitud
 
   found.report = begun_report("report", input.scene.source.empty() ? "a drop" : input.scene.source);
   Value& fields = found.report.fields;
-  fields["model"] = name_of(model_of(input));
-  fields["scene"] = scene_value(scene, model_of(input));
-  found.answer = answer_of(found.run, view.part);
+  fields["model"] = name_of(model);
+  fields["scene"] = scene_value(scene, model);
+  found.answer = answer_of(found.run, ranking);
   fields["answer"] = found.answer.fields;
   found.lead = found.answer.words;
+  say_doubts(scene, model, probes);
+  found.notes = doubts_of(scene, model, probes);
   if (const auto& all = found.all) {
-    const RankedDrop& worst = all->drops[all->worst];
-    fields["answer"]["attitude"] = all->name;
-    fields["answer"]["ranked_by"] = all->column.name;
-    fields["answer"]["largest"] = worst.value;
-    if (probes.empty())
-      found.lead = fmt::format("its {} is {} {}", all->column.name, said(worst.value), all->column.unit);
-    found.lead = fmt::format("Worst of {} drops: {}: {}", attitudes.drops, all->name, found.lead);
+    const SweptDrop& worst = all->drops[all->worst];
+    Value& answer = fields["answer"];
+    answer["attitude"] = all->name;
+    answer["ranked_by"] = all->column.name;
+    answer[all->is_least_worst() ? "least" : "largest"] = worst.value;
+    answer["drops"] = static_cast<long long>(all->drops.size());
+    if (all->is_least_worst())
+      answer["failing"] = static_cast<long long>(all->count([](const SweptDrop& drop) { return !(drop.value > 1); }));
+    if (scene.world.ground.is_pad() && ranking.has_peaks)
+      answer["bottoming"] =
+          static_cast<long long>(all->count([](const SweptDrop& drop) { return drop.curve_depth > 1; }));
+    found.lead = worst_words(*all, found.answer, ranking);
+    if (const std::string bottoming = bottoming_words(*all, ranking); !bottoming.empty())
+      found.lead += ". " + bottoming;
+    for (const std::string& note : notes_of_all(*all, found.answer, ranking)) found.notes.push_back(note);
     if (is_turned && !probes.empty()) {
       ShockRequest plain = request_of(input);
       plain.sensitivity = false;
-      const Answer own = answer_of(run_shock(given, probes, plain, {.progress = watch}), {});
-      const char* const number = found.run.continuous ? "peak_g" : "delta_v";
-      const Value *of_own = own.fields.find(number), *of_worst = found.answer.fields.find(number);
-      const bool is_worse = of_own && of_worst && *of_own->number() > *of_worst->number();
+      const Answer own = answer_of(run_shock(given, probes, plain, {.progress = watch}), ranking);
+      const bool is_worse =
+          own.blow && found.answer.blow && ranking.is_worse(own.blow->value, found.answer.blow->value);
       found.lead += fmt::format(". The drop as given{}: {}", is_worse ? " is worse" : "", own.words);
       fields["as_given"] = own.fields;
     }
+  } else if (found.answer.blow && found.answer.blow->margin) {
+    const double margin = found.answer.blow->margin->value;
+    found.lead = fmt::format("{} {}, margin {}: {}", probes[ranking.probe].name, margin > 1 ? "survives" : "fails",
+                             said(margin), found.answer.words);
   }
   if (const std::string overlap = overlap_words(scene, found.run); !overlap.empty()) {
     found.lead += "; " + overlap;
     fields["overlap"] = overlap;
   }
+  for (const std::string& note : assumed_words(scene, model, found.answer.blow.value_or(Blow{.impact = 1})))
+    found.notes.push_back(note);
+  fields["answer"]["notes"] = found.notes;
   add_fields(input, view, found);
   return found;
+}
+
+/// How the body touches in an impact.
+Eigen::Quaterniond attitude_in(const ShockRun& run, int impact) {
+  const Run impacts = run.continuous ? run_of(run.continuous->planned.run) : *run.discrete_run;
+  const auto place = static_cast<std::size_t>(impact - 1);
+  if (place >= impacts.impacts.size()) return run.scene.touch_attitude();
+  const EntryParameters& q = impacts.impacts[place].value.attitude;
+  return Eigen::Quaterniond(q[0], q[1], q[2], q[3]).normalized();
+}
+
+std::vector<RankedDrop> dots_of(const AllAttitudes& all) {
+  std::vector<RankedDrop> dots;
+  for (const SweptDrop& drop : all.drops)
+    dots.push_back({drop.down, drop.value,
+                    fmt::format("{}: {} {}", name_of_drop(all.scene, drop.attitude, drop.down),
+                                significant(drop.value, 4), all.column.unit)});
+  return dots;
 }
 
 std::string page_of(const ReportInput& input, const Findings& found, const Attitudes& attitudes,
@@ -632,28 +953,33 @@ std::string page_of(const ReportInput& input, const Findings& found, const Attit
   const auto& all = found.all;
   const numeric::Body body = scene.make_body();
   const Vector3 centre = body_properties(scene, Model::continuous).centre;
-  std::string pictures =
-      fmt::format("<div class=\"beside\"><figure>{}<figcaption>{}</figcaption></figure>\n",
-                  body_picture(body, scene.touch_attitude(), found.run.probes, centre), "The body as it touches.");
+  const int impact = found.answer.blow ? found.answer.blow->impact : 1;
+  std::string pictures = fmt::format(
+      "<div class=\"beside\"><figure>{}<figcaption>The body as it touches in impact {}{}</figcaption></figure>\n",
+      body_picture(body, attitude_in(found.run, impact), found.run.probes, centre), impact,
+      found.run.probes.empty() ? "." : "; a hollow dot lies inside or behind.");
   if (all) {
     pictures += fmt::format(
-        "<figure>{}<figcaption>All drops by the direction that is down in the body; the ring is the "
+        "<figure>{}<figcaption>All drops by the direction that is down in the body{}; the ring is the "
         "worst.</figcaption></figure>",
-        attitude_map(all->drops, all->worst, all->column.name + " [" + all->column.unit + "]"));
+        attitude_map(dots_of(*all), all->worst, ranked_words(all->column), all->is_least_worst()),
+        scene.is_released() ? " at the release" : "");
   }
-  std::vector<HandoutPart> parts{
-      {"", fmt::format("<p class=\"answer\">{}.</p>\n{}</div>\n", html_escaped(found.lead), pictures)}};
+  std::string answer = fmt::format("<p class=\"answer\">{}.</p>\n", html_escaped(found.lead));
+  if (!found.notes.empty()) answer += "<div class=\"notes\">" + handout_list(found.notes) + "</div>\n";
+  std::vector<HandoutPart> parts{{"", answer + pictures + "</div>\n"}};
   if (all) parts.push_back({"Attitudes", attitudes_html(*all, attitudes)});
   parts.push_back({"Shock at points of the body",
                    found.run.probes.empty() ? "<p>No probe was named: give --probe NAME:X,Y,Z, or [[probe]] in the "
                                               "scene file.</p>\n"
-                                            : shock_html(found.run, view)});
+                                            : shock_html(found.run, view, impact)});
   parts.push_back({fmt::format("The impacts, {} model", name_of(model)),
-                   handout_table(found.impacts) + (found.run.continuous ? "" : sequence_picture_html(scene))});
+                   handout_table(found.impacts) + legend_html(found.impacts.table()) +
+                       (found.run.continuous ? "" : sequence_picture_html(scene))});
   const KeyNames unsettled = all ? attitude_keys : KeyNames{};
   parts.push_back({"Accuracy", accuracy_html(scene, found.run)});
   parts.push_back({"Assumptions", handout_list(assumptions(scene, model, unsettled))});
-  parts.push_back({"What the model leaves out", handout_list(left_out())});
+  parts.push_back({"What the model leaves out", handout_list(left_out(scene))});
   parts.push_back({"Commands that give these numbers again", handout_commands(found.commands)});
   return handout_page(found.report.title, scene.summary(model, unsettled), parts);
 }
@@ -695,9 +1021,11 @@ Command report_command() {
                                "of a box, over its faces, edges and corners (260); 0: none", group));
     command.add(number_argument("--scatter", input.scatter, {0, 180, false, "from 0 to 180 degrees"}, "DEG",
                                 "standard deviation of their turns about each axis (3)", group));
-    command.add_text("--rank-by", input.rank_by, "COLUMN",
-                     "of clatter sweep's rows, by which they are ranked (the first probe's peak or change of velocity)",
-                     group);
+    command.add_text(
+        "--rank-by", input.rank_by, "COLUMN",
+        "of clatter sweep's rows, by which they are ranked (the first probe's margin, else peak or change of velocity; "
+        "without loss that of the first landing)",
+        group);
     command.add(threads_argument(input.threads, "for them (all cores)", group));
     command.add({.name = "--output",
                  .target = &input.output,

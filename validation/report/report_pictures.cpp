@@ -82,20 +82,35 @@ std::string body_picture(const numeric::Body& body, const Eigen::Quaterniond& at
     faces.push_back(std::move(face));
   }
   std::ranges::sort(faces, {}, &Face::depth);
+  // Seen is what lies on a face that is, or before all of those.
+  const auto is_behind = [&](const Vector3& point) {
+    const double slack = 1e-6 * body.radius();
+    double before = -body.radius();
+    for (std::size_t f = 0; f < facets.facets.size(); ++f) {
+      const Vector3& normal = facets.facets[f].normal;
+      if (!(view.towards().dot(attitude * normal) > 0)) continue;
+      int corner = -1;
+      facets.for_each_corner(static_cast<int>(f), [&](int vertex) { corner = vertex; });
+      before = std::max(before, normal.dot(point - facets.vertices[static_cast<std::size_t>(corner)]));
+    }
+    return before < -slack;
+  };
   for (const Face& face : faces) {
     svg += fmt::format("<path class=\"body\" fill-opacity=\"{:.2f}\" d=\"{}\"/>", 0.35 + 0.5 * (1 - face.light),
                        path_of(face.points));
   }
   for (const Probe& probe : probes) {
     const Point p = place(world(probe.place - centre));
+    const bool is_hidden = is_behind(probe.place - centre);
     svg += fmt::format(
-        "<circle class=\"probe\" cx=\"{0:.2f}\" cy=\"{1:.2f}\" r=\"4\"/><text x=\"{2:.2f}\" y=\"{1:.2f}\">{3}</text>",
-        p[0], p[1], p[0] + 7, html_escaped(probe.name));
+        "<circle class=\"{4}\" cx=\"{0:.2f}\" cy=\"{1:.2f}\" r=\"4\"/><text x=\"{2:.2f}\" y=\"{1:.2f}\">{3}</text>",
+        p[0], p[1], p[0] + 7, html_escaped(probe.name), is_hidden ? "ring" : "probe");
   }
   return svg + "</svg>\n";
 }
 
-std::string attitude_map(const std::vector<RankedDrop>& drops, std::size_t worst, const std::string& what) {
+std::string attitude_map(const std::vector<RankedDrop>& drops, std::size_t worst, const std::string& what,
+                         bool is_least_worst) {
   constexpr double width = 440, height = 260, radius = 84;
   const auto [low, high] = std::ranges::minmax(drops, {}, &RankedDrop::value);
   // By equal ratios, since peaks differ by orders.
@@ -103,6 +118,9 @@ std::string attitude_map(const std::vector<RankedDrop>& drops, std::size_t worst
   const auto level_of = [&](double value) {
     const double level = ratio > 1 ? std::log(value / low.value) / std::log(ratio) : 0;
     return std::min(static_cast<std::size_t>(level), colours.size() - 1);
+  };
+  const auto colour_of = [&](std::size_t level) {
+    return colours[is_least_worst ? colours.size() - 1 - level : level];
   };
   const auto place = [&](const Vector3& down) -> Point {
     const double across = std::hypot(down.x(), down.y());
@@ -121,11 +139,12 @@ std::string attitude_map(const std::vector<RankedDrop>& drops, std::size_t worst
   }
   std::vector<std::size_t> order(drops.size());
   std::iota(order.begin(), order.end(), 0U);
-  std::ranges::sort(order, {}, [&](std::size_t i) { return drops[i].value; });  // the worst above the others
+  // The worst above the others.
+  std::ranges::sort(order, {}, [&](std::size_t i) { return is_least_worst ? -drops[i].value : drops[i].value; });
   for (const std::size_t i : order) {
     const Point p = place(drops[i].down);
     svg += fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"4\" fill=\"{}\"><title>{}</title></circle>", p[0], p[1],
-                       colours[level_of(drops[i].value)], html_escaped(drops[i].words));
+                       colour_of(level_of(drops[i].value)), html_escaped(drops[i].words));
   }
   const Point p = place(drops[worst].down);
   svg += fmt::format("<circle class=\"ring\" cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"7\"/>", p[0], p[1]);
@@ -134,7 +153,7 @@ std::string attitude_map(const std::vector<RankedDrop>& drops, std::size_t worst
     svg += fmt::format(
         "<rect x=\"{:.0f}\" y=\"225\" width=\"10\" height=\"10\" fill=\"{}\"/><text x=\"{:.0f}\" y=\"234\">"
         "to {}</text>",
-        x, colours[i], x + 14, significant(low.value * std::pow(ratio, static_cast<double>(i + 1)), 3));
+        x, colour_of(i), x + 14, significant(low.value * std::pow(ratio, static_cast<double>(i + 1)), 3));
   }
   return svg + fmt::format("<text x=\"8\" y=\"252\">{}</text></svg>\n", html_escaped(what));
 }

@@ -12,7 +12,7 @@
 
 namespace clatter::validation {
 
-/// The body as it comes to the floor, seen from a little above, with its probes.
+/// The body as it comes to the floor, seen from a little above, with its probes; hollow is what lies inside or behind.
 /// @param attitude  body to world, unit; centre of mass in the body's frame [m]
 [[nodiscard]] std::string body_picture(const numeric::Body& body, const Eigen::Quaterniond& attitude,
                                        const std::vector<Probe>& probes, const numeric::Vector3& centre);
@@ -26,7 +26,8 @@ struct RankedDrop {
 /// Both halves of the sphere of directions, equal areas equal (Lambert's azimuthal projection), a dot for each drop.
 /// @param worst  index of the one with a ring
 /// @param what  the dots' numbers are, with unit
-[[nodiscard]] std::string attitude_map(const std::vector<RankedDrop>& drops, std::size_t worst,
-                                       const std::string& what);
+/// @param is_least_worst  dark is the least, not the largest
+[[nodiscard]] std::string attitude_map(const std::vector<RankedDrop>& drops, std::size_t worst, const std::string& what,
+                                       bool is_least_worst);
 
 }  // namespace clatter::validation

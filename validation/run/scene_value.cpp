@@ -176,6 +176,12 @@ std::string Scene::drop_words(const KeyNames& unsettled) const {
   Phrases turns(unsettled), way(unsettled), words(unsettled);
   turns.add(turn, {"drop.angle_deg", "drop.attitude", "drop.orientation"});
   turns.add(tilt_words(*this), {"drop.tilt_deg"});
+  if (is_released()) {
+    way.add(fmt::format("at the release, {} {} m above the ground",
+                        release.clearance ? "the lowest point" : "the centre of mass",
+                        shortest(release.clearance ? *release.clearance : *release.height)),
+            {"drop.release.clearance", "drop.release.height"});
+  }
   if (request.starts_on_ground) way.add("at rest on the ground", {"drop.start"});
   else if (topple) way.add(fmt::format("toppled from {} m", shortest(*topple)), {"drop.topple"});
   else if (height) way.add(fmt::format("from {} m", shortest(*height)), {"drop.height"});
@@ -208,13 +214,20 @@ std::vector<std::string> Scene::summary(Model model, const KeyNames& unsettled) 
     springs.add(pad_words(*this), {"ground.curve", "ground.thickness", "ground.under"});
   } else {
     springs.add(fmt::format("k = {} N/m³", in_powers(ground.stiffness)), {"ground.stiffness"});
-    springs.add(fmt::format("c = {} N·s/m⁴", in_powers(ground.damping)), {"ground.damping"});
+    if (!ground_restitution) springs.add(fmt::format("c = {} N·s/m⁴", in_powers(ground.damping)), {"ground.damping"});
   }
   if (!ground.is_half_space())
     contact.add(
         after(springs.text(), fmt::format("over the {} area", area_names()[static_cast<std::size_t>(ground.area)])));
   if (half_space.floor && !ground.is_damped())
-    contact.add("undamped, e = 1 of 0 to 1: no source gives a restitution", {"ground.dissipation"});
+    contact.add("undamped, e = 1: from 0 to 1 no source gives a restitution",
+                {"ground.dissipation", "ground.restitution"});
+  else if (ground_restitution)
+    contact.add(fmt::format("e = {} in the first impact ({} {})", shortest(*ground_restitution),
+                            ground.has_dissipation() ? "dissipation" : "c =",
+                            ground.has_dissipation() ? significant(ground.dissipation, 4) + " s/m"
+                                                     : significant(ground.damping, 4) + " N·s/m⁴"),
+                {"ground.restitution"});
   else if (ground.has_dissipation())
     contact.add(fmt::format("dissipation {} s/m", in_powers(ground.dissipation)), {"ground.dissipation"});
   contact.add(sweeps_friction ? fmt::format("friction μ = {} to {}", shortest(sweep->from), shortest(sweep->to))
@@ -253,6 +266,8 @@ std::vector<std::string> scene_head(const Scene& scene, Model model, std::option
     head.insert(head.begin() + 1, body_words(scene, model));
     if (const std::string doubts = unit_doubts(body_properties(scene, model)); !doubts.empty())
       head.insert(head.begin(), doubts);
+    if (const std::string doubts = pad_doubts(scene); !doubts.empty() && is_settled("ground.thickness"))
+      head.insert(head.begin(), "!: warning: " + doubts);
   }
   if (model == Model::discrete) {
     std::string words = "impact: " + law_words(scene, approach, unsettled);

@@ -36,6 +36,7 @@ constexpr Range tilts{-180, 180, false, "from -180 to 180 degrees"};
 constexpr Range parameters{-1.01, 1.01, false, "from -1.01 to 1.01"};
 constexpr Range orientations{1, orientation_count, false, "a whole number from 1 to 26"};
 constexpr Range restitutions{0, 1, false, "from 0 to 1"};
+constexpr Range losses_allowed{0, 1, true, "greater than 0 and at most 1"};
 constexpr Range tolerances{numeric::least_tolerance, 0.1, false, "from 5e-14 to 0.1"};
 
 // Keys whose place another takes.
@@ -55,15 +56,15 @@ constexpr std::array angle_and_attitude_before_release{"drop.angle_deg", "drop.t
 constexpr std::array all_of_motion{"drop.speed",    "drop.height", "drop.clearance",       "drop.tangential_velocity",
                                    "drop.velocity", "drop.spin",   "drop.angular_velocity"};
 constexpr std::array springs{"ground.stiffness", "ground.damping"};
+constexpr std::array losses{"ground.damping", "ground.dissipation"};
 constexpr std::array springs_and_area{"ground.stiffness", "ground.damping", "ground.area"};
 constexpr std::array springs_and_half_space{"ground.stiffness", "ground.damping", "ground.modulus"};
-constexpr std::array springs_and_pad{"ground.stiffness",   "ground.damping",   "ground.area", "ground.curve",
-                                     "ground.curve_units", "ground.thickness", "ground.under"};
-constexpr std::array all_but_floor{"ground.stiffness", "ground.damping",     "ground.area",      "ground.modulus",
-                                   "ground.curve",     "ground.curve_units", "ground.thickness", "ground.under"};
+constexpr std::array all_but_floor_and_pad{"ground.stiffness", "ground.damping", "ground.area", "ground.modulus",
+                                           "ground.under"};
 constexpr std::array all_but_half_space{"ground.stiffness", "ground.damping",      "ground.area",
                                         "ground.curve",     "ground.curve_units",  "ground.thickness",
                                         "ground.under",     "ground.body_material"};
+constexpr std::array spin_of_release{"drop.release.spin"};
 constexpr std::array turn_of_plane{"drop.spin"};
 constexpr std::array parts_of_velocity{"drop.speed", "drop.height", "drop.clearance", "drop.tangential_velocity"};
 
@@ -91,12 +92,14 @@ bool has_impulse_ratio(const Scene& scene) {
 /// The discrete model has no use for keys of a ground that is not there.
 Echo of_ground(const Scene& scene, Model model) { return only_if(model == Model::continuous || scene.has_ground()); }
 Echo of_pad(const Scene& scene, Model) { return only_if(scene.world.ground.is_pad()); }
-Echo of_dissipation(const Scene& scene, Model) { return only_if(scene.world.ground.has_dissipation()); }
+Echo of_dissipation(const Scene& scene, Model) {
+  return only_if(scene.world.ground.has_dissipation() && !scene.ground_restitution);
+}
 Echo of_springs(const Scene& scene, Model model) {
-  return scene.world.ground.has_dissipation() ? Echo::absent : of_ground(scene, model);
+  return scene.world.ground.has_dissipation() || scene.ground_restitution ? Echo::absent : of_ground(scene, model);
 }
 Echo of_area(const Scene& scene, Model model) {
-  return scene.world.ground.is_half_space() ? Echo::absent : of_ground(scene, model);
+  return scene.world.ground.is_half_space() || scene.half_space.floor ? Echo::absent : of_ground(scene, model);
 }
 
 template <class Enum>
@@ -255,11 +258,19 @@ void append_motion(std::vector<Key>& keys) {
 }
 > ("[0, 0, 0]"), of_release
 }
-, {"drop.release.angular_velocity", Use::both, "--release-angular-velocity", "X,Y,Z", "rad/s",
-   "at the release, world components; without it none",
-   three_velocities < [](auto& s) -> auto& {return s.release.angular_velocity;
+,
+    {"drop.release.spin",
+     Use::both,
+     "--release-spin",
+     "RAD/S",
+     "rad/s",
+     "at the release, clockwise, as Omega in Eq. 8; without it none",
+     OptionalNumber{[](Scene& s) -> std::optional<double>& { return s.release.spin; }, velocities},
+     of_release},
+    {"drop.release.angular_velocity", Use::both, "--release-angular-velocity", "X,Y,Z", "rad/s",
+     "or all of it, world components", three_velocities < [](auto& s) -> auto& {return s.release.angular_velocity;
 }
-> ("[0, 0, 0]"), of_release
+> ("[0, 0, 0]"), of_release, false, spin_of_release
 }
 ,
     {"world.gravity",
@@ -414,10 +425,10 @@ void append_ground(std::vector<Key>& keys) {
            [](const Scene& s, Model) { return only_if(s.half_space.modulus > 0); }, false, springs_and_area},
           {"ground.floor", Use::both, "--floor", "", "",
            "or a named floor, a half-space of published numbers (clatter ground shows them) under a body of "
-           "ground.body_material",
+           "ground.body_material; with ground.curve what is under the pad where it bottoms out",
            NameValue{&floor_names(), [](const Scene& s) { return s.half_space.floor.value_or(0); },
                      [](Scene& s, std::size_t i) { s.half_space.floor = i; }},
-           [](const Scene& s, Model) { return only_if(s.half_space.floor.has_value()); }, false, all_but_floor},
+           [](const Scene& s, Model) { return only_if(s.half_space.floor.has_value()); }, false, all_but_floor_and_pad},
           {"ground.body_modulus", Use::both, "--body-modulus", "PA", "Pa",
            "E/(1 - nu^2) of the body on a half-space, whose modulus is then the ground's alone",
            OptionalNumber{[](Scene& s) -> std::optional<double>& { return s.half_space.body_modulus; },
@@ -431,12 +442,18 @@ void append_ground(std::vector<Key>& keys) {
            [](const Scene& s, Model) {
              return only_if(s.half_space.body_material || (s.half_space.floor && !s.half_space.body_modulus));
            },
-           false, springs_and_pad},
+           false, springs_and_area},
           {"ground.dissipation", Use::both, "--dissipation", "S/M", "s/m",
            "of a half-space or a pad: Hunt and Crossley's factor on its pressure, 1 + dissipation times the speed at "
            "which the depth grows",
            NumberValue{[](Scene& s) -> double& { return s.world.ground.dissipation; }, not_negative_number},
            of_dissipation, false, springs},
+          {"ground.restitution", Use::both, "--floor-restitution", "E", "",
+           "or the restitution of the first impact, from whose approach speed damping or dissipation follow (exact of "
+           "a "
+           "flat or upright landing without friction)",
+           OptionalNumber{[](Scene& s) -> std::optional<double>& { return s.ground_restitution; }, losses_allowed},
+           [](const Scene& s, Model) { return only_if(s.ground_restitution.has_value()); }, false, losses},
           {"ground.curve", Use::both, "--curve", "CURVE", "",
            "or a pad by what its data sheet has: strain (with ground.thickness) or depth, and pressure, straight "
            "between the points and from 0, 0 to the first",
@@ -457,7 +474,8 @@ void append_ground(std::vector<Key>& keys) {
            OptionalNumber{[](Scene& s) -> std::optional<double>& { return s.pad.thickness; }, positive_number}, of_pad,
            false, springs_and_half_space},
           {"ground.under", Use::both, "--under", "PA/M", "Pa/m",
-           "stiffness of the pad beyond its curve's last point, where it bottoms out; without it that before the point",
+           "stiffness of the pad beyond its curve's last point, where it bottoms out; without it or ground.floor that "
+           "before the point",
            OptionalNumber{[](Scene& s) -> std::optional<double>& { return s.pad.under; }, positive_number}, of_pad,
            false, springs_and_half_space},
           {"ground.static_friction", Use::both, "--static-friction", "MU", "",

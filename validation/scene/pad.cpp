@@ -10,6 +10,8 @@
 #include "validation/output/number.hpp"
 #include "validation/output/numeric_table.hpp"
 #include "validation/output/text_rows.hpp"
+#include "validation/scene/body_properties.hpp"
+#include "validation/scene/floors.hpp"
 
 namespace clatter::validation {
 namespace {
@@ -89,7 +91,7 @@ class GivenCurve {
     if (x.size() != 1 || pressure.size() != 1)
       rows_->refuse(fmt::format(
           "columns {}: one must have a unit of strain or depth and one a unit of pressure in the header, as in strain "
-          "[%], stress [kPa]; or a file of two columns takes {}",
+          "[%], stress [kPa]; or say the units of two columns: --curve-units %,kPa, {} in a file",
           rows_->names(), units_key));
     for (std::size_t i = 0; i < rows_->count(); ++i)
       points_.push_back({rows_->number(i, x[0]), rows_->number(i, pressure[0])});
@@ -121,6 +123,9 @@ void check_curve(const GivenCurve& curve, const std::optional<double>& thickness
   }
 }
 
+/// What the curve's x is in m.
+double depth_unit(const PadScene& pad) { return pad.units == strain_curve ? *pad.thickness : 1; }
+
 }  // namespace
 
 void read_pad(const SceneValues& values, PadScene& pad) {
@@ -131,9 +136,17 @@ void read_pad(const SceneValues& values, PadScene& pad) {
   pad.units = curve.is_strain() ? strain_curve : "m,Pa";
 }
 
-void settle_pad(const PadScene& pad, numeric::Ground& ground) {
+double pad_left(const PadScene& pad) {
+  return pad.thickness ? *pad.thickness - pad.curve.back()[0] * depth_unit(pad) : std::nan("");
+}
+
+std::optional<double> stiffness_under(const PadScene& pad, const HalfSpaceScene& floor) {
+  return floor.floor ? reduced_modulus(floor).middle / pad_left(pad) : pad.under;
+}
+
+void settle_pad(const PadScene& pad, const HalfSpaceScene& floor, numeric::Ground& ground) {
   if (pad.curve.empty()) return;
-  const double unit = pad.units == strain_curve ? *pad.thickness : 1;
+  const double unit = depth_unit(pad);
   double depth = 0, pressure = 0, slope = 0;
   const auto turn_to = [&](double next) {
     if (depth == 0) ground.stiffness = next;
@@ -149,18 +162,28 @@ void settle_pad(const PadScene& pad, numeric::Ground& ground) {
     depth = x * unit;
     pressure = p;
   }
-  if (pad.under) turn_to(*pad.under);
+  if (const std::optional<double> under = stiffness_under(pad, floor)) turn_to(*under);
   if (ground.kinks.empty() || ground.kinks.back().depth < depth) ground.kinks.push_back({depth, 0});
 }
 
 std::string pad_words(const Scene& scene) {
   const PadScene& pad = scene.pad;
+  const std::optional<std::size_t> floor = scene.half_space.floor;
   const double end = scene.world.ground.kinks.back().depth;
-  return fmt::format("pad{}{}, {} points up to {} m and {} Pa ({} beyond),",
+  const std::optional<double> under = stiffness_under(pad, scene.half_space);
+  return fmt::format("pad{}{}, {} points up to {} m and {} Pa ({} beyond{}),",
                      pad.thickness ? fmt::format(" {} m thick", shortest(*pad.thickness)) : "",
                      pad.file.empty() ? "" : " by " + pad.file, pad.curve.size(), significant(end, 4),
-                     shortest(pad.curve.back()[1]),
-                     pad.under ? fmt::format("{} Pa/m", shortest(*pad.under)) : "its last slope");
+                     shortest(pad.curve.back()[1]), under ? fmt::format("{:.4g} Pa/m", *under) : "its last slope",
+                     floor ? ", by " + floor_names()[*floor] + " below" : "");
+}
+
+std::string pad_doubts(const Scene& scene) {
+  if (!scene.world.ground.is_pad() || !scene.pad.thickness) return "";
+  const double extent = body_properties(scene, Model::continuous).extents.maxCoeff();
+  if (!(*scene.pad.thickness > extent)) return "";
+  return fmt::format("a pad {} m thick under a body of {} m: lengths are in m; were mm meant?",
+                     shortest(*scene.pad.thickness), significant(extent, 3));
 }
 
 std::string pad_warning(const Scene& scene, double depth) {
@@ -171,9 +194,10 @@ std::string pad_warning(const Scene& scene, double depth) {
   return fmt::format("{} m, beyond the last point of its curve, {} m{}: {}", significant(depth, 3),
                      significant(ground.kinks.back().depth, 3),
                      is_through ? fmt::format(", and further than it is thick, {} m", shortest(*pad.thickness)) : "",
-                     pad.under
-                         ? "peaks are those of ground.under"
-                         : "peaks are those of its last slope, where a pad bottoms out; ground.under says on what");
+                     scene.half_space.floor ? "peaks are those of its rest on ground.floor"
+                     : pad.under            ? "peaks are those of ground.under"
+                                            : "peaks are those of its last slope, where a pad bottoms out; --floor "
+                                              "NAME or --under PA/M (ground.under) says on what");
 }
 
 }  // namespace clatter::validation

@@ -5,11 +5,13 @@
 
 #include <algorithm>
 #include <cctype>
+#include <set>
 #include <sstream>
 
 #include "validation/output/bad_input.hpp"
 #include "validation/output/number.hpp"
 #include "validation/scene/body_properties.hpp"
+#include "validation/scene/pad.hpp"
 
 namespace clatter::validation {
 namespace {
@@ -85,7 +87,7 @@ std::vector<numeric::Vector3> places_from(const numeric::Vector3& centre, const 
 
 std::string probe_doubts(const Scene& scene, const std::vector<Probe>& probes) {
   constexpr double rounding = 1e-9;
-  if (scene.body.is_polyhedron()) return "";  // in its file's frame
+  if (probes.empty() || scene.body.is_polyhedron()) return "";  // the latter's are in its file's frame
   const numeric::Vector3 extents = body_properties(scene, Model::continuous).extents;
   std::string names;
   for (const Probe& probe : probes) {
@@ -96,6 +98,29 @@ std::string probe_doubts(const Scene& scene, const std::vector<Probe>& probes) {
              ? ""
              : fmt::format("!: warning: {}: outside of the body; places are in m, from its middle; were mm meant?",
                            names);
+}
+
+std::vector<std::string> doubts_of(const Scene& scene, Model model, const std::vector<Probe>& probes) {
+  const std::string mark = "!: warning: ";
+  std::vector<std::string> doubts{unit_doubts(body_properties(scene, model)), pad_doubts(scene),
+                                  probe_doubts(scene, probes)};
+  std::erase(doubts, "");
+  for (std::string& doubt : doubts) {
+    if (doubt.starts_with(mark)) doubt.erase(0, mark.size());
+  }
+  return doubts;
+}
+
+std::string discrete_restitution_words(const Scene& scene) {
+  return fmt::format("--restitution {0} is the discrete model's alone: the ground's own is --floor-restitution {0}",
+                     shortest(*scene.impact.restitution));
+}
+
+void say_doubts(const Scene& scene, Model model, const std::vector<Probe>& probes) {
+  static std::set<std::string> asked;  // a scene is read more than once
+  for (const std::string& doubt : doubts_of(scene, model, probes)) {
+    if (asked.insert(doubt).second) say("warning: " + doubt);
+  }
 }
 
 Value probe_fields(const std::vector<Probe>& probes) {

@@ -38,7 +38,16 @@ struct Probe {
 /// A question about probes outside of the box about the body, "were mm meant?"; empty: there are none.
 [[nodiscard]] std::string probe_doubts(const Scene& scene, const std::vector<Probe>& probes);
 
+/// What is doubtful of sizes, masses, the pad and the probes of a scene, each a question; empty: nothing.
+[[nodiscard]] std::vector<std::string> doubts_of(const Scene& scene, Model model,
+                                                 const std::vector<Probe>& probes = {});
+/// Says them on stderr, each once.
+void say_doubts(const Scene& scene, Model model, const std::vector<Probe>& probes = {});
+
 /// As the JSON echo has them.
 [[nodiscard]] Value probe_fields(const std::vector<Probe>& probes);
+
+/// That impact.restitution, which the scene has, says nothing of a ground that yields.
+[[nodiscard]] std::string discrete_restitution_words(const Scene& scene);
 
 }  // namespace clatter::validation

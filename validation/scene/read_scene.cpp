@@ -186,26 +186,28 @@ void check_body(const SceneValues& values, BodyScene& body) {
 
 void check_ground(const SceneValues& values, Scene& scene, Model model) {
   numeric::Ground& ground = scene.world.ground;
-  const bool is_half_space = values.has("ground.modulus") || values.has("ground.floor"),
-             is_pad = values.has("ground.curve");
+  const bool is_pad = values.has("ground.curve"), has_floor = values.has("ground.floor"),
+             is_half_space = !is_pad && (values.has("ground.modulus") || has_floor);
   const bool is_springs = !is_half_space && !is_pad;
-  if (!is_half_space)
+  if (!is_half_space && !has_floor)
     only_for(values, {"ground.body_modulus", "ground.body_material"}, "a ground with a modulus or a floor");
   if (!is_pad) only_for(values, {"ground.curve_units", "ground.thickness", "ground.under"}, "a pad with a curve");
   if (model == Model::continuous && is_springs)
     values.require("ground.stiffness",
                    "k_G in N/m3, such as 1e11, which clatter ground finds; or ground.modulus of an elastic half-space, "
                    "ground.floor by name, or ground.curve of a pad");
-  settle_half_space(scene.half_space, ground);
+  if (is_half_space) settle_half_space(scene.half_space, ground);
   if (!values.has("ground.stiffness") && is_springs) {
-    only_for(values, {"ground.damping", "ground.static_friction", "ground.sliding_friction"},
+    only_for(values, {"ground.damping", "ground.restitution", "ground.static_friction", "ground.sliding_friction"},
              "a ground with a stiffness");
   }
   if (is_springs) only_for(values, {"ground.dissipation"}, "a ground with a modulus or a curve");
   else if (is_half_space || !values.has("ground.area")) ground.area = numeric::AreaMeasure::projected;
   if (is_pad) {
     read_pad(values, scene.pad);
-    settle_pad(scene.pad, ground);
+    if (has_floor && !(pad_left(scene.pad) > 0))
+      values.refuse("ground.floor", "left out under a pad without ground.thickness beyond its curve");
+    settle_pad(scene.pad, scene.half_space, ground);
   }
   // One coefficient given is both.
   if (!values.has("ground.sliding_friction")) ground.sliding_friction = ground.static_friction;
@@ -262,6 +264,8 @@ void check_start(const SceneValues& values, const Scene& scene, Model model) {
   for (const char* const motion : motions_before_touch) {
     if (values.has(motion)) values.refuse(motion, "left out with drop.start = \"rest\"");
   }
+  if (values.has("ground.restitution"))
+    values.refuse("ground.restitution", "left out with drop.start = \"rest\", where no first impact has it");
   if (!(scene.world.gravity > 0)) values.refuse("drop.start", "\"touch\" where world.gravity is 0");
   if (!scene.velocity.empty() && scene.velocity[2] != 0)
     values.refuse("drop.velocity", "along the ground with drop.start = \"rest\"");
@@ -274,13 +278,16 @@ void check_drop(const SceneValues& values, Scene& scene) {
     const char* const key = scene.release.attitude.empty() ? "drop.attitude" : "drop.release.attitude";
     if (!is_attitude(scene.attitude)) values.refuse(key, key_named(key).allowed());
   } else if (!swept && !scene.topple && !scene.release.angle_deg && scene.body.shape != BodyScene::Shape::sphere) {
+    if (scene.is_released() && !values.has("drop.angle_deg"))
+      values.require("drop.release.angle_deg",
+                     "the inclination at the release, or an attitude, --orientation of a box");
     values.require("drop.angle_deg", "the inclination at the first impact, or drop.attitude");
   }
   if (!scene.is_released()) {
-    only_for(
-        values,
-        {"drop.release.angle_deg", "drop.release.attitude", "drop.release.velocity", "drop.release.angular_velocity"},
-        "a drop with drop.release.height or drop.release.clearance");
+    only_for(values,
+             {"drop.release.angle_deg", "drop.release.attitude", "drop.release.velocity", "drop.release.spin",
+              "drop.release.angular_velocity"},
+             "a drop with drop.release.height or drop.release.clearance");
   }
   for (const char* key : falls_from) {
     if (!values.has(key)) continue;
@@ -339,6 +346,8 @@ Scene read_values(SceneValues values, const std::vector<SceneOverride>& override
   for (const Alternative& pair : alternatives()) refuse_both(overrides, pair.instead_of, pair.key);
   refuse_both(overrides, "run.tolerance", "run.step");
   make_room_for_law(values, overrides);
+  const auto is_curve = [](const SceneOverride& flag) { return flag.key == "ground.curve"; };
+  if (std::ranges::any_of(overrides, is_curve) && values.has("ground.modulus")) values.drop("ground.body_material");
   for (const SceneOverride& flag : overrides) {
     for (const Alternative& pair : alternatives()) {
       if (flag.key == pair.key) values.drop(pair.instead_of);
@@ -370,6 +379,7 @@ Scene read_values(SceneValues values, const std::vector<SceneOverride>& override
     scene.request.until = *scene.until;
     if (model == Model::continuous) scene.request.impacts = scene.most_impacts();
   }
+  scene.settle_restitution();
   std::ranges::sort(scene.times);
   if (!scene.times.empty() && scene.times.front() < 0 && !scene.is_released())
     values.refuse("run.at", "times from 0 on: the motion begins with the first impact where there is no drop.release");
@@ -394,6 +404,7 @@ void Scene::settle() {
     const auto or_none = [](const std::vector<double>& v) { return v.empty() ? std::vector<double>(3, 0.0) : v; };
     velocity = or_none(release.velocity);
     angular_velocity = or_none(release.angular_velocity);
+    if (release.spin) angular_velocity[1] = *release.spin;
     if (release.angle_deg) angle_deg = std::remainder(*release.angle_deg, 360);
     if (!release.attitude.empty()) attitude = release.attitude;
   }
@@ -406,8 +417,8 @@ void Scene::settle() {
     attitude = orientation_attitude(number, body.size);
   }
   if (!attitude.empty()) angle_deg = inclination_of(attitude);
-  settle_half_space(half_space, world.ground);
-  if (has_ground()) settle_pad(pad, world.ground);  // else it is not read yet
+  if (pad.curve.empty() && pad.file.empty()) settle_half_space(half_space, world.ground);
+  else if (has_ground()) settle_pad(pad, half_space, world.ground);  // else it is not read yet
   if (!topple) return;
   const TouchMotion touch = toppled(*this);
   velocity.assign(touch.velocity.begin(), touch.velocity.end());

@@ -19,6 +19,7 @@ Scene Scene::at(double value) const {
   if (sweep->quantity == SceneSweep::Quantity::angle_deg) one.angle_deg = value;
   else one.world.ground.static_friction = one.world.ground.sliding_friction = value;
   one.sweep.reset();
+  one.settle_restitution();
   return one;
 }
 

@@ -138,7 +138,8 @@ struct Release {
   std::optional<double> angle_deg;       ///< turn about −y, of any size [°]
   std::vector<double> attitude;          ///< Euler parameters, instead; empty, without an angle too: that of the drop
   std::vector<double> velocity;          ///< of the centre of mass, world [m/s]; empty: none
-  std::vector<double> angular_velocity;  ///< world components [rad/s]; empty: none
+  std::optional<double> spin;            ///< about y, as Ω in Eq. 8 [rad/s]
+  std::vector<double> angular_velocity;  ///< instead, world components [rad/s]; empty: none
 };
 
 /// Names of keys of which nothing is to be said, since their values are not those of every scene of a sweep.
@@ -163,10 +164,11 @@ struct Scene {
   Release release;  ///< with a height or clearance: attitude and velocities are those at release, by settle()
   DiscreteImpact impact;
   BodyScene body;
-  numeric::World world;       ///< a ground of stiffness 0: none given, for the discrete model
-  PadScene pad;               ///< what a ground with kinks was made of
-  HalfSpaceScene half_space;  ///< what a ground with a modulus was made of
-  numeric::Request request;   ///< with starts_on_ground the body lies still there, but for what drags and turns it
+  numeric::World world;                      ///< a ground of stiffness 0: none given, for the discrete model
+  PadScene pad;                              ///< what a ground with kinks was made of
+  HalfSpaceScene half_space;                 ///< what a ground with a modulus was made of
+  std::optional<double> ground_restitution;  ///< at the first approach, which gives the ground's damping
+  numeric::Request request;  ///< with starts_on_ground the body lies still there, but for what drags and turns it
   numeric::Accuracy accuracy;
   bool until_rest = false;      ///< the discrete model goes on until nothing follows, whatever request.impacts is
   std::optional<double> until;  ///< no impact after this time since the first is followed [s]
@@ -192,6 +194,11 @@ struct Scene {
   /// `release`, and the ground from half-space or pad, where they are given.
   /// @throws BadInput if the orientation is no whole number, or the body no box; as toppled().
   void settle();
+  /// Gives the ground the damping c_G, or a half-space or pad the dissipation τ, with which a contact that approaches
+  /// as fast as the first one has `ground_restitution`:  s(e) = τ v  (viscoelastic.hpp).  Nothing without that or a
+  /// ground.
+  /// @throws as start()
+  void settle_restitution();
   /// Body → world; unit.  Here and in the velocities: at the release, where there is one.
   [[nodiscard]] Eigen::Quaterniond touch_attitude() const;
   /// The velocity of the centre of mass at the first touch, world [m/s]; with `height`, not with `clearance`, the speed

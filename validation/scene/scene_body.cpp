@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <numbers>
 
+#include "analytic/law/viscoelastic.hpp"
 #include "numeric/equilibrium.hpp"
 #include "numeric/motion/free_flight.hpp"
 #include "validation/output/bad_input.hpp"
@@ -111,6 +112,16 @@ numeric::MotionState Scene::start(const numeric::Body& dropped, double* fall) co
                     end_name(first.end)));
   }
   return state;
+}
+
+void Scene::settle_restitution() {
+  if (!ground_restitution || !has_ground()) return;
+  const numeric::Body dropped = make_body();
+  const double approach = numeric::first_touch(dropped, start(dropped)).approach_speed;
+  numeric::Ground& ground = world.ground;
+  const double dissipation = analytic::damping_of_restitution(*ground_restitution) / approach;
+  if (ground.has_dissipation()) ground.dissipation = dissipation;
+  else ground.damping = dissipation * ground.stiffness;
 }
 
 TouchMotion toppled(const Scene& scene) {

@@ -76,6 +76,15 @@ std::optional<std::vector<std::array<double, 2>>> pairs_of(const toml::array& li
   return pairs;
 }
 
+/// What is allowed, with a list as a file has it, "[1, 2, 3]", written as a flag takes it: "1,2,3".
+std::string as_flag(std::string words) {
+  const std::size_t begin = words.find('['), end = words.find(']', begin);
+  if (begin == std::string::npos || end == std::string::npos) return words;
+  std::string list = words.substr(begin + 1, end - begin - 1);
+  std::erase(list, ' ');
+  return words.replace(begin, end + 1 - begin, list);
+}
+
 }  // namespace
 
 /// Flattens the tables of a file.
@@ -326,13 +335,15 @@ std::vector<double> SceneValues::numbers(const std::string& key, const std::vect
     std::istringstream parts(text + "x");  // so that an empty last part counts
     for (std::string part; std::getline(parts, part, 'x');) {
       double value = 0;
-      numbers.push_back(read_number(part, value) ? value : std::nan(""));
+      const std::size_t begin = std::min(part.find_first_not_of(' '), part.size());
+      numbers.push_back(read_number(part.substr(begin, part.find_last_not_of(' ') + 1 - begin), value) ? value
+                                                                                                       : std::nan(""));
     }
   }
   const bool has_size = std::find(sizes.begin(), sizes.end(), numbers.size()) != sizes.end();
   const bool right = (sizes.empty() ? !numbers.empty() : has_size) &&
                      std::all_of(numbers.begin(), numbers.end(), [&](double value) { return range.holds(value); });
-  if (!right) refuse(key, words);
+  if (!right) refuse(key, entry.is_flag ? as_flag(words) : words);
   return numbers;
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "validation/shock/damage_boundary.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -41,6 +43,11 @@ double pulse_response(PulseShape shape, double turns) {
 }
 
 DamageBoundary damage_boundary(const FragilePart& part, PulseShape shape) {
+  if (part.kind != FragilePart::Kind::oscillator) {
+    const double velocity =
+        part.kind == FragilePart::Kind::tested ? TestPulse{part.fragility, part.duration}.velocity() : 0;
+    return {velocity, part.fragility, velocity};
+  }
   const double velocity = part.fragility / (2 * pi * part.frequency);
   const bool rectangle = shape == PulseShape::rectangle;
   const double acceleration = part.fragility / (rectangle ? 2 : half_sine_largest);
@@ -49,8 +56,34 @@ DamageBoundary damage_boundary(const FragilePart& part, PulseShape shape) {
 }
 
 double margin(const FragilePart& part, PulseShape shape, double velocity, double acceleration) {
+  if (part.kind != FragilePart::Kind::oscillator) {
+    const DamageBoundary boundary = damage_boundary(part, shape);
+    return std::fmax(boundary.critical_velocity / velocity, boundary.critical_acceleration / acceleration);
+  }
   const double duration = velocity / (pulse_area(shape) * acceleration);
   return part.fragility / (acceleration * pulse_response(shape, part.frequency * duration));
+}
+
+BlowMargin blow_margin(const FragilePart& part, double velocity, double acceleration) {
+  const double rectangle = margin(part, PulseShape::rectangle, velocity, acceleration),
+               half_sine = margin(part, PulseShape::half_sine, velocity, acceleration);
+  const PulseShape shape = half_sine < rectangle ? PulseShape::half_sine : PulseShape::rectangle;
+  const DamageBoundary boundary = damage_boundary(part, shape);
+  // Left of the boundary's corner, on the ray of pulses of one duration, a part answers to the change of velocity.
+  const bool by_velocity = velocity / acceleration < boundary.corner_velocity / boundary.critical_acceleration;
+  return {std::fmin(rectangle, half_sine), by_velocity};
+}
+
+double velocity_margin(const FragilePart& part, double velocity) {
+  return damage_boundary(part, PulseShape::rectangle).critical_velocity / velocity;
+}
+
+std::string words_of(const FragilePart& part) {
+  const std::string peak = fmt::format("{:.6g}", part.fragility / standard_gravity);
+  if (part.kind == FragilePart::Kind::at_place) return fmt::format("a part that bears {} g at its place", peak);
+  if (part.kind == FragilePart::Kind::tested)
+    return fmt::format("a part that bore a half sine of {} g and {:.6g} ms", peak, 1e3 * part.duration);
+  return fmt::format("a part of {:.6g} Hz that bears {} g", part.frequency, peak);
 }
 
 double TestPulse::velocity() const { return pulse_area(PulseShape::half_sine) * acceleration * duration; }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <string>
 
 namespace clatter::validation {
 
@@ -17,22 +18,45 @@ enum class PulseShape { rectangle, half_sine };
 /// Accuracy: 1e-14, of the half sine 1e-9 about f T = 1/2.  Source: closed forms of the equation of motion.
 [[nodiscard]] double pulse_response(PulseShape shape, double frequency_times_duration);
 
-/// A part on an undamped mount, that fails when its acceleration reaches its fragility.
+/// What a part bears, in the terms that are known of it.
 struct FragilePart {
-  double frequency = 0;  ///< natural [Hz], > 0
+  enum class Kind {
+    oscillator,  ///< on an undamped mount of its natural frequency it fails at its fragility
+    at_place,    ///< it fails where its place has its fragility as peak
+    tested       ///< it bore a half sine of its fragility as peak and of its duration
+  };
+  double frequency = 0;  ///< natural [Hz], > 0; of an oscillator alone
   double fragility = 0;  ///< A_s [m/s²], > 0
+  double duration = 0;   ///< of the tested half sine [s], > 0
+  Kind kind = Kind::oscillator;
 };
 
 /// The damage boundary of ASTM D3332 in the plane of a pulse's change of velocity V and its peak A: a part fails to
-/// the right of V_c and above A_c.
+/// the right of V_c and above A_c.  Two tests of a shock machine give the two lines there; where one tested half sine
+/// is all that is known, its own change of velocity and peak stand for them.
 struct DamageBoundary {
-  double critical_velocity = 0;      ///< V_c = A_s/ω, below which no peak fails it [m/s]
+  double critical_velocity = 0;      ///< V_c = A_s/ω, of a tested pulse 2 A T/π, below which no peak fails it [m/s]
   double critical_acceleration = 0;  ///< A_c = A_s over the largest response, below which no V fails it [m/s²]
   double corner_velocity = 0;        ///< from which A_c holds; rectangle: (π/2) V_c [m/s]
 };
+/// A part known by a tested pulse or at its place has one boundary for both shapes: A_c = A_s, and V_c = 0 at its
+/// place.
 [[nodiscard]] DamageBoundary damage_boundary(const FragilePart& part, PulseShape shape);
-/// A_s over the part's acceleration under the pulse of this change of velocity and peak: at most 1, it fails.
+/// At most 1, it fails: A_s over the part's acceleration under the pulse of this change of velocity and peak; of a part
+/// without a natural frequency the larger of V_c/V and A_c/A.
 [[nodiscard]] double margin(const FragilePart& part, PulseShape shape, double velocity, double acceleration);
+
+/// The margin of a blow whose shape is not known: the smaller of rectangle and half sine.
+struct BlowMargin {
+  double value = 0;
+  bool by_velocity = false;  ///< whether the change of velocity decides it, else the peak
+};
+[[nodiscard]] BlowMargin blow_margin(const FragilePart& part, double velocity, double acceleration);
+/// V_c/V, the margin whatever the peak is, which is less than any other.  Domain: no part at its place.
+[[nodiscard]] double velocity_margin(const FragilePart& part, double velocity);
+
+/// "a part of 500 Hz that bears 300 g".
+[[nodiscard]] std::string words_of(const FragilePart& part);
 
 /// A half sine of a shock machine.
 struct TestPulse {

@@ -73,6 +73,7 @@ int run_shock_command(const ShockCommandInput& input) {
   const std::vector<Probe> probes = probes_of(input);
   if (probes.empty())
     throw BadInput("--probe: required, a point of the body as NAME:X,Y,Z in m, or [[probe]] in the scene file");
+  say_doubts(scene, model_of(input), probes);
   const ShockRequest request = request_of(input);
   const OutputChoice& choice = input.output;
   const ShockView view = view_of(input);

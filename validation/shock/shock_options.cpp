@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cctype>
 #include <limits>
 #include <sstream>
 
@@ -32,16 +34,66 @@ void read_frequencies(const std::string& option, const std::string& text, ShockR
   if (!(request.high > request.low)) throw BadInput(fmt::format("{} {}: HIGH must be greater than LOW", option, text));
 }
 
-/// "HZ:G"
-std::array<double, 2> read_part(const std::string& option, const std::string& text) {
-  const std::size_t colon = text.find(':');
-  if (colon == std::string::npos)
-    throw BadInput(fmt::format("{} {}: must be HZ:G, natural frequency and fragility, as in 200:150", option, text));
-  return {read_number_option(option, text.substr(0, colon), {1e-6, 1e9, false, "from 1e-6 to 1e9 Hz"}),
-          read_number_option(option, text.substr(colon + 1), {1e-6, 1e9, false, "from 1e-6 to 1e9 g"})};
+/// A number and the unit behind it: "500", "0.5 kHz".
+struct Measured {
+  std::string number, unit;
+};
+Measured parted(std::string text) {
+  std::erase(text, ' ');
+  // An exponent's e stands before digits, a unit's letters before none.
+  std::size_t end = text.size();
+  while (end > 0 && std::isalpha(static_cast<unsigned char>(text[end - 1]))) --end;
+  std::string unit = text.substr(end);
+  std::ranges::transform(unit, unit.begin(), [](unsigned char c) { return std::tolower(c); });
+  return {text.substr(0, end), unit};
 }
 
+constexpr const char* part_forms =
+    "must be HZ:G, natural frequency and fragility, as 500:300 or 500Hz:300g; or G alone, the peak that it bears at "
+    "its "
+    "place, as 300g; or a half sine that it bore, with its units, as 40g:11ms";
+
 }  // namespace
+
+FragilePart read_part(const std::string& option, const std::string& text) {
+  const auto number = [&](const Measured& given) {
+    return read_number_option(option, given.number, {1e-6, 1e9, false, "from 1e-6 to 1e9"});
+  };
+  const auto is_one_of = [](const std::string& unit, std::initializer_list<const char*> units) {
+    return std::ranges::any_of(units, [&](const char* one) { return unit == one; });
+  };
+  const std::size_t colon = text.find(':');
+  const Measured first = parted(text.substr(0, colon)),
+                 second = colon == std::string::npos ? Measured{} : parted(text.substr(colon + 1));
+  if (colon == std::string::npos && is_one_of(first.unit, {"", "g"}))
+    return {.fragility = number(first) * standard_gravity, .kind = FragilePart::Kind::at_place};
+  if (colon != std::string::npos && first.unit == "g" && is_one_of(second.unit, {"ms", "s", "us"})) {
+    const double unit = second.unit == "ms" ? 1e-3 : second.unit == "us" ? 1e-6 : 1;
+    return {.fragility = number(first) * standard_gravity,
+            .duration = number(second) * unit,
+            .kind = FragilePart::Kind::tested};
+  }
+  if (colon != std::string::npos && is_one_of(first.unit, {"", "hz", "khz"}) && is_one_of(second.unit, {"", "g"})) {
+    return {.frequency = number(first) * (first.unit == "khz" ? 1e3 : 1),
+            .fragility = number(second) * standard_gravity};
+  }
+  throw BadInput(fmt::format("{} {}: {}", option, text, part_forms));
+}
+
+std::string part_text(const FragilePart& part) {
+  const std::string peak = fmt::format("{:.9g}", part.fragility / standard_gravity);
+  if (part.kind == FragilePart::Kind::at_place) return peak + "g";
+  if (part.kind == FragilePart::Kind::tested) return fmt::format("{}g:{:.9g}ms", peak, 1e3 * part.duration);
+  return fmt::format("{:.9g}:{}", part.frequency, peak);
+}
+
+Argument part_argument(std::optional<FragilePart>& part, const std::string& help, const std::string& group) {
+  return read_argument("--part", part, read_part, "HZ:G|G|G:MS",
+                       "what the part at the probe bears: natural frequency and fragility (500:300, 500Hz:300g), its "
+                       "place's peak alone (300g), or a half sine that it bore (40g:11ms): " +
+                           help,
+                       group);
+}
 
 Model model_of(const ShockInput& input) {
   if (input.model) return *input.model;
@@ -52,6 +104,7 @@ Scene shock_scene(const ShockInput& input) {
   SceneFlags flags = input.scene;
   flags.model = model_of(input);
   const Scene scene = flags.model == Model::discrete ? read_discrete_flags(flags).scene : read_scene_flags(flags);
+  if (flags.model == Model::continuous) warn_of_restitution(flags, scene);
   if (scene.sweep)
     throw BadInput(fmt::format("{}: sweep: must be left out here, the scene sweeps nothing", scene.path));
   require_level(scene, "shock and report");
@@ -75,7 +128,7 @@ ShockRequest request_of(const ShockInput& input) {
 ShockView shown_of(const ShockInput& input) {
   ShockView view = input.view;
   view.rows = input.rows.value_or(view.rows);
-  if (input.part) view.part = FragilePart{(*input.part)[0], (*input.part)[1] * standard_gravity};
+  view.part = input.part;
   return view;
 }
 
@@ -86,6 +139,8 @@ ShockView view_of(const ShockInput& input) {
     if (model_of(input) == Model::discrete)
       throw BadInput("--rate: needs forces, which the continuous model has: a scene with a ground");
   }
+  if (view.part && view.part->kind == FragilePart::Kind::at_place && model_of(input) == Model::discrete)
+    throw BadInput("--part G: needs peaks, which the continuous model has: a scene with a ground");
   if (view.rows == ShockRows::pulses && model_of(input) == Model::discrete)
     throw BadInput("--rows pulse: needs peaks, which the continuous model has: a scene with a ground");
   return view;
@@ -114,8 +169,7 @@ void add_shock_options(Command& command, ShockInput& input) {
       whole_argument("--first", request.first, 1, 1'000'000, "N", "so many impacts are the first ones (2)", "Shock"));
   command.add(number_argument("--severity", input.view.severity, positive_number, "M/S",
                               "a pseudo-velocity to compare with", "Shock"));
-  command.add(read_argument("--part", input.part, read_part, "HZ:G",
-                            "natural frequency and fragility of a part: its damage boundary, ASTM D3332", "Shock"));
+  command.add(part_argument(input.part, "its damage boundary, ASTM D3332", "Shock"));
   command.add_flag("--no-sensitivity", input.no_sensitivity, "leave out the four runs that it takes", "Shock");
 }
 

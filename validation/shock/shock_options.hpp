@@ -2,7 +2,6 @@
 // The options of commands that look at points of the body: `shock` and `report`.
 #pragma once
 
-#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -21,9 +20,9 @@ struct ShockInput {
   std::vector<std::string> probes;
   std::optional<Model> model;  ///< else the continuous one where the scene has a ground
   std::optional<ShockRows> rows;
-  std::optional<std::array<double, 2>> part;  ///< natural frequency [Hz] and fragility [g]
-  ShockRequest request;                       ///< what of it does not follow from the model
-  ShockView view;                             ///< severity and rate
+  std::optional<FragilePart> part;
+  ShockRequest request;  ///< what of it does not follow from the model
+  ShockView view;        ///< severity and rate
   bool no_sensitivity = false;
 };
 
@@ -40,6 +39,13 @@ void add_shock_options(Command& command, ShockInput& input);
 [[nodiscard]] ShockView shown_of(const ShockInput& input);
 /// The same of a drop.  @throws BadInput for rows that its model does not have
 [[nodiscard]] ShockView view_of(const ShockInput& input);
+/// "HZ:G", "G" or "G:MS", the last with its units, the others with them or not.  @throws BadInput for anything else
+[[nodiscard]] FragilePart read_part(const std::string& option, const std::string& text);
+/// What to type for it.
+[[nodiscard]] std::string part_text(const FragilePart& part);
+/// --part.  @param help  what it is for
+[[nodiscard]] Argument part_argument(std::optional<FragilePart>& part, const std::string& help,
+                                     const std::string& group);
 /// Exit status of a run, as that of simulate or of sequence; says why it is not 0.
 [[nodiscard]] int status_of(const Scene& scene, const ShockRun& run);
 

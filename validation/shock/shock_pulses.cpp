@@ -27,6 +27,16 @@ std::vector<std::pair<double, double>> boundary_points(const FragilePart& part, 
   constexpr int count = 160;
   constexpr double shortest_turns = 0.01;
   const DamageBoundary boundary = damage_boundary(part, shape);
+  const double critical_peak = boundary.critical_acceleration / standard_gravity;
+  if (part.kind != FragilePart::Kind::oscillator) {  // two lines; the upright one as high as blows are
+    constexpr double high = 1e3;
+    std::vector<std::pair<double, double>> lines{{std::max(last, 2 * boundary.critical_velocity), critical_peak}};
+    if (boundary.critical_velocity > 0)
+      lines.insert(lines.begin(),
+                   {{boundary.critical_velocity, high * critical_peak}, {boundary.critical_velocity, critical_peak}});
+    else lines.insert(lines.begin(), {last * 1e-3, critical_peak});
+    return lines;
+  }
   const double turns_at_largest =
       part.frequency * boundary.corner_velocity / (pulse_area(shape) * boundary.critical_acceleration);
   std::vector<std::pair<double, double>> points;
@@ -35,7 +45,7 @@ std::vector<std::pair<double, double>> boundary_points(const FragilePart& part, 
     const double peak = part.fragility / pulse_response(shape, turns);
     points.emplace_back(pulse_area(shape) * peak * turns / part.frequency, peak / standard_gravity);
   }
-  points.emplace_back(std::max(last, 2 * boundary.corner_velocity), boundary.critical_acceleration / standard_gravity);
+  points.emplace_back(std::max(last, 2 * boundary.corner_velocity), critical_peak);
   return points;
 }
 
@@ -50,8 +60,9 @@ std::vector<Column> pulse_columns() {
       {"pulse_duration", "T", "s", "of the half sine with this change of velocity and peak: π |ΔV|/(2 peak)"},
       {"height_without_rebound", "h, e = 0", "m", "of fall with this change of velocity if the body did not rebound"},
       {"height", "h", "m", "of fall with this change of velocity and the impact's own restitution"},
-      word_column("condition", "B110",
-                  "mildest service condition of JESD22-B110B, H, G, B, F, A, E, D or C, that covers both; or -"),
+      word_column(
+          "condition", "B110",
+          "mildest service condition of JESD22-B110B, H, G, B, F, A, E, D or C, that covers both; -: harder than any"),
       {"margin_rectangle", "rectangle", "",
        "fragility over the part's acceleration under a rectangle of this |ΔV| and "
        "peak: at most 1, it fails"},
@@ -115,12 +126,19 @@ std::vector<Pulse> pulses_of(const ShockRun& run) {
 
 std::vector<std::string> pulse_notes(const std::optional<FragilePart>& part) {
   std::vector<std::string> notes;
-  if (part) {
-    std::string words = fmt::format(
-        "damage boundary (ASTM D3332) of a part of {} Hz that bears {} g, undamped: V_c = {} "
-        "m/s",
-        shortest(part->frequency), significant(part->fragility / standard_gravity, 6),
-        significant(damage_boundary(*part, shapes[0]).critical_velocity, 6));
+  if (part && part->kind == FragilePart::Kind::at_place) {
+    notes.push_back(fmt::format("{}: its margin is that over the peak; what rings in it is left out", words_of(*part)));
+  } else if (part && part->kind == FragilePart::Kind::tested) {
+    const DamageBoundary boundary = damage_boundary(*part, shapes[0]);
+    notes.push_back(fmt::format(
+        "damage boundary (ASTM D3332) of {}: V_c = 2AT/π = {} m/s, A_c = A = {} g, in place of its two tests; one "
+        "pulse "
+        "does not tell the part's frequency: V_c is that of a part up to {:.3g} Hz, 1/(4 T), A_c that of one far above",
+        words_of(*part), significant(boundary.critical_velocity, 6),
+        significant(boundary.critical_acceleration / standard_gravity, 6), 1 / (4 * part->duration)));
+  } else if (part) {
+    std::string words = fmt::format("damage boundary (ASTM D3332) of {}, undamped: V_c = {} m/s", words_of(*part),
+                                    significant(damage_boundary(*part, shapes[0]).critical_velocity, 6));
     for (std::size_t i = 0; i < 2; ++i) {
       const DamageBoundary boundary = damage_boundary(*part, shapes[i]);
       words += fmt::format("; {}: A_c = {} g from {} m/s on", shape_words[i],
@@ -151,7 +169,9 @@ Value pulse_fields(const Grid& grid, const std::optional<FragilePart>& part) {
   }
   Value fields(Value::Fields{{"blows", row_objects(grid)}, {"service_conditions", conditions}});
   if (!part) return fields;
-  Value boundary(Value::Fields{{"frequency", part->frequency}, {"fragility", part->fragility}});
+  Value boundary(Value::Fields{{"frequency", part->frequency > 0 ? Value(part->frequency) : Value()},
+                               {"fragility", part->fragility},
+                               {"tested_duration", part->duration > 0 ? Value(part->duration) : Value()}});
   for (std::size_t i = 0; i < 2; ++i) {
     const DamageBoundary of_shape = damage_boundary(*part, shapes[i]);
     boundary[pulse_names[i]] = Value::Fields{{"critical_velocity", of_shape.critical_velocity},
@@ -182,16 +202,23 @@ std::optional<PicturePanel> boundary_panel(const std::vector<Pulse>& pulses, con
     }
     panel.plot.curves.push_back({.x = "velocity", .y = name, .legend = legend, .style = style});
   };
-  for (std::size_t i = 0; i < 2; ++i) {
-    add(fmt::format("{} fails the part above and right of this", shape_words[i]),
-        i == 0 ? FigureCurve::Style::line : FigureCurve::Style::dashed, boundary_points(part, shapes[i], last));
+  if (part.kind != FragilePart::Kind::oscillator) {
+    add("fails above and right of this", FigureCurve::Style::line, boundary_points(part, shapes[0], last));
+  } else {
+    for (std::size_t i = 0; i < 2; ++i) {
+      add(fmt::format("{} fails the part above and right of this", shape_words[i]),
+          i == 0 ? FigureCurve::Style::line : FigureCurve::Style::dashed, boundary_points(part, shapes[i], last));
+    }
   }
+  std::vector<std::pair<double, double>> later;
   for (const Pulse& pulse : pulses) {
-    constexpr int most_marks = 4;  // later blows are weak, and a legend has an end
-    if (!pulse.predictable || pulse.impact > most_marks) continue;
-    add(fmt::format("{}, impact {}", pulse.probe, pulse.impact), FigureCurve::Style::marks,
-        {{pulse.velocity.value, pulse.peak.value / standard_gravity}});
+    constexpr int most_marks = 4;  // a legend has an end
+    const std::pair point{pulse.velocity.value, pulse.peak.value / standard_gravity};
+    if (pulse.predictable && pulse.impact <= most_marks)
+      add(fmt::format("{}, impact {}", pulse.probe, pulse.impact), FigureCurve::Style::marks, {point});
+    else later.push_back(point);
   }
+  if (!later.empty()) add("later impacts, and those that cannot be predicted", FigureCurve::Style::points, later);
   return panel;
 }
 

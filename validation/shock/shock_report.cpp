@@ -328,7 +328,7 @@ std::string severity_words(const ShockRun& run, std::size_t probe, double severi
 std::vector<std::string> notes_of(const ShockRun& run, const ShockView& view) {
   std::vector<std::string> notes;
   if (view.rows == ShockRows::pulses || view.part) notes = pulse_notes(view.part);
-  if (run.continuous) {
+  if (run.continuous && view.rows == ShockRows::impacts) {
     const numeric::Ground& ground = run.scene.world.ground;
     notes.push_back(
         fmt::format("peaks are properties of the floor: ∂ ln(peak)/∂ ln {} held, stands beside them; |ΔV| hardly is",
@@ -351,6 +351,8 @@ std::vector<std::string> notes_of(const ShockRun& run, const ShockView& view) {
     for (const std::string& warning : run.continuous->planned.warnings) notes.push_back("!: warning: " + warning);
     const numeric::Simulation& simulation = run.continuous->planned.run;
     notes.push_back(other_law_remark(run.scene, simulation));
+    if (run.scene.impact.restitution && !notes.back().empty())
+      notes.push_back("the floor's own restitution is --floor-restitution, in both models");
     notes.push_back(fmt::format("{}: {}", outcome_name(simulation), simulation.message));
   } else if (run.discrete_run) {
     notes.push_back(fmt::format("{}: {}", run.discrete_run->outcome, run.discrete_run->message));

@@ -9,6 +9,8 @@
 #include <limits>
 #include <span>
 
+#include "validation/scene/body_properties.hpp"
+
 namespace clatter::validation {
 namespace {
 
@@ -260,6 +262,22 @@ ShockNumbers ShockNumbers::unknown() {
   constexpr double x = unknown_error;
   const Vector3 all = Vector3::Constant(x);
   return {all, x, all, x, x, x, all, x, x};
+}
+
+double landing_end(const Scene& scene, double approach_speed) {
+  return body_properties(scene, Model::continuous).extents.maxCoeff() / approach_speed;
+}
+
+Estimated margin_of(const ShockRow& row, const FragilePart& part, bool has_peaks) {
+  const ShockNumbers &value = row.value, &error = row.error;
+  const double of_v = error.delta_v_size / value.delta_v_size;
+  if (!has_peaks) {
+    const double margin = velocity_margin(part, value.delta_v_size);
+    return {margin, margin * of_v};
+  }
+  const double margin = blow_margin(part, value.delta_v_size, value.peak_size).value;
+  // ln of a response changes by no more than ln of f T does.
+  return {margin, margin * (of_v + 2 * error.peak_size / value.peak_size)};
 }
 
 std::vector<ShockRow> shock_rows(const MotionRecorder& motion, const std::vector<Vector3>& places, double mass,

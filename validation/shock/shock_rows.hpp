@@ -9,6 +9,7 @@
 #include "validation/output/estimated.hpp"
 #include "validation/plan/planned_run.hpp"
 #include "validation/run/discrete_scene.hpp"
+#include "validation/shock/damage_boundary.hpp"
 #include "validation/shock/point_motion.hpp"
 
 namespace clatter::validation {
@@ -44,6 +45,13 @@ struct ShockRow {
   /// ∂ ln(peak)/∂ ln k_G with c_G/k_G held, which keeps the restitution.
   std::optional<Estimated> sensitivity;
 };
+
+/// When the first landing ends: the time in which the body goes its own length at the speed of its first approach,
+/// after the first touch [s].  Impacts that begin by then are blows of one landing; later ones follow a bounce.
+/// @param approach_speed  of the first impact [m/s]
+[[nodiscard]] double landing_end(const Scene& scene, double approach_speed);
+/// The part's least margin under a row; without peaks, of the discrete model, that by its change of velocity.
+[[nodiscard]] Estimated margin_of(const ShockRow& row, const FragilePart& part, bool has_peaks);
 
 /// The rows of a recorded drop, an impact after the other, and in each a probe after the other, without errors.
 /// @param places  of the probes, from the centre of mass, body frame [m]

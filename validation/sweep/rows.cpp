@@ -33,26 +33,44 @@ constexpr SceneNumber scene_numbers[]{
 
 /// A number of a probe, which has a column for its error.
 struct ProbeNumber {
-  std::string_view prefix;
+  std::string prefix;
   const char *unit, *meaning;  ///< of the point, whose name follows
   Estimated LargestShock::*value;
   int LargestShock::*impact;  ///< that has it; none: that of the number before
-  bool continuous_only;
+  bool continuous_only = false, of_part = false;
 };
-constexpr ProbeNumber probe_numbers[]{
-    {peak_column, "g", "largest specific force, in units of 9.80665 m/s², of the point ", &LargestShock::peak_g,
-     &LargestShock::peak_impact, true},
-    {"width_", "s", "how long it stays above a tenth of that about it, of the point ", &LargestShock::width, nullptr,
-     true},
-    {shock_column, "m/s", "largest change of velocity over an impact of the point ", &LargestShock::delta_v,
-     &LargestShock::impact, false}};
+const std::vector<ProbeNumber>& probe_numbers() {
+  const auto landing = [](std::string_view column) { return std::string(of_landing) + std::string(column); };
+  static const std::vector<ProbeNumber> all{
+      {std::string(peak_column), "g", "largest specific force, in units of 9.80665 m/s², of the point ",
+       &LargestShock::peak_g, &LargestShock::peak_impact, true},
+      {"width_", "s", "how long it stays above a tenth of that about it, of the point ", &LargestShock::width, nullptr,
+       true},
+      {std::string(shock_column), "m/s", "largest change of velocity over an impact of the point ",
+       &LargestShock::delta_v, &LargestShock::impact},
+      {landing(peak_column), "g",
+       "largest specific force in impacts that begin before the body has gone its own length at the speed of the "
+       "first, "
+       "of the point ",
+       &LargestShock::landing_peak_g, &LargestShock::landing_peak_impact, true},
+      {landing(shock_column), "m/s", "largest change of velocity in those impacts of the point ",
+       &LargestShock::landing_delta_v, &LargestShock::landing_impact},
+      {std::string(margin_column), "", "least margin, at most 1: it fails, over the impacts, of the part at the point ",
+       &LargestShock::margin, &LargestShock::margin_impact, false, true},
+      {landing(margin_column), "", "least margin in impacts of the first landing of the part at the point ",
+       &LargestShock::landing_margin, &LargestShock::landing_margin_impact, false, true}};
+  return all;
+}
 
 template <class Use>
-void for_each_probe_number(Model model, Use&& use) {
-  for (const ProbeNumber& number : probe_numbers) {
-    if (model == Model::continuous || !number.continuous_only) use(number);
+void for_each_probe_number(const RowLayout& layout, Use&& use) {
+  for (const ProbeNumber& number : probe_numbers()) {
+    const bool is_known = layout.model == Model::continuous || !number.continuous_only;
+    if (is_known && (layout.part || !number.of_part)) use(number);
   }
 }
+
+constexpr const char* curve_column = "curve_depth";
 
 /// Calls use(number) for each that the model has.
 template <class Use>
@@ -108,13 +126,17 @@ std::vector<Column> scene_columns(const RowLayout& layout) {
       if (!column.unit.empty()) errors.push_back(error_beside(column));
     }
   }
+  if (layout.has_curve) {
+    add({curve_column, curve_column, "",
+         "greatest depth in the first landing over that of the last point of the pad's curve: above 1 it bottoms out"});
+  }
   for (const ImpactColumn& asked : layout.asked) {
     if (has_error(*asked.quantity, layout)) add(asked.column);
     else columns.push_back(asked.column);
   }
   for (const Probe& probe : layout.probes) {
-    for_each_probe_number(layout.model, [&](const ProbeNumber& number) {
-      const std::string name = std::string(number.prefix) + probe.name;
+    for_each_probe_number(layout, [&](const ProbeNumber& number) {
+      const std::string name = number.prefix + probe.name;
       add({name, name, number.unit, number.meaning + probe.name});
       if (number.impact) columns.push_back({name + "_impact", name + "_impact", "", "number of that impact"});
     });
@@ -285,9 +307,9 @@ void append_empty_row(const RowForm& form, std::optional<int> impacts, const cha
 }
 
 /// The numbers of the probes, empty where nothing struck.
-void append_shocks(const RowForm& form, Model model) {
+void append_shocks(const RowForm& form) {
   for (const LargestShock& shock : form.shocks) {
-    for_each_probe_number(model, [&](const ProbeNumber& number) {
+    for_each_probe_number(form.layout, [&](const ProbeNumber& number) {
       const bool is_there = shock.impact > 0;
       if (is_there) form.out.number((shock.*number.value).value);
       else form.out.nothing();
@@ -318,8 +340,13 @@ void append_scene_row(const RowForm& form, const Run& run) {
   if (form.predictions) form.out.truth(sums.predictable);
   else form.out.nothing();
   append_rest(form);
+  const auto append_curve = [&](auto&& append) {
+    if (form.layout.has_curve && form.curve_depth) append(*form.curve_depth);
+    else if (form.layout.has_curve) form.out.nothing();
+  };
+  append_curve([&](const Estimated& depth) { form.out.number(depth.value); });
   append_asked(form, run, false);
-  append_shocks(form, model);
+  append_shocks(form);
   for_each_number(model, [&](const SceneNumber& n) {
     if (form.errors) form.out.error((sums.*n.sum).error);
     else form.out.nothing();
@@ -328,9 +355,13 @@ void append_scene_row(const RowForm& form, const Run& run) {
     if (form.errors && form.rest) form.out.error(form.rest->time.error);
     else form.out.nothing();
   }
+  append_curve([&](const Estimated& depth) {
+    if (form.errors) form.out.error(depth.error);
+    else form.out.nothing();
+  });
   append_asked(form, run, true);
   for (const LargestShock& shock : form.shocks) {
-    for_each_probe_number(model, [&](const ProbeNumber& number) {
+    for_each_probe_number(form.layout, [&](const ProbeNumber& number) {
       if (form.errors && shock.impact > 0) form.out.error((shock.*number.value).error);
       else form.out.nothing();
     });
@@ -347,24 +378,43 @@ bool RowLayout::has(std::string_view quantity) const {
          });
 }
 
-std::string ranking_column(const RowLayout& layout, const Probe& probe) {
-  return std::string(layout.model == Model::continuous ? peak_column : shock_column) + probe.name;
+std::string ranking_column(const RowLayout& layout, const Probe& probe, bool landing_alone) {
+  const std::string_view column = layout.part                         ? margin_column
+                                  : layout.model == Model::continuous ? peak_column
+                                                                      : shock_column;
+  return std::string(landing_alone ? of_landing : "") + std::string(column) + probe.name;
 }
 
-std::vector<LargestShock> LargestShock::of(const std::vector<ShockRow>& rows, std::size_t count) {
-  std::vector<LargestShock> largest(count);
+bool is_worst_least(std::string_view column) {
+  if (column.starts_with(of_landing)) column.remove_prefix(of_landing.size());
+  return column.starts_with(margin_column) && !column.ends_with("_impact") && !column.ends_with("_error");
+}
+
+std::vector<LargestShock> LargestShock::of(const std::vector<ShockRow>& rows, const Terms& terms) {
+  std::vector<LargestShock> largest(terms.probes);
+  // An error is the largest of what the hardest one may be; a margin is hard where it is small.
+  const auto take = [](const Estimated& number, int number_of, bool is_small_hard, Estimated& so_far, int& impact) {
+    const bool is_first = impact == 0;
+    const bool is_harder = is_first || (is_small_hard ? number.value < so_far.value : number.value > so_far.value);
+    if (is_harder) impact = number_of;
+    if (is_first) so_far = number;
+    else if (is_small_hard) so_far = larger(so_far * -1, number * -1) * -1;
+    else so_far = larger(so_far, number);
+    return is_harder;
+  };
   for (const ShockRow& row : rows) {
     LargestShock& so_far = largest[row.probe];
-    const bool is_first = so_far.impact == 0;
     const Estimated delta_v{row.value.delta_v_size, row.error.delta_v_size},
-        peak_g = Estimated{row.value.peak_size, row.error.peak_size} * (1 / standard_gravity);
-    if (is_first || delta_v.value > so_far.delta_v.value) so_far.impact = row.impact;
-    if (is_first || peak_g.value > so_far.peak_g.value) {
-      so_far.peak_impact = row.impact;
+        peak_g = Estimated{row.value.peak_size, row.error.peak_size} * (1 / standard_gravity),
+        margin = terms.part ? margin_of(row, *terms.part, terms.has_peaks) : Estimated{};
+    take(delta_v, row.impact, false, so_far.delta_v, so_far.impact);
+    if (take(peak_g, row.impact, false, so_far.peak_g, so_far.peak_impact))
       so_far.width = {row.value.width, row.error.width};
-    }
-    so_far.delta_v = is_first ? delta_v : larger(so_far.delta_v, delta_v);
-    so_far.peak_g = is_first ? peak_g : larger(so_far.peak_g, peak_g);
+    take(margin, row.impact, true, so_far.margin, so_far.margin_impact);
+    if (!(row.start <= terms.landing_end)) continue;
+    take(delta_v, row.impact, false, so_far.landing_delta_v, so_far.landing_impact);
+    take(peak_g, row.impact, false, so_far.landing_peak_g, so_far.landing_peak_impact);
+    take(margin, row.impact, true, so_far.landing_margin, so_far.landing_margin_impact);
   }
   return largest;
 }

@@ -14,6 +14,7 @@
 #include "validation/run/shortfall.hpp"
 #include "validation/scene/probes.hpp"
 #include "validation/scene/scene.hpp"
+#include "validation/shock/damage_boundary.hpp"
 #include "validation/shock/shock_rows.hpp"
 
 namespace clatter::validation {
@@ -38,6 +39,8 @@ struct RowLayout {
   std::vector<std::string> named{};   ///< columns asked for that these rows have anyway
   std::vector<Probe> probes{};        ///< with rows of scenes
   bool rests = false;                 ///< with rows of scenes: whether they tell the face that the body comes to lie on
+  std::optional<FragilePart> part{};  ///< at each probe, with columns of its margins
+  bool has_curve = false;             ///< whether the ground is a pad, with a column of how far its curve is used
   std::string rank_by{};              ///< column by which a summary ranks attitudes; empty: as ranking_column() has it
 
   /// Whether rows have this number of impacts.
@@ -57,8 +60,9 @@ void read_impact_columns(const std::string& names, int impacts, RowLayout& layou
 ///     energy_loss [J] and last_start [s] over the impacts listed, predictable, with layout.rests rest_face, rest_time
 ///     and rest_known, the columns asked for, of each probe
 ///     in the continuous model the largest specific force [g], which impact that is and how long it stays above a tenth
-///     [s], in both the largest change of its velocity over an impact [m/s] and which impact that is, the error of each
-///     of these numbers, reason;
+///     [s], in both the largest change of its velocity over an impact [m/s] and which impact that is, both once more of
+///     the first landing, and with a part its least margin and that of the first landing with their impacts, the error
+///     of each of these numbers, reason;
 /// or per impact what `clatter sequence` and `clatter simulate` write as CSV, the scene's outcome and reason; where
 /// scenes may leave their plane, what `clatter sequence` writes in space.
 /// The reason says why a scene has no numbers, fewer impacts than asked for or fewer digits than required; else it is
@@ -68,22 +72,38 @@ void read_impact_columns(const std::string& names, int impacts, RowLayout& layou
 /// What all rows of a scene begin with.
 [[nodiscard]] std::string row_prefix(long long index, const std::vector<double>& values, bool packed);
 
-/// What the columns of a probe's largest specific force and of its largest |ΔV| begin with, before the probe's name.
-inline constexpr std::string_view peak_column = "peak_g_", shock_column = "delta_v_";
-/// The column by which rows are ranked for a probe.  A summary takes the one that was asked for, else that of the first
-/// probe, else the largest force or impulse.
-[[nodiscard]] std::string ranking_column(const RowLayout& layout, const Probe& probe);
+/// What the columns of a probe's largest specific force, of its largest |ΔV| and of its part's least margin begin with,
+/// before the probe's name; and what stands before those of the first landing alone.
+inline constexpr std::string_view peak_column = "peak_g_", shock_column = "delta_v_", margin_column = "margin_",
+                                  of_landing = "landing_";
+/// The column by which rows are ranked for a probe: its part's margin, else its largest specific force or, without
+/// forces, |ΔV|; on a ground without loss those of the first landing.  A summary takes the one that was asked for, else
+/// that of the first probe, else the largest force or impulse.
+[[nodiscard]] std::string ranking_column(const RowLayout& layout, const Probe& probe, bool landing_alone = false);
+/// Whether a column's least number is its worst: a margin.
+[[nodiscard]] bool is_worst_least(std::string_view column);
 
-/// The hardest that a point of the body goes through in the impacts of a scene.
+/// The hardest that a point of the body goes through in the impacts of a scene, and in those of its first landing.
 struct LargestShock {
   Estimated delta_v;    ///< [m/s]
   int impact = 0;       ///< its number, from 1; 0: there was no impact
   Estimated peak_g;     ///< of the specific force, in g; the continuous model alone
   int peak_impact = 0;  ///< the number of the impact that has it
   Estimated width;      ///< for which it stays above a tenth of that [s]
+  Estimated margin;     ///< the least, of a part
+  int margin_impact = 0;
+  Estimated landing_delta_v, landing_peak_g, landing_margin;  ///< likewise
+  int landing_impact = 0, landing_peak_impact = 0, landing_margin_impact = 0;
 
-  /// Takes the hardest of rows of probes, the first of equal ones.  @param count  of the probes
-  [[nodiscard]] static std::vector<LargestShock> of(const std::vector<ShockRow>& rows, std::size_t count);
+  /// What tells the numbers of rows from each other.
+  struct Terms {
+    std::size_t probes = 0;             ///< how many
+    const FragilePart* part = nullptr;  ///< null: none, and no margins
+    bool has_peaks = true;              ///< of the continuous model; without them a margin is that by |ΔV|
+    double landing_end = 0;             ///< as landing_end() has it [s]
+  };
+  /// Takes the hardest of rows of probes, the first of equal ones.
+  [[nodiscard]] static std::vector<LargestShock> of(const std::vector<ShockRow>& rows, const Terms& terms);
 };
 
 /// Where the rows of one scene go, and what they hold besides its numbers.
@@ -94,8 +114,9 @@ struct RowForm {
   bool errors = true;       ///< whether errors were asked for
   bool predictions = true;  ///< whether their growth was
   std::string reason;
-  std::vector<LargestShock> shocks{};  ///< of the layout's probes
-  std::optional<RestFace> rest{};      ///< where the layout asks for it
+  std::vector<LargestShock> shocks{};      ///< of the layout's probes
+  std::optional<RestFace> rest{};          ///< where the layout asks for it
+  std::optional<Estimated> curve_depth{};  ///< of a pad: depth in the first landing over that of its last point
 };
 /// Appends the rows of one scene.
 void append_rows(const RowForm& form, const Run& run);

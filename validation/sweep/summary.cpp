@@ -74,7 +74,7 @@ Summary::Summary(const RowLayout& layout, const SweepPoints& points)
       points_(&points),
       outcome_(static_cast<std::size_t>(std::ranges::find(columns_, "outcome", &Column::name) - columns_.begin())),
       numbers_(columns_.size()),
-      largest_(static_cast<std::size_t>(points.attitudes()), std::vector<Extreme>(columns_.size(), {0, -1})),
+      worst_(static_cast<std::size_t>(points.attitudes()), std::vector<Extreme>(columns_.size(), {0, -1})),
       texts_(columns_.size()), row_(columns_.size()) {}
 
 void Summary::add(std::string_view rows) {
@@ -89,9 +89,9 @@ void Summary::add(std::string_view rows) {
       if (first || cell.number < numbers.least.value) numbers.least = {cell.number, index};
       if (first || cell.number > numbers.largest.value) numbers.largest = {cell.number, index};
       numbers.histogram.add(cell.number);
-      if (largest_.empty()) continue;
-      Extreme& of_attitude = largest_[static_cast<std::size_t>(points_->attitude_of(index))][i];
-      if (of_attitude.index < 0 || cell.number > of_attitude.value) of_attitude = {cell.number, index};
+      if (worst_.empty()) continue;
+      Extreme& of_attitude = worst_[static_cast<std::size_t>(points_->attitude_of(index))][i];
+      if (of_attitude.index < 0 || is_worse(i, cell.number, of_attitude.value)) of_attitude = {cell.number, index};
     }
   }
 }
@@ -139,6 +139,10 @@ void Summary::add_number(Report& report, std::size_t column, const std::string& 
   report.grid.rows.push_back(std::move(row));
 }
 
+bool Summary::is_worse(std::size_t column, double one, double other) const {
+  return is_worst_least(columns_[column].name) ? one < other : one > other;
+}
+
 std::optional<std::size_t> Summary::ranking() const {
   // By which blows are hard: for the first of the probes, if there are any.
   for (const std::string& wanted : {rank_by_, std::string("largest_peak_force"), std::string("hardest_impulse_normal"),
@@ -153,27 +157,30 @@ void Summary::add_attitudes(Report& report, const std::function<std::string(long
   const std::optional<std::size_t> found = ranking();
   if (!found) return;
   const std::size_t by = *found;
-  std::vector<std::size_t> order(largest_.size());
+  std::vector<std::size_t> order(worst_.size());
   std::iota(order.begin(), order.end(), 0U);
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    const Extreme &one = largest_[a][by], &other = largest_[b][by];
-    return one.index >= 0 && (other.index < 0 || one.value > other.value);
+    const Extreme &one = worst_[a][by], &other = worst_[b][by];
+    return one.index >= 0 && (other.index < 0 || is_worse(by, one.value, other.value));
   });
   constexpr std::size_t most_named = 5;
-  const auto drops = numbers_[by].histogram.count() / static_cast<long long>(largest_.size());
-  std::string words = fmt::format("attitudes by {}, the largest of about {} drops of each:", columns_[by].name, drops);
+  const auto end_of = [&](std::size_t column) { return is_worst_least(columns_[column].name) ? "least" : "largest"; };
+  const auto drops = numbers_[by].histogram.count() / static_cast<long long>(worst_.size());
+  std::string words =
+      fmt::format("attitudes by {}, the {} of about {} drops of each:", columns_[by].name, end_of(by), drops);
   Value::List list;
   for (std::size_t place = 0; place < order.size(); ++place) {
-    const std::vector<Extreme>& largest = largest_[order[place]];
+    const std::vector<Extreme>& worst = worst_[order[place]];
     const std::string its_name = name(static_cast<long long>(order[place]));
-    if (place < most_named && largest[by].index >= 0) {
-      words += fmt::format("{} {}: {} {}", place == 0 ? "" : ";", its_name, significant(largest[by].value, 4),
+    if (place < most_named && worst[by].index >= 0) {
+      words += fmt::format("{} {}: {} {}", place == 0 ? "" : ";", its_name, significant(worst[by].value, 4),
                            columns_[by].unit);
+      if (columns_[by].unit.empty()) words.pop_back();
     }
     Value::Fields fields{{"attitude", its_name}};
     for (std::size_t i = first_; i < columns_.size(); ++i) {
-      if (largest[i].index < 0) continue;
-      fields.push_back({columns_[i].name, Value::Fields{{"largest", largest[i].value}, {"index", largest[i].index}}});
+      if (worst[i].index < 0) continue;
+      fields.push_back({columns_[i].name, Value::Fields{{end_of(i), worst[i].value}, {"index", worst[i].index}}});
     }
     list.emplace_back(std::move(fields));
   }

@@ -51,7 +51,7 @@ inline constexpr double summary_percents[]{1, 5, 25, 50, 75, 95, 99};
 /// often each occurs.  The order of the rows changes nothing; of equal extremes the first row's is kept.
 class Summary {
  public:
-  /// @param points  their listed attitudes, if any, are told apart by the largest of each number
+  /// @param points  their listed attitudes, if any, are told apart by the largest of each number, of margins the least
   /// @param layout  of the rows; its first probe, if any, says which blows are hard
   Summary(const RowLayout& layout, const SweepPoints& points);
 
@@ -88,6 +88,8 @@ class Summary {
 
   void add_number(Report& report, std::size_t column, const std::string& least, const std::string& largest) const;
   void add_texts(Report& report) const;
+  /// Whether one number of a column is worse than another: a margin where it is less.
+  [[nodiscard]] bool is_worse(std::size_t column, double one, double other) const;
   void add_attitudes(Report& report, const std::function<std::string(long long)>& name) const;
 
   std::vector<Column> columns_;
@@ -96,7 +98,7 @@ class Summary {
   const SweepPoints* points_;
   std::size_t outcome_;  ///< column that each row has
   std::vector<Numbers> numbers_;
-  std::vector<std::vector<Extreme>> largest_;  ///< of each listed attitude, of each column; index -1: none yet
+  std::vector<std::vector<Extreme>> worst_;  ///< of each listed attitude, of each column; index -1: none yet
   std::vector<Texts> texts_;
   std::vector<PackedCell> row_;
 };

@@ -539,6 +539,7 @@ int run_command(const SweepInput& input, Ranks& ranks) {
   plan.packed = input.request.summary || is_hdf5(input);
   const int threads = thread_count(input.threads, ranks);
   check_output(input);
+  if (ranks.writes()) say_doubts(plan.scene, plan.layout.model, plan.layout.probes);
   // A body that cannot be made is bad input, but a row's where it is swept.
   const SweepBody body = plan.body_values.empty() ? make_sweep_body(plan, plan.scene) : SweepBody{};
   return ranks.writes() ? run_sweep(input, plan, body, threads, ranks) : serve_ranges(runners_of(plan, body), ranks);

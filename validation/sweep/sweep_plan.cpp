@@ -16,6 +16,7 @@
 #include "validation/run/scene_value.hpp"
 #include "validation/scene/body_properties.hpp"
 #include "validation/scene/orientation.hpp"
+#include "validation/shock/shock_options.hpp"
 #include "validation/sweep/sweep_file.hpp"
 
 namespace clatter::validation {
@@ -392,6 +393,15 @@ void choose_probes(const SweepRequest& request, const SceneValues& values, Sweep
     layout.probes = request.probes.empty() ? read_probes(values) : read_probes("--probe", request.probes);
   for (const Probe& probe : layout.probes)
     plan.words.push_back(fmt::format("probe: {}, body frame", place_words(probe)));
+  layout.has_curve = layout.model == Model::continuous && plan.scene.world.ground.is_pad();
+  if (!request.part) return;
+  const std::string given = "--part " + part_text(*request.part);
+  if (layout.probes.empty())
+    throw BadInput(given + ": needs --probe NAME:X,Y,Z with rows of scenes, or [[probe]], where the part is");
+  if (layout.model == Model::discrete && request.part->kind == FragilePart::Kind::at_place)
+    throw BadInput(given + ": needs peaks, which the continuous model has: a scene with a ground");
+  layout.part = request.part;
+  plan.words.push_back("part: " + words_of(*request.part));
 }
 
 /// @throws BadInput for a probe whose columns have the names of others
@@ -442,25 +452,27 @@ void name_own_attitude(const SweepRequest& request, const SceneValues& values, s
 }  // namespace
 
 Arguments sweep_arguments(SweepRequest& request) {
-  return {whole_argument("--random", request.random, 1, static_cast<int>(most_scenes), "N",
-                         "N scenes with random values, --set KEY=LOW:HIGH or LOW:HIGH:log"),
-          whole_argument("--seed", request.seed, 0, std::numeric_limits<int>::max(), "S", "of the random values (1)"),
-          number_argument("--scatter", request.scatter, {0, 180, false, "from 0 to 180 degrees"}, "DEG",
-                          "with --random: attitudes about the scene's own, those of drop.attitude=26 or a list, each "
-                          "in its turn, turned about each axis by a normally distributed angle with this standard "
-                          "deviation"),
-          choice_argument("--model", request.model, model_names, "(continuous if the scene has a ground)"),
-          choice_argument("--rows", request.rows, row_names, "one row per scene or per impact (scene)"),
-          {.name = "--columns",
-           .target = &request.columns,
-           .type = "NAME,...",
-           .help = "more columns of rows of scenes: QUANTITY_N of impact N, QUANTITY of each, hardest, "
-                   "hardest_QUANTITY"},
-          {.name = "--rank-by",
-           .target = &request.rank_by,
-           .type = "COLUMN",
-           .help = "of --summary: by which attitudes are ranked (the first probe's peak or change of velocity, else "
-                   "force or impulse)"}};
+  return {
+      whole_argument("--random", request.random, 1, static_cast<int>(most_scenes), "N",
+                     "N scenes with random values, --set KEY=LOW:HIGH or LOW:HIGH:log"),
+      whole_argument("--seed", request.seed, 0, std::numeric_limits<int>::max(), "S", "of the random values (1)"),
+      number_argument("--scatter", request.scatter, {0, 180, false, "from 0 to 180 degrees"}, "DEG",
+                      "with --random: attitudes about the scene's own, those of drop.attitude=26 or a list, each "
+                      "in its turn, turned about each axis by a normally distributed angle with this standard "
+                      "deviation"),
+      choice_argument("--model", request.model, model_names, "(continuous if the scene has a ground)"),
+      choice_argument("--rows", request.rows, row_names, "one row per scene or per impact (scene)"),
+      {.name = "--columns",
+       .target = &request.columns,
+       .type = "NAME,...",
+       .help = "more columns of rows of scenes: QUANTITY_N of impact N, QUANTITY of each, hardest, "
+               "hardest_QUANTITY"},
+      part_argument(request.part, "columns margin_NAME, the least over the impacts, by which attitudes are ranked", ""),
+      {.name = "--rank-by",
+       .target = &request.rank_by,
+       .type = "COLUMN",
+       .help = "of --summary: by which attitudes are ranked (the first probe's margin, else peak or change of "
+               "velocity, else force or impulse)"}};
 }
 
 SweepPlan read_sweep_plan(const SweepRequest& request) {
@@ -497,6 +509,7 @@ void SweepPlan::put_point(const std::vector<double>& values, Scene& into) const 
     put[i](into, rest.first(width));
     rest = rest.subspan(width);
   }
+  into.settle_restitution();
 }
 
 std::string SweepPlan::command_of(long long index) const {

@@ -199,22 +199,43 @@ bool SceneRunner::append_result(RowForm& form) {
   if (plan_.layout.model == Model::discrete) {
     const DiscreteDrop drop = body_->discrete->drop(scene_);
     const DiscreteSequence found = sequence(drop, form.errors);
+    const Run run = named_run(scene_, found, body_->discrete->centre());
     if (!plan_.layout.probes.empty()) {
       const auto places = places_from(body_->discrete->centre(), plan_.layout.probes);
-      form.shocks = LargestShock::of(discrete_shock(drop, found, places), places.size());
+      form.shocks = LargestShock::of(discrete_shock(drop, found, places), terms_of(run, false));
     }
-    const Run run = named_run(scene_, found, body_->discrete->centre());
     form.reason = shortfall(scene_, run);
     if (plan_.layout.rests) form.rest = scene_.until_rest ? rest_face(scene_, drop, found) : face_alone(form.errors);
     append_rows(form, run);
     return true;
   }
-  const PlannedRun run = planned(form.shocks);
-  if (run.run.outcome == numeric::Outcome::interrupted) return false;
-  form.reason = shortfall(scene_, run);
-  if (plan_.layout.rests) form.rest = rest_face(scene_, run.run);
-  append_rows(form, named_run(scene_, run.run));
+  const PlannedRun planned_run = planned(form.shocks);
+  if (planned_run.run.outcome == numeric::Outcome::interrupted) return false;
+  form.reason = shortfall(scene_, planned_run);
+  const Run run = named_run(scene_, planned_run.run);
+  if (plan_.layout.has_curve) form.curve_depth = curve_depth(run);
+  if (plan_.layout.rests) form.rest = rest_face(scene_, planned_run.run);
+  append_rows(form, run);
   return true;
+}
+
+LargestShock::Terms SceneRunner::terms_of(const Run& run, bool has_peaks) const {
+  const RowLayout& layout = plan_.layout;
+  return {.probes = layout.probes.size(),
+          .part = layout.part ? &*layout.part : nullptr,
+          .has_peaks = has_peaks,
+          .landing_end = run.impacts.empty() ? 0 : landing_end(scene_, run.impacts.front().value.approach_speed)};
+}
+
+std::optional<Estimated> SceneRunner::curve_depth(const Run& run) const {
+  std::optional<Estimated> deepest;
+  for (const Impact& impact : run.impacts) {
+    if (!(impact.value.start <= landing_end(scene_, run.impacts.front().value.approach_speed))) break;
+    const Estimated depth{impact.value.indentation, impact.error.indentation};
+    deepest = deepest ? larger(*deepest, depth) : depth;
+  }
+  if (deepest) *deepest = *deepest * (1 / scene_.world.ground.kinks.back().depth);
+  return deepest;
 }
 
 PlannedRun SceneRunner::planned(std::vector<LargestShock>& shocks) {
@@ -224,7 +245,7 @@ PlannedRun SceneRunner::planned(std::vector<LargestShock>& shocks) {
   if (probes.empty()) return run_to_digits(scene_, body, observer);
   const std::vector<numeric::Vector3> places = places_from(body_properties(scene_, Model::continuous).centre, probes);
   ContinuousShock shock = continuous_shock(scene_, body, places, false, observer);
-  shocks = LargestShock::of(shock.rows, probes.size());
+  shocks = LargestShock::of(shock.rows, terms_of(run_of(shock.planned.run), true));
   return std::move(shock.planned);
 }
 
@@ -241,12 +262,14 @@ RowForm SceneRunner::form_of(const std::string& prefix, CellWriter& out) const {
 
 bool SceneRunner::append_scene(long long index, std::string& out) {
   plan_.points.at(index, values_);
-  plan_.put_point(values_, scene_);
   const std::string prefix = row_prefix(index, values_, plan_.packed);
   CellWriter cells(out, plan_.packed);
   RowForm form = form_of(prefix, cells);
   bool is_whole = true;
-  const std::optional<Failure> failure = failure_of_scene([&] { is_whole = append_result(form); });
+  const std::optional<Failure> failure = failure_of_scene([&] {
+    plan_.put_point(values_, scene_);
+    is_whole = append_result(form);
+  });
   if (!failure) return is_whole;
   form.reason = failure->message;
   append_failure(form, outcome_of(failure->kind));

@@ -160,6 +160,9 @@ class SceneRunner {
   [[nodiscard]] std::optional<RestFace> face_alone(bool with_errors);
   /// The planned run of the continuous model, and what it does to the layout's probes.
   [[nodiscard]] PlannedRun planned(std::vector<LargestShock>& shocks);
+  [[nodiscard]] LargestShock::Terms terms_of(const Run& run, bool has_peaks) const;
+  /// The greatest depth into a pad in the first landing, over that of its curve's last point; none without an impact.
+  [[nodiscard]] std::optional<Estimated> curve_depth(const Run& run) const;
   [[nodiscard]] RowForm form_of(const std::string& prefix, CellWriter& out) const;
 
   const SweepPlan& plan_;

@@ -70,6 +70,16 @@ class Floors(Folder):
         damped = run("simulate", *FLAT, "--floor", "concrete", "--dissipation", "0.2").stdout
         self.assertNotIn("no source", damped)
 
+    def test_a_restitution_of_the_first_impact_is_that_of_a_flat_landing_on_each_kind_of_ground(self):
+        for ground in (("--floor", "concrete"), ("--stiffness", "1e9"), ("--curve", "[[0, 0], [0.1, 1e5], [0.6, 1e6]]", "--thickness", "0.01")):
+            impact = json_of("simulate", *FLAT, *ground, "--floor-restitution", "0.4", "--digits", "8")["impacts"][0]
+            self.assertAlmostEqual(impact["velocity_after"][2] / 2, 0.4, delta=1e-6, msg=ground)
+        head = " ".join(run("simulate", *FLAT, "--floor", "concrete", "--floor-restitution", "0.4").stdout.split())
+        self.assertIn("e = 0.4 in the first impact (dissipation", head)
+        self.refused("not both", "simulate", *FLAT, "--floor", "concrete", "--floor-restitution", "0.4", "--dissipation", "1")
+        self.refused("greater than 0", "simulate", *FLAT, "--floor", "concrete", "--floor-restitution", "0")
+        self.refused("no first impact", "simulate", *FLAT[:-4], "--gravity", "9.81", "--start", "rest", "--floor", "wood", "--floor-restitution", "0.4")
+
     def test_ground_prints_what_a_scene_and_flags_take(self):
         shown = json_of("ground", "--floor", "concrete")
         self.assertEqual(len(shown["solutions"]), 3)
@@ -91,7 +101,6 @@ class Floors(Folder):
         for words, flags in (("did you mean steel", ("--floor", "stell")), ("give one of them, not both", ("--floor", "wood", "--stiffness", "1e9")),
                              ("give one of them, not both", ("--floor", "wood", "--ground-modulus", "1e9")),
                              ("give one of them, not both", ("--floor", "wood", "--body-modulus", "1e9", "--body-material", "abs")),
-                             ("give one of them, not both", ("--floor", "wood", "--curve", "[[0, 0], [1, 1]]")),
                              ("only for a ground with a modulus or a floor", ("--body-material", "abs"))):
             self.refused(words, "simulate", *FLAT, *flags)
         self.refused("it is what is sought", "ground", *FLAT, "--floor", "wood", "--dissipation", "1", "--measured-e", "0.5")

@@ -59,6 +59,7 @@ class Pad(Folder):
         told = self.impacts_of(*PHONE, *PAD)
         thick = ("--thickness", str(THICKNESS))
         for text, more in (("# foam\nstrain [%],stress [kPa]\n0,0\n10,20\n60,25\n80,200\n", thick),
+                           ("Strain in %,Stress in kPa\n0,0\n10,20\n60,25\n80,200\n", thick),
                            ("Strain;Stress\n%;MPa\n0;0\n10;0,02\n60;0,025\n80;0,2\n", thick),
                            ("n,stress_kPa,strain_%\n1,20,10\n2,25,60\n3,200,80\n", thick),
                            ("x,p\n10,20\n60,25\n80,200\n", (*thick, "--curve-units", "%,kPa")),
@@ -108,6 +109,29 @@ dissipation = 0.3
         through = self.json_of("simulate", *BOX, *PAD, "--angle", "0", "--speed", "14", "--impacts", "1")
         self.assertIn("further than it is thick", " ".join(through["warnings"]))
 
+    def test_a_floor_under_it_makes_of_what_is_left_of_it_a_layer_as_stiff_as_floor_and_body(self):
+        """E*/h, of steel under abs the geometric mean of the E* of both ends of the sources' ranges."""
+        both = [1 / ((1 - poisson ** 2) / modulus + (1 - 0.35 ** 2) / 2.4e9) for modulus, poisson in ((200e9, 0.288), (205e9, 0.33))]
+        under = (both[0] * both[1]) ** 0.5 / (0.2 * THICKNESS)
+        flat = (*BOX, *PAD, "--angle", "0", "--speed", "9", "--impacts", "1")
+        told = self.json_of("simulate", *flat, "--floor", "steel")
+        depth = told["impacts"][0]["indentation"] - 0.8 * THICKNESS
+        self.assertAlmostEqual(told["impacts"][0]["peak_force"] / (0.02 * (2e5 + under * depth)), 1, delta=1e-5)
+        self.assertAlmostEqual(told["impacts"][0]["peak_force"] / self.json_of("simulate", *flat, "--under", repr(under))["impacts"][0]["peak_force"],
+                               1, delta=1e-5)
+        self.assertIn("rest on ground.floor", " ".join(told["warnings"]))
+        self.assertEqual((told["scene"]["ground"]["floor"], told["scene"]["ground"]["thickness"]), ("steel", THICKNESS))
+        scene = self.write("scene.toml", "[drop]\nangle_deg = 0\nspeed = 9\n[body]\nshape = 'box'\nsize = [0.2, 0.1, 0.04]\nmass = 0.7\n[world]\n"
+                           "gravity = 9.81\n[ground]\nfloor = 'steel'\n[run]\nimpacts = 1\n")
+        self.assertEqual(self.json_of("simulate", scene, *PAD)["impacts"], told["impacts"])
+        harder = self.json_of("simulate", *flat, "--floor", "steel", "--body-material", "glass")["impacts"][0]
+        self.assertGreater(harder["peak_force"], told["impacts"][0]["peak_force"])
+
+    def test_one_thicker_than_the_body_is_large_is_doubted(self):
+        for thickness, doubts in (("0.03", 0), ("30", 1)):
+            told = self.run_program("simulate", *BOX, "--curve", "[[0, 0], [0.5, 2e4]]", "--thickness", thickness, "--angle", "0", "--impacts", "1")
+            self.assertEqual(told.stderr.count("were mm meant"), doubts)
+
     def test_dissipation_gives_both_models_one_restitution(self):
         damped = (*BOX[:-2], *PAD, "--angle", "0", "--speed", "0.8", "--dissipation", "1.2")
         told = self.json_of("compare", *damped, "--impacts", "1")
@@ -128,6 +152,9 @@ dissipation = 0.3
                 ("up to ground.thickness", "[[0, 0], [40, 20]]", (*thick, "--curve-units", "mm,kPa")),
                 ("give one of them, not both", "[[0, 0], [0.1, 2e4]]", (*thick, "--stiffness", "1e7")),
                 ("give one of them, not both", "[[0, 0], [0.1, 2e4]]", (*thick, "--ground-modulus", "1e9")),
+                ("give one of them, not both", "[[0, 0], [0.1, 2e4]]", (*thick, "--floor", "steel", "--under", "1e9")),
+                ("beyond its curve", "[[0, 0], [0.01, 2e4]]", ("--floor", "steel")),
+                ("a floor", "[[0, 0], [0.1, 2e4]]", (*thick, "--body-material", "abs")),
                 ("--under", "[[0, 0], [0.1, 2e4]]", (*thick, "--under", "0"))):
             self.refused(words, "simulate", *PHONE, "--curve", curve, *more)
         for words, text in (("a unit of pressure", "strain,stress\n0,0\n1,2\n"), (":4:1: must be", "strain [%],stress [kPa]\n0,0\n1,2\n2,1\n"),

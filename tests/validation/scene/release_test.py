@@ -71,6 +71,12 @@ class Release(SpaceFolder):
                   for angle in (-35, 325, -755)]
         self.assertEqual([run["impacts"] for run in turned[1:]], [turned[0]["impacts"]] * 2)
 
+    def test_a_spin_at_the_release_is_an_angular_velocity_about_y(self):
+        flags = [*TOAST, "--release-height", "0.7", "--release-angle", "10", "--impacts", "2"]
+        runs = [self.json_of("sequence", *flags, turn)["impacts"] for turn in ("--release-spin=-9", "--release-angular-velocity=0,-9,0")]
+        self.assertEqual(*runs)
+        self.refused("give one of them", "sequence", *flags, "--release-spin=1", "--release-angular-velocity=0,1,0")
+
     def test_histories_begin_at_the_release(self):
         self.run_program("simulate", *TOAST, "--release-height", "0.5", "--release-angle", "10", "--release-angular-velocity=0,3,0",
                          "--stiffness", "1e9", "--impacts", "1", "--digits", "3", "--history", "h.csv")
@@ -89,6 +95,7 @@ class Release(SpaceFolder):
         release = ["--release-height", "0.5", "--angle", "5"]
         for flags, words_said in (
                 (["--release-height", "0.001", "--angle", "5"], "must be greater than"),
+                (["--release-height", "0.5"], "--release-angle: required"),
                 (["--release-velocity=1,0,0", "--angle", "5"], "only for a drop with drop.release.height"),
                 ([*release, "--speed", "2"], "give one of them"),
                 ([*release, "--release-clearance", "2"], "give one of them"),

@@ -69,6 +69,12 @@ class Sources(Folder):
         self.each_refused({"sequence": "--angle: required", "simulate --stiffness 1e9": "--angle: required",
                            "simulate --angle 10": "--stiffness: required", "sequence --angle 10 --body box": "--size: required"})
 
+    def test_a_list_takes_blanks_and_what_is_allowed_is_told_as_a_flag_takes_it(self):
+        box = ["sequence", "--angle", "10", "--body", "box", "--mass", "1", "--size"]
+        self.assertEqual(self.json_of(*box, "0.1 x 0.05 x 0.01")["impacts"], self.json_of(*box, "0.1x0.05x0.01")["impacts"])
+        self.refused("as in 0.106,0.044,0.019", *box, "0.1 x 0.05")
+        self.refused("--probe: is for shock, sweep and report", *box, "0.1x0.05x0.01", "--probe", "a:0,0,0")
+
     def test_the_discrete_model_refuses_a_file_that_sweeps_its_angle_unless_one_is_given(self):
         self.write("swept.toml", "[body]\nshape = 'box'\nsize = [1, 0.1, 0.1]\n[sweep]\nangle_deg = { from = 10, to = 20, step = 5 }\n")
         self.refused("give --angle", "sequence", "swept.toml")

@@ -77,6 +77,22 @@ BOOST_AUTO_TEST_CASE(the_corner_of_the_boundary_lies_where_astm_has_it) {
   }
 }
 
+BOOST_AUTO_TEST_CASE(a_part_known_by_its_test_or_at_its_place_fails_where_it_was_taken_further) {
+  clatter::test::Random random(5);
+  for (int i = 0; i < 100; ++i) {
+    const double peak = random.decades(1, 4), duration = random.decades(-4, -2), far = random.decades(0.1, 3);
+    const double velocity = 2 * peak * duration / pi;  // the integral of a half sine
+    const FragilePart tested{.fragility = peak, .duration = duration, .kind = FragilePart::Kind::tested};
+    // Only where both exceed those of the test it fails, by the one that exceeds less.
+    BOOST_TEST(std::fabs(blow_margin(tested, velocity, peak).value - 1) < closed_form);
+    BOOST_TEST(std::fabs(blow_margin(tested, 2 * far * velocity, far * peak).value * far - 1) < closed_form);
+    BOOST_TEST(std::fabs(blow_margin(tested, far * velocity, 2 * far * peak).value * far - 1) < closed_form);
+    BOOST_TEST(std::fabs(velocity_margin(tested, far * velocity) * far - 1) < closed_form);
+    const FragilePart at_place{.fragility = peak, .kind = FragilePart::Kind::at_place};
+    BOOST_TEST(std::fabs(blow_margin(at_place, random.decades(-2, 2), far * peak).value * far - 1) < closed_form);
+  }
+}
+
 BOOST_AUTO_TEST_CASE(the_eight_conditions_of_jesd22_b110b_have_its_changes_of_velocity_and_heights) {
   // Table 1 of the standard has cm/s and cm, made with rounded g: to a unit of the last place, relative or absolute.
   struct Printed {

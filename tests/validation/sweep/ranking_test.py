@@ -23,6 +23,14 @@ class Ranking(unittest.TestCase):
             self.assertEqual(len(largest), 26)
             self.assertEqual(largest, sorted(largest, reverse=True), column)
 
+    def test_a_part_ranks_by_its_least_margin(self):
+        for options, column in (((), "margin_camera"), (("--rank-by", "landing_margin_camera"), "landing_margin_camera")):
+            least = [attitude[column]["least"] for attitude in summary("--no-errors", *PROBE, "--part", "300:500", *options)["attitudes"]]
+            self.assertEqual(least, sorted(least), column)
+        result = run(*SWEEP, "--part", "300:500")
+        self.assertEqual((result.returncode, result.stderr.count("\n")), (2, 1))
+        self.assertIn("needs --probe", result.stderr)
+
     def test_a_column_that_is_none_is_refused_in_one_line(self):
         for options, words in (((*SWEEP, "--rank-by", "widht"), "must be a column of numbers"),
                                ((*SWEEP, "--rank-by", "outcome"), "must be a column of numbers"),

@@ -11,6 +11,7 @@
 #include <set>
 #include <sstream>
 
+#include "numeric/base/errors.hpp"
 #include "tests/support.hpp"
 #include "validation/output/bad_input.hpp"
 #include "validation/run/scene_value.hpp"
@@ -318,12 +319,14 @@ BOOST_AUTO_TEST_CASE(every_number_of_a_scene_can_be_put_where_the_reader_puts_it
   const std::string tilted = "[drop]\nangle_deg = 10" + ground, lying = "[drop]\nangle_deg = 0" + ground,
                     on_half_space = "[drop]\nangle_deg = 10\n[ground]\nmodulus = 1e8\n",
                     on_pad = "[drop]\nangle_deg = 10\n[ground]\ncurve = [[0.5, 1e4], [0.7, 2e4]]\nthickness = 1\n";
-  const std::map<std::string, std::string> grounds{{"drop.topple", lying},
-                                                   {"drop.release.angle_deg", "[drop]\nrelease.height = 9" + ground},
-                                                   {"ground.dissipation", on_half_space},
-                                                   {"ground.body_modulus", on_half_space},
-                                                   {"ground.thickness", on_pad},
-                                                   {"ground.under", on_pad}};
+  const std::map<std::string, std::string> grounds{
+      {"drop.topple", lying},
+      {"drop.release.angle_deg", "[drop]\nrelease.height = 9" + ground},
+      {"drop.release.spin", "[drop]\nangle_deg = 10\nrelease.height = 9" + ground},
+      {"ground.dissipation", on_half_space},
+      {"ground.body_modulus", on_half_space},
+      {"ground.thickness", on_pad},
+      {"ground.under", on_pad}};
   const std::vector<std::string> shapes{"[body]\nshape = 'rod'\n", "[body]\nshape = 'box'\nsize = [1, 1, 1]\n",
                                         "[body]\nshape = 'mesh'\nmesh = { file = 'a.msh' }\n"};
   int put = 0;
@@ -344,9 +347,11 @@ BOOST_AUTO_TEST_CASE(every_number_of_a_scene_can_be_put_where_the_reader_puts_it
         BOOST_TEST(scene_line(scene, model) != scene_line(expected, model), key);
         number.put_number(scene, std::stod(text));
         scene.settle();
+        scene.settle_restitution();
         BOOST_TEST(scene_line(scene, model) == scene_line(expected, model), key);
         read = true;
-      } catch (const BadInput&) {  // a key of another shape
+      } catch (const BadInput&) {                     // a key of another shape
+      } catch (const clatter::numeric::MeshError&) {  // or one that needs the body, whose file is none
       }
     }
     BOOST_TEST(read, key);

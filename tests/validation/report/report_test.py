@@ -1,0 +1,174 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""`clatter report`: the page has all in itself, its answer is the sweep's worst and what the commands beside it say."""
+
+import math
+import re
+import shlex
+import unittest
+
+from run_folder import EmptyFolder, json_of, rows_of, run
+
+PROBE = ("--probe", "camera:0.048,0.016,0.0045")
+FEW = ("--impacts", "2", "--frequencies", "100:3000:4", "--no-sensitivity")
+BOX = ("--body", "box", "--size", "0.1x0.05x0.01", "--mass", "0.1", "--clearance", "1")
+ROCKING = ("--angle", "10", "--restitution", "0")  # its impacts follow each other ever faster
+
+
+def margins_of(part, velocity, peak):
+    """Bounds of the margin of a blow of this change of velocity [m/s] and peak [g] whose shape is not known, by ASTM D3332."""
+    first, _, second = part.replace("Hz", "").partition(":")
+    if not second:
+        return 2 * (float(first[:-1]) / peak,)
+    if second.endswith("ms"):  # fails where the tested half sine's change of velocity and its peak both are exceeded
+        bore = float(first[:-1])
+        return 2 * (max(2 / math.pi * bore * 9.80665 * float(second[:-2]) / 1e3 / velocity, bore / peak),)
+    # An undamped part bears a pulse if neither its change of velocity nor its peak fails it.
+    limit = float(second.removesuffix("g")) * 9.80665
+    bearable = max(limit / (2 * math.pi * float(first) * velocity), limit / (2 * peak * 9.80665))
+    return bearable / (math.pi / 2) if math.isfinite(peak) else bearable, bearable * math.pi / 2 if math.isfinite(peak) else bearable
+
+
+class Report(EmptyFolder):
+    def test_the_page_has_every_part_in_itself_and_asks_for_nothing(self):
+        path = self.path("phone.html")
+        found = run("report", "phone-damped", *FEW, *PROBE, "--part", "300:500", "--drops", "26", "--output", path)
+        self.assertEqual((found.returncode, found.stdout), (0, ""), found.stderr)
+        page = self.read("phone.html")
+        for part in ("of 26 drops; least margin", "The drop as given", "Attitudes", "Shock at points", "continuous model", "Accuracy",
+                     "Assumptions", "leaves out", "clatter shock phone-damped"):
+            self.assertIn(part, page)
+        self.assertGreaterEqual(page.count("<svg"), 4)
+        self.assertNotRegex(page.split("Commands that give")[0], r"0\.\d{12}", "Euler parameters stand in the commands alone")
+        links = set(re.findall(r"(?:https?:)?//[^\s\"'<>]+", page))
+        self.assertLessEqual(links, {"http://www.w3.org/2000/svg", "http://www.w3.org/1999/xlink"})
+        self.assertNotRegex(page, r"<script|<link rel=\"style|@import|url\(http")
+
+    def test_it_says_how_many_impacts_can_be_predicted_with_a_probe_and_without(self):
+        for arguments in (PROBE, ()):
+            path = self.path("phone.html")
+            self.assertEqual(run("report", "phone-damped", *FEW, *arguments, "--drops", "0", "--output", path).returncode, 0)
+            page = self.read("phone.html")
+            self.assertIn("all 2 impacts listed can be predicted", page)
+            self.assertNotIn(" drops; ", page)
+
+    def test_headline_table_and_margin_are_of_one_blow_of_one_drop_whose_margin_is_the_least(self):
+        """Damped and not, with a scatter and without, for each form of a part and either model; the page has their three digits."""
+        damped, elastic = ("--stiffness", "1e9", "--damping", "2e8"), ("--floor", "concrete")
+        for ground, part, drops in ((damped, "300:500", ("--drops", "52")), (elastic, "300Hz:500g", ("--drops", "26", "--scatter", "0")),
+                                    (damped, "4000g", ("--drops", "26")), (elastic, "900g:0.7ms", ("--drops", "26")),
+                                    (("--restitution", "0.4"), "300:500", ("--drops", "26"))):
+            scene = [*BOX, "--impacts", "3", *ground, *PROBE]
+            found = json_of("report", *scene, "--part", part, *drops)
+            answer = found["answer"]
+            column = answer["ranked_by"]
+            self.assertEqual(column, "landing_margin_camera" if ground == elastic else "margin_camera")
+            least = [one[column]["least"] for one in found["attitudes"]]
+            self.assertEqual(len(least), 26)
+            self.assertEqual(answer["least"], min(least))
+            # Undamped blows without a scatter depend on digits that nobody has.
+            self.assertAlmostEqual(answer["margin"] / answer["least"], 1, delta=2e-3 if "0" not in drops else 0.02)
+            self.assertRegex(answer["attitude"], r"\A(face|edge|corner) \S+ down, \S+° off\Z")
+            again = json_of(*shlex.split(found["commands"][0])[1:])
+            rows = [row for row in again["impacts"] if row["probe"] == answer["probe"]]
+            mine = next(row for row in rows if row["n"] == answer["impact"])
+            is_discrete = "--restitution" in ground
+            velocity = mine["discrete_delta_v" if is_discrete else "delta_v"]
+            peak = math.inf if is_discrete else mine["peak_g"]
+            self.assertEqual(answer["delta_v"], velocity)
+            low, high = margins_of(part, velocity, peak)
+            self.assertGreaterEqual(answer["margin"], 0.99 * low)
+            self.assertLessEqual(answer["margin"], 1.01 * high)
+            self.run_program("report", *scene, "--part", part, *drops, "--output", "page.html")
+            page = self.read("page.html")
+            name, off = re.match(r"(.*) down, (.*)° off", answer["attitude"]).groups()
+            first = re.search(f"<tr><td[^>]*>{re.escape(name)}</td>(.*?)</tr>", page.split("<h2>Attitudes")[1], re.S).group(1)
+            cells = re.findall(r"<td[^>]*>(.*?)</td>", first)
+            self.assertEqual(cells[1], str(answer["impact"]))
+            shown = [float(cell) for cell in cells[2:4 + (not is_discrete)]]
+            expected = [answer["delta_v"], answer["margin"]] if is_discrete else [answer["peak_g"], answer["delta_v"], answer["margin"]]
+            for one, other in zip(shown, expected, strict=True):
+                self.assertAlmostEqual(one / other, 1, delta=2e-2 if "0" in drops else 6e-3)
+            self.assertEqual(page.count("° off: "), int(drops[1]))  # the dots of the map
+            self.assertIn(f"camera survives in {answer['drops'] - answer['failing']} of {drops[1]} drops; least margin", page)
+
+    def test_it_counts_the_drops_that_fail_as_the_sweep_s_rows_do(self):
+        scene = [*BOX, "--stiffness", "1e9", "--damping", "2e8", "--impacts", "1", *PROBE, "--part", "2000:900"]
+        found = json_of("report", *scene, "--drops", "52")
+        path = self.write("scene.toml", "[body]\nshape = 'box'\nsize = [0.1, 0.05, 0.01]\nmass = 0.1\n[drop]\nclearance = 1\norientation = 1\n"
+                          "[ground]\nstiffness = 1e9\ndamping = 2e8\n[run]\nimpacts = 1\ndigits = 3\n")
+        rows = rows_of("sweep", path, "--set", "drop.attitude=26", "--random", "52", "--scatter", "3", "--no-errors", *PROBE, "--part", "2000:900")
+        margins = [float(row["margin_camera"]) for row in rows]
+        self.assertEqual((found["answer"]["failing"], found["answer"]["least"]), (sum(not margin > 1 for margin in margins), min(margins)))
+        self.assertTrue(0 < found["answer"]["failing"] < 52)
+
+    def test_without_loss_the_first_landing_alone_is_ranked_and_what_was_assumed_is_told(self):
+        scene = [*BOX, "--floor", "concrete", *PROBE, "--part", "300:500", "--drops", "26"]
+        answer = json_of("report", *scene, "--restitution", "0.4")["answer"]
+        # In the time in which the box goes its own length at its first approach.
+        self.assertLess(next(impact for impact in json_of("report", *scene)["simulation"]["impacts"] if impact["n"] == answer["impact"])["start"],
+                        0.1 / math.sqrt(2 * 9.81))
+        notes = " ".join(answer["notes"])
+        for words in ("Undamped floor (e = 1)", "--restitution 0.4 is the discrete model's alone", "taken as abs", "after the first landing"):
+            self.assertIn(words, notes)
+        damped = " ".join(json_of("report", *scene, "--floor-restitution", "0.4", "--body-material", "nylon")["answer"]["notes"])
+        for words in ("Restitution of the first impact: 0.4", "surface: nylon"):
+            self.assertIn(words, damped)
+        for words in ("Undamped", "after the first landing", "taken as"):
+            self.assertNotIn(words, damped)
+        for command, options in (("shock", PROBE), ("simulate", ())):
+            told = run(command, *BOX, "--orientation", "1", "--impacts", "1", "--floor", "concrete", "--restitution", "0.4", *options).stderr
+            self.assertEqual(told.count("--restitution 0.4 is the discrete model's alone"), 1, command)
+
+    def test_what_looks_like_mm_or_grams_and_a_probe_beside_the_body_are_doubted(self):
+        for options, words in ((("--size", "100x50x10", "--mass", "100", "--probe", "camera:48,16,4"), "were mm or g meant"),
+                               (("--size", "0.1x0.05x0.01", "--mass", "0.1", "--probe", "camera:0.06,0,0"), "camera: outside of the body")):
+            scene = ["--body", "box", *options, "--clearance", "1", "--floor", "concrete", "--drops", "26", "--impacts", "1"]
+            self.assertIn(words, " ".join(json_of("report", *scene)["answer"]["notes"]))
+            self.assertEqual(run("report", *scene, "--format", "json").stderr.count(words), 1)
+
+    def test_a_pad_says_in_how_many_drops_it_bottoms_out_and_how_deep_each_impact_goes(self):
+        pad = [*BOX, "--curve", "[[0, 0], [0.1, 2e4], [0.6, 2.5e4], [0.8, 2e5]]", *PROBE, "--part", "100", "--drops", "26", "--impacts", "2"]
+        scene = [*pad, "--thickness", "0.008"]
+        found = json_of("report", *scene)
+        rows = found["summary"]
+        self.assertTrue(0 < found["answer"]["bottoming"] <= 26, rows)
+        self.assertIn("were mm meant", " ".join(json_of("report", *pad, "--thickness", "8")["answer"]["notes"]))
+        self.run_program("report", *scene, "--floor", "steel", "--output", "page.html")
+        page = self.read("page.html")
+        self.assertRegex(page, r"The pad bottoms out in \d+ of 26 drops, going to \S+ times its curve's depth, onto the floor")
+        impact = json_of("report", *scene, "--floor", "steel")["simulation"]["impacts"][0]
+        table = page.split("<h2>The impacts")[1].split("</table>")[0]
+        self.assertRegex(table, r"of pad(<br>)?\W*%")
+        self.assertIn(f">{100 * impact['indentation'] / 0.008:.3g}<", table)
+
+    def test_each_of_the_26_attitudes_is_in_the_table_and_a_released_drop_says_its_height(self):
+        scene = ["--body", "box", "--size", "0.1x0.05x0.01", "--mass", "0.1", "--floor", "wood", *PROBE, "--part", "40g:11ms", "--impacts", "1",
+                 "--drops", "26", "--release-clearance", "0.6", "--release-spin", "2"]
+        self.run_program("report", *scene, "--output", "page.html")
+        page = self.read("page.html")
+        table = page.split("<h2>Attitudes")[1].split("</table>")[0]
+        self.assertEqual([table.count(f">{kind} ") for kind in ("face", "edge", "corner")], [6, 12, 8])
+        self.assertIn("drop: at the release, the lowest point 0.6 m above the ground, velocity (0, 0, 0) m/s, angular velocity (0, 2, 0) rad/s", page)
+        self.assertIn("the attitude at the release is what is given", page)
+
+    def test_blows_of_the_discrete_model_that_overlap_on_the_floor_are_told(self):
+        """The contact of a phone that lands flat on springs of 1e8 N/m³ lasts at least pi sqrt(m/(k A))."""
+        found = json_of("report", "phone-damped", *FEW[:4], *PROBE, "--model", "discrete", "--drops", "26")
+        apart, lasts = (float(number) for number in re.search(r"are (\S+) ms apart, .* lasts (\S+) ms", found["overlap"]).groups())
+        self.assertGreater(lasts, 1e3 * math.pi * math.sqrt(0.08814 / (1e8 * 0.10566 * 0.04394)))
+        starts = [impact["start"] for impact in found["sequence"]["impacts"]]
+        self.assertAlmostEqual(apart, 1e3 * (starts[1] - starts[0]), delta=0.005 * apart)
+
+    def test_without_a_file_nothing_is_written(self):
+        self.refused("--output", "report", "phone-damped")
+
+    def test_where_prediction_ends_it_says_so(self):
+        sequence = json_of("sequence", *ROCKING)
+        known = [impact["predictable"] for impact in sequence["impacts"]].index(False)
+        self.assertEqual(run("report", *ROCKING, "--model", "discrete", "--output", self.path("rod.html")).returncode, 0)
+        self.assertIn(f"impacts 1 to {known} can be predicted; later ones", self.read("rod.html"))
+
+
+if __name__ == "__main__":
+    unittest.main()

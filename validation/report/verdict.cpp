@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "validation/report/verdict.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "validation/output/number.hpp"
+#include "validation/run/discrete_scene.hpp"
+#include "validation/scene/floors.hpp"
+#include "validation/scene/probes.hpp"
+
+namespace clatter::validation {
+
+double Ranking::value_of(const ShockRow& row) const {
+  if (by == By::margin) return margin_of(row, *part, has_peaks).value;
+  return by == By::peak ? row.value.peak_size / standard_gravity : row.value.delta_v_size;
+}
+
+bool is_lossless(const Scene& scene, Model model) {
+  if (model == Model::continuous) return !scene.world.ground.is_damped();
+  const analytic::ImpactLaw law = discrete_law(scene).law;
+  return law.law == analytic::RestitutionLaw::viscoelastic ? !(law.damping_per_stiffness > 0) : law.restitution == 1;
+}
+
+std::optional<Blow> worst_blow(const std::vector<ShockRow>& rows, const Run& run, const Scene& scene,
+                               const Ranking& ranking) {
+  if (run.impacts.empty()) return std::nullopt;
+  const double end = landing_end(scene, run.impacts.front().value.approach_speed);
+  const ShockRow* worst = nullptr;
+  for (const ShockRow& row : rows) {
+    if (row.probe != ranking.probe || (ranking.landing_alone && !(row.start <= end))) continue;
+    if (!worst || ranking.is_worse(ranking.value_of(row), ranking.value_of(*worst))) worst = &row;
+  }
+  if (!worst) return std::nullopt;
+  Blow blow{.impact = worst->impact,
+            .predictable = worst->predictable,
+            .peak_g = worst->value.peak_size / standard_gravity,
+            .velocity = worst->value.delta_v_size,
+            .width = worst->value.width,
+            .value = ranking.value_of(*worst)};
+  if (ranking.part) {
+    blow.margin = ranking.has_peaks
+                      ? blow_margin(*ranking.part, blow.velocity, worst->value.peak_size)
+                      : BlowMargin{.value = velocity_margin(*ranking.part, blow.velocity), .by_velocity = true};
+  }
+  if (ranking.has_peaks) blow.depth = run.impacts.at(static_cast<std::size_t>(blow.impact) - 1).value.indentation;
+  return blow;
+}
+
+double three_digits(double value) {
+  const double unit = value > 0 ? std::pow(10.0, std::floor(std::log10(value)) - 2) : 1;
+  return unit < 1 ? std::round(value / unit) / std::round(1 / unit) : std::round(value / unit) * unit;
+}
+
+std::string said(double value) { return shortest(three_digits(value)); }
+
+std::string blow_words(const Blow& blow, const std::string& probe, const Ranking& ranking) {
+  const auto half_sine = [&] { return equivalent_pulse(blow.velocity, blow.peak_g * standard_gravity); };
+  std::string words =
+      ranking.has_peaks
+          ? fmt::format("{} takes {} g in impact {}, {} m/s, as a half sine of {} ms has", probe, said(blow.peak_g),
+                        blow.impact, said(blow.velocity), said(1e3 * half_sine().duration))
+          : fmt::format("{} is changed by {} m/s in impact {}", probe, said(blow.velocity), blow.impact);
+  if (!blow.margin) return words;
+  const FragilePart& part = *ranking.part;
+  const double bears = part.fragility / standard_gravity;
+  const char* const decides = blow.margin->by_velocity ? "the change of velocity" : "the peak";
+  switch (part.kind) {
+    case FragilePart::Kind::oscillator:
+      return words + fmt::format("; the part of {} Hz answers with {} g and bears {} g: {} decides",
+                                 said(part.frequency), said(bears / blow.margin->value), said(bears), decides);
+    case FragilePart::Kind::at_place: return words + fmt::format("; the part bears {} g there", said(bears));
+    case FragilePart::Kind::tested:
+      return words + fmt::format("; the part bore a half sine of {} g and {} ms, {} m/s: {} decides", said(bears),
+                                 said(1e3 * part.duration),
+                                 said(damage_boundary(part, PulseShape::half_sine).critical_velocity), decides);
+  }
+  return words;
+}
+
+std::string depth_words(const Scene& scene, double depth) {
+  if (!scene.world.ground.is_pad()) return "";
+  const std::string words = fmt::format("{} mm deep", said(1e3 * depth));
+  return scene.pad.thickness ? fmt::format("{}, {} % of the pad", words, said(100 * depth / *scene.pad.thickness))
+                             : words;
+}
+
+std::vector<std::string> assumed_words(const Scene& scene, Model model, const Blow& blow) {
+  std::vector<std::string> items;
+  const numeric::Ground& ground = scene.world.ground;
+  const bool is_continuous = model == Model::continuous;
+  if (is_lossless(scene, model)) {
+    const char* const what = !is_continuous           ? "Impacts without loss (e = 1)"
+                             : ground.is_pad()        ? "Undamped pad (e = 1): a curve gives no restitution"
+                             : scene.half_space.floor ? "Undamped floor (e = 1): no source gives a restitution"
+                                                      : "Undamped ground (e = 1)";
+    items.push_back(fmt::format(
+        "{}; changes of velocity are up to twice those without rebound, and later impacts are too hard{}. {} gives one",
+        what, blow.impact > 1 ? fmt::format(", as impact {} here is", blow.impact) : "",
+        is_continuous ? "--floor-restitution E" : "--restitution E"));
+  } else if (!is_continuous) {
+    items.push_back("Impact law: " + law_words(scene, std::nullopt));
+  } else if (scene.ground_restitution) {
+    items.push_back(fmt::format("Restitution of the first impact: {}, as given", shortest(*scene.ground_restitution)));
+  } else {
+    items.emplace_back("The ground's damping is as given, and gives the restitution");
+  }
+  if (is_continuous && scene.impact.restitution && !scene.ground_restitution)
+    items.push_back(discrete_restitution_words(scene));
+  const HalfSpaceScene& half_space = scene.half_space;
+  if (is_continuous && half_space.floor && !half_space.body_modulus) {
+    items.push_back(
+        half_space.body_material
+            ? fmt::format("The body's surface: {}, as given", body_material_names()[*half_space.body_material])
+            : fmt::format("The body's surface is taken as {}: --body-material names another",
+                          body_materials().front().name));
+  }
+  return items;
+}
+
+}  // namespace clatter::validation

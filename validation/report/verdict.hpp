@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Which blow of a drop is the worst for a probe, and what a report says of it in a sentence.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "validation/run/run.hpp"
+#include "validation/scene/scene.hpp"
+#include "validation/shock/damage_boundary.hpp"
+#include "validation/shock/shock_rows.hpp"
+
+namespace clatter::validation {
+
+/// By what the blows of a drop, and so drops, are ranked.
+struct Ranking {
+  enum class By { margin, peak, velocity };
+  By by = By::peak;
+  std::size_t probe = 0;
+  /// Blows that follow a bounce are left out: on a ground without loss they stay as hard for ever.
+  bool landing_alone = false;
+  std::optional<FragilePart> part{};
+  bool has_peaks = true;  ///< of the continuous model
+
+  /// A margin, or a peak [g] or change of velocity [m/s] at the probe.
+  [[nodiscard]] double value_of(const ShockRow& row) const;
+  [[nodiscard]] bool is_worse(double one, double other) const { return by == By::margin ? one < other : one > other; }
+};
+
+/// Whether a contact of the model gives back all that it takes: e = 1.
+[[nodiscard]] bool is_lossless(const Scene& scene, Model model);
+
+/// What one impact does to a probe.
+struct Blow {
+  int impact = 0;  ///< from 1
+  bool predictable = true;
+  double peak_g = 0;    ///< [g]; 0: the discrete model's
+  double velocity = 0;  ///< |ΔV| [m/s]
+  double width = 0;     ///< above a tenth of the peak [s]
+  double value = 0;     ///< that it is ranked by
+  std::optional<BlowMargin> margin{};
+  std::optional<double> depth{};  ///< of the deepest point [m]
+};
+/// The worst of a drop's blows; none: nothing struck.
+/// @param run  that the rows are of
+[[nodiscard]] std::optional<Blow> worst_blow(const std::vector<ShockRow>& rows, const Run& run, const Scene& scene,
+                                             const Ranking& ranking);
+
+/// Three digits, as one says them: 39000, not 39027.
+[[nodiscard]] double three_digits(double value);
+[[nodiscard]] std::string said(double value);
+/// "camera takes 2660 g in impact 1, 7.52 m/s, as a half sine of 0.45 ms does; the part of 500 Hz answers with ...".
+[[nodiscard]] std::string blow_words(const Blow& blow, const std::string& probe, const Ranking& ranking);
+/// "19.5 mm deep, 244 % of the pad": empty without a pad.
+[[nodiscard]] std::string depth_words(const Scene& scene, double depth);
+/// What of the ground and the body was assumed, and is decisive: a ground without loss, a material that nobody named, a
+/// restitution that the model leaves alone.
+/// @param blow  the worst
+[[nodiscard]] std::vector<std::string> assumed_words(const Scene& scene, Model model, const Blow& blow);
+
+}  // namespace clatter::validation
