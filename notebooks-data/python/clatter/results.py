@@ -194,8 +194,9 @@ class Run(Result):
         from clatter.calls import sequence, simulate  # noqa: PLC0415: that module needs this one
 
         wanted = [float(times)] if isinstance(times, (int, float)) else [float(time) for time in times]
-        again = simulate if isinstance(self, Simulation) else sequence
-        told = {row["time"]: row for row in again(self.scene, at=sorted(set(wanted))).to_dict()["states"]}
+        asked = sorted(set(wanted))
+        again: Result = simulate(self.scene, at=asked) if isinstance(self, Simulation) else sequence(self.scene, at=asked)
+        told = {row["time"]: row for row in again.to_dict()["states"]}
         return States([told[time] for time in wanted])
 
     def __len__(self) -> int:
