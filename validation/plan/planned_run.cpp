@@ -324,7 +324,7 @@ void add_states(const Scene& scene, const numeric::Body& body, const numeric::Mo
   Simulation& run = planned.run;
   if (!scene.has_times() || run.outcome == Outcome::interrupted) return;
   const std::vector<double> times = state_times(scene, end_of(run));
-  const auto touch = std::ranges::lower_bound(times, 0.0);
+  const auto touch = std::lower_bound(times.begin(), times.end(), 0.0);
   for (auto time = times.begin(); time != touch; ++time)
     run.states.push_back(before_touch(body, scene.world, start, *time));
   if (touch == times.end()) return;

@@ -705,6 +705,25 @@ class Run : public SequenceLoop<Sequence, ErrorGrowth> {
     end_errors_.attitude += energy / (body_.mass * drop_.gravity * reach_) * 64;
     state_.velocity.z() = 0;
     state_.angular_velocity.head<2>().setZero();
+    lie_level();
+  }
+
+  /// Turns the body by what its corners below still lack of lying level, and puts them on the ground.
+  void lie_level() {
+    const auto place = [&](std::size_t i) -> const Vector3& {
+      return body_.vertices[static_cast<std::size_t>(lying_[i])];
+    };
+    Vector3 from, to;  // a direction of the body as it is and as it would be
+    if (lying_.size() == 2) {
+      to = from = state_.attitude * (place(1) - place(0));
+      to.z() = 0;
+    } else {
+      to = Vector3(0, 0, 1);
+      from = state_.attitude * (place(1) - place(0)).cross(place(2) - place(0));
+      if (from.z() < 0) from = -from;
+    }
+    state_.attitude = (Quaternion::FromTwoVectors(from, to) * state_.attitude).normalized();
+    state_.position.z() = -(state_.attitude * place(0)).z();
   }
 
   /// Whether the body already had to come to rest on that face in the last state that can be predicted.
