@@ -199,7 +199,8 @@ Simulation simulate(const Body& body, const World& world, const MotionState& sta
   simulation.root_evaluations += other.root_evaluations;
   simulation.state_evaluations += other.state_evaluations;
   estimate_errors(body, second.error_per_distance, simulation.impacts, other.impacts);
-  estimate_state_errors(body, second.error_per_distance, simulation.impacts, simulation.states, other.states);
+  estimate_state_errors(body, second.error_per_distance, simulation.tolerance, simulation.impacts, simulation.states,
+                        other.states);
   return simulation;
 }
 

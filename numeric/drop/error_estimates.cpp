@@ -173,6 +173,19 @@ StateErrors rounding_of(const Body& body, const StateRecord& at, double approach
           .energy = part * (std::fabs(at.energy) + body.mass() * speed * speed) + time * force * speed};
 }
 
+/// The local error of a step, which began `since` [s] ago at most.
+StateErrors step_errors(const Body& body, const StateRecord& at, double approach_speed, double tolerance,
+                        double since) {
+  const double radius = body.radius();
+  const double speed =
+      tolerance * (at.state.velocity.norm() + radius * at.state.angular_velocity.norm() + approach_speed);
+  return {.position = speed * since,
+          .angle = speed / radius * since,
+          .velocity = speed,
+          .angular_velocity = speed / radius,
+          .energy = body.mass() * speed * (at.state.velocity.norm() + approach_speed)};
+}
+
 StateErrors sum(const StateErrors& a, const StateErrors& b) {
   return {a.position + b.position, a.angle + b.angle, a.velocity + b.velocity, a.angular_velocity + b.angular_velocity,
           a.energy + b.energy};
@@ -264,8 +277,9 @@ std::size_t states_with_errors(std::span<const StateRecord> states, std::size_t 
   return count;
 }
 
-void estimate_state_errors(const Body& body, double error_per_distance, std::span<const ImpactRecord> impacts,
-                           std::vector<StateRecord>& states, std::span<const StateRecord> second) {
+void estimate_state_errors(const Body& body, double error_per_distance, double tolerance,
+                           std::span<const ImpactRecord> impacts, std::vector<StateRecord>& states,
+                           std::span<const StateRecord> second) {
   for (std::size_t i = 0; i < states.size(); ++i) {
     StateRecord& at = states[i];
     const StateErrors left_out = at.error;
@@ -278,6 +292,10 @@ void estimate_state_errors(const Body& body, double error_per_distance, std::spa
     }
     const double approach = listed > 0 ? impacts[listed - 1].value.approach_speed : 0;
     at.error = sum(distance(at, second[i], wider_of_states * error_per_distance), rounding_of(body, at, approach));
+    if (at.in_contact) {
+      const double since = listed > 0 ? std::fabs(at.time - impacts[listed - 1].value.start) : 0;
+      at.error = sum(at.error, step_errors(body, at, approach, tolerance, since));
+    }
     if (std::isfinite(left_out.velocity)) at.error = sum(at.error, left_out);
     const TimeErrors beside = time_errors(at, impacts);
     if (beside.impact) at.error = sum(at.error, change_within(body, *beside.impact, beside.beside));

@@ -57,11 +57,14 @@ void estimate_errors(const Body& body, double error_per_distance, std::vector<Im
 
 /// Fills in `error` of each state: 1.5 error_per_distance × |state − second's state|, what rounding leaves uncertain,
 /// grown by the amplification, and, within the error of its time beside the beginning or end of an impact, the change
-/// that this impact makes in that time.  Not known from an impact on whose errors are not known, and where the second
+/// that this impact makes in that time; in a contact also the local error of a step, which both runs may have alike
+/// where they have taken few.  Not known from an impact on whose errors are not known, and where the second
 /// run has no state.
 /// @param impacts  of the main run, with their errors.
-void estimate_state_errors(const Body& body, double error_per_distance, std::span<const ImpactRecord> impacts,
-                           std::vector<StateRecord>& states, std::span<const StateRecord> second);
+/// @param tolerance  of its steps, relative; 0: they are fixed
+void estimate_state_errors(const Body& body, double error_per_distance, double tolerance,
+                           std::span<const ImpactRecord> impacts, std::vector<StateRecord>& states,
+                           std::span<const StateRecord> second);
 
 /// Errors of all rows: not known (NaN).
 void forget_errors(std::vector<ImpactRecord>& rows);

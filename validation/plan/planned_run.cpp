@@ -319,14 +319,17 @@ numeric::StateRecord before_touch(const numeric::Body& body, const numeric::Worl
 }
 
 /// The states at the scene's times, by one more run, which changes no other number.
-void add_states(const Scene& scene, const numeric::Body& body, const numeric::MotionState& start,
+/// @param fall  from the release to the touch [s]
+void add_states(const Scene& scene, const numeric::Body& body, const numeric::MotionState& start, double fall,
                 const numeric::Observer& observer, PlannedRun& planned) {
   Simulation& run = planned.run;
   if (!scene.has_times() || run.outcome == Outcome::interrupted) return;
   const std::vector<double> times = state_times(scene, end_of(run));
   const auto touch = std::lower_bound(times.begin(), times.end(), 0.0);
-  for (auto time = times.begin(); time != touch; ++time)
+  for (auto time = times.begin(); time != touch; ++time) {
     run.states.push_back(before_touch(body, scene.world, start, *time));
+    if (*time < -fall) run.states.back().known = false;  // it is not let go yet
+  }
   if (touch == times.end()) return;
   Accuracy accuracy = scene.accuracy;
   accuracy.method = run.method;
@@ -414,7 +417,7 @@ PlannedRun run_to_digits(const Scene& scene, const numeric::Body& body, const nu
   if (scene.is_released()) planned.first_touch = first_touch_of(fall, start);
   add_facet_errors(scene, planned.run);
   judge(body, planned);
-  add_states(scene, body, start, observer, planned);
+  add_states(scene, body, start, fall, observer, planned);
   const std::string out_of_plane = planar_warning(body, world, start);
   if (!out_of_plane.empty()) planned.warnings.push_back(out_of_plane);
   const std::string sunk = submersion_warning(planned.run), deep = depth_warning(body, scene, planned.run);

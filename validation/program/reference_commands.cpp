@@ -378,13 +378,7 @@ std::string fish_completion() {
 /// Text that roff takes as it is, with its breaks of lines.
 std::string roff(const std::string& text) {
   std::string out = "\\&";
-  for (const char c : text) {
-    if (c == '-') out += "\\-";
-    else if (c == '\\') out += "\\e";
-    else if (c == '\n') out += "\n.br\n\\&";
-    else if (c == '|') out += "|\\:";  // a list of names may break there
-    else out += c;
-  }
+  for (const char c : text) out += c == '-' ? "\\-" : c == '\\' ? "\\e" : c == '\n' ? "\n.br\n\\&" : std::string(1, c);
   return out + "\n";
 }
 

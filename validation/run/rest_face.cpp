@@ -16,7 +16,8 @@ namespace {
 namespace space = analytic::space;
 using numeric::Vector3;
 
-constexpr double aligned = 1e-6;  // of a direction's sine: what a body leaves that lies on a face to rounding
+// Sines by which a body that lies on a face may be off it: by rounding, and by what springs give way.
+constexpr double rounded = 1e-6, sunk = 0.02;
 
 /// The body's direction that points down when it lies on these of its vertices, in order around a face.
 Vector3 lower_side(const std::vector<Vector3>& vertices, const std::vector<int>& corners) {
@@ -35,8 +36,8 @@ Vector3 lower_side(const std::vector<Vector3>& vertices, const std::vector<int>&
   return (normal.dot(middle) < 0 ? -1 : 1) * normal.normalized();
 }
 
-/// The name of the face that points in this direction, unit, body frame; empty: none does.
-std::string name_of_face(const BodyScene& body, const Vector3& down) {
+/// The name of the face that points in this direction, unit, body frame, to a sine; empty: none does.
+std::string name_of_face(const BodyScene& body, const Vector3& down, double aligned) {
   using Shape = BodyScene::Shape;
   if (body.shape == Shape::sphere) return "";
   if (body.has_length()) {
@@ -51,7 +52,7 @@ std::string name_of_face(const BodyScene& body, const Vector3& down) {
     }
     return "";
   }
-  const auto part = [](double value) { return significant(std::fabs(value) < aligned ? 0.0 : value, 3); };
+  const auto part = [](double value) { return significant(std::fabs(value) < rounded ? 0.0 : value, 3); };
   return fmt::format("({}, {}, {})", part(down.x()), part(down.y()), part(down.z()));
 }
 
@@ -68,10 +69,15 @@ std::optional<RestFace> rest_face(const Scene& scene, const space::Drop& drop, c
   RestFace rest{.is_known = sequence.end_predictable};
   const Vector3 down = sequence.rest ? lower_side(drop.body.vertices, sequence.rest->corners)
                                      : lower_side(sequence.last_motion->state.attitude);
-  rest.face = name_of_face(scene.body, down);
+  rest.face = name_of_face(scene.body, down, rounded);
   if (sequence.last_motion) rest.time = {sequence.last_motion->begin, sequence.last_motion->begin_error};
   else if (sequence.tail) rest.time = end_of(*sequence.tail);
   else rest.time = {std::numeric_limits<double>::quiet_NaN(), unknown_error};
+  // Where errors decide how the last impacts follow each other, their end is known to be before `latest` alone.
+  const bool is_decided = sequence.rows.empty() || sequence.rows.back().error.predictable;
+  const double latest = sequence.rest ? sequence.rest->latest : unknown_error;
+  if (!is_decided) rest.time.error = std::fmax(rest.time.error, latest - rest.time.value);
+  rest.time.error = std::fmax(rest.time.error, std::numeric_limits<double>::epsilon() * std::fabs(rest.time.value));
   return rest;
 }
 
@@ -84,7 +90,8 @@ std::optional<RestFace> rest_face(const Scene& scene, const analytic::Drop& drop
     if ((below >> i & 1U) != 0) vertices.emplace_back(vertex.x, 0, vertex.z);
   }
   if (vertices.size() != 2) return {};
-  RestFace rest{.face = name_of_face(scene.body, lower_side(vertices, {0, 1})), .is_known = sequence.end_predictable};
+  RestFace rest{.face = name_of_face(scene.body, lower_side(vertices, {0, 1}), rounded),
+                .is_known = sequence.end_predictable};
   const analytic::ImpactRow& last = sequence.rows.back();
   rest.time = sequence.tail ? end_of(*sequence.tail) : Estimated{last.start, last.error.start};
   return rest;
@@ -104,7 +111,7 @@ std::optional<RestFace> rest_face(const Scene& scene, const numeric::Simulation&
   const numeric::MotionState& lies = rests ? simulation.on_ground->rest.state : simulation.on_ground->from;
   const bool is_known = std::ranges::all_of(simulation.impacts, &numeric::ImpactRecord::predictable);
   return RestFace{
-      name_of_face(scene.body, lower_side(lies.attitude)), {simulation.on_ground_from, unknown_error}, is_known};
+      name_of_face(scene.body, lower_side(lies.attitude), sunk), {simulation.on_ground_from, unknown_error}, is_known};
 }
 
 DiscreteSequence sequence_to_face(const Scene& scene, const DiscreteDrop& drop, bool with_errors) {

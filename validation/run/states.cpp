@@ -78,8 +78,9 @@ std::vector<double> state_times(const Scene& scene, double end) {
   if (scene.rate > 0) {
     const double last = scene.until.value_or(end) * scene.rate;
     if (!(last <= most_times)) {
-      throw BadInput(fmt::format("run.rate = {}: gives more than a million states until {} s; say run.until",
-                                 shortest(scene.rate), shortest(scene.until.value_or(end))));
+      throw BadInput(
+          fmt::format("run.rate = {}: gives more than a million states until {} s; give a lower one, or run.until",
+                      shortest(scene.rate), shortest(scene.until.value_or(end))));
     }
     for (double k = 0; k <= last * (1 + 1e-12); ++k) times.push_back(k / scene.rate);
   }
@@ -146,7 +147,11 @@ std::vector<std::string> state_notes(const Run& run) {
                                   shortest(state.time), state.beside));
     }
   }
-  const auto lost = std::ranges::find(run.states, false, &MotionAt::is_known);
+  auto known = std::ranges::find(run.states, true, &MotionAt::is_known);
+  if (known == run.states.end()) known = run.states.begin();
+  if (known != run.states.begin())
+    notes.push_back(fmt::format("at {} s the body is not let go yet", shortest(run.states.front().time)));
+  const auto lost = std::find_if(known, run.states.end(), [](const MotionAt& state) { return !state.is_known; });
   if (lost != run.states.end())
     notes.push_back(fmt::format("from {} s on the model does not say where the body is", shortest(lost->time)));
   return notes;

@@ -219,8 +219,9 @@ Arguments map_arguments(MapRequest& request) {
   for (const MapQuantity& quantity : map_quantities()) names.emplace_back(quantity.name);
   return {{.name = "--quantity",
            .target = &request.quantity,
-           .type = fmt::format("{}", fmt::join(names, "|")),
-           .help = "what the colours show (impacts); with --samples NAME=CLASS"},
+           .type = "NAME",
+           .help = fmt::format("what the colours show, one of {} (impacts); with --samples NAME=CLASS",
+                               fmt::join(names, ", "))},
           {.name = "--size",
            .target = [&request](const auto& name, const auto& text) { read_size(name, text, request); },
            .type = "WIDTHxHEIGHT",

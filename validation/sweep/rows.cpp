@@ -326,7 +326,8 @@ void append_rest(const RowForm& form) {
   if (!form.rest) return form.out.nothing(3);
   form.out.word(form.rest->face);
   form.out.number(form.rest->time.value);
-  form.out.truth(form.rest->is_known);
+  if (form.errors) form.out.truth(form.rest->is_known);
+  else form.out.nothing();
 }
 
 /// The one row of a scene with its sums.

@@ -609,7 +609,7 @@ Command sweep_command() {
         add_plot_options(command, input.plot);
         add_process_options(command, input.restart, input.threads);
         command.footer = sweep_footer;
-        command.columns = {{"sweep", [] { return sweep_columns({.model = Model::continuous}); }},
+        command.columns = {{"sweep", [] { return sweep_columns({.model = Model::continuous, .rests = true}); }},
                            {"sweep-summary", Summary::columns}};
       });
 }

@@ -87,6 +87,7 @@ class Run : public SequenceLoop<Sequence, ErrorGrowth> {
     if (flown.end != FlightEnd::contact) throw std::domain_error("the released body never reaches the ground");
     time_ = -flown.time;
     way_error_ = epsilon * *drop_.release_height;
+    while (awaits(time_)) note({}, false, {}, infinite);  // before the release
     note_flight(flight, Vector3::Zero(), 0);
     arrive(flight, flown, Vector3::Zero());  // the height of its centre of mass is given
     // Places count from where the body touches, those before that too.
@@ -182,6 +183,7 @@ class Run : public SequenceLoop<Sequence, ErrorGrowth> {
   Next go_on_touching(std::vector<int>& arriving) {
     if (!options_.until_rest || !result_.standing || !can_follow(drop_, result_.standing->corners)) return Next::end;
     if (is_still() || (options_.until_face && is_trapped())) {
+      result_.message.clear();
       settle();
       return Next::end;
     }
@@ -705,6 +707,9 @@ class Run : public SequenceLoop<Sequence, ErrorGrowth> {
     end_errors_.attitude += energy / (body_.mass * drop_.gravity * reach_) * 64;
     state_.velocity.z() = 0;
     state_.angular_velocity.head<2>().setZero();
+    const double rounding = 1e-12 * std::sqrt(drop_.gravity * reach_);
+    if (state_.velocity.norm() <= rounding) state_.velocity.setZero();
+    if (state_.angular_velocity.norm() * reach_ <= rounding) state_.angular_velocity.setZero();
     lie_level();
   }
 

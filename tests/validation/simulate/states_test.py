@@ -73,6 +73,9 @@ class States(EmptyFolder):
             for name in ("position_x", "position_z", "attitude_q0", "attitude_q2", "velocity_z", "angular_velocity_y", "energy"):
                 self.assertAlmostEqual(float(simulated[name]), float(discrete[name]), delta=1e-13, msg=name)
             self.assertAlmostEqual(float(simulated["position_x"]), 0.3 * float(simulated["time"]), delta=1e-15)
+        for model in (("simulate", "--stiffness", "1e9"), ("sequence",)):
+            held, flies = json_of(*model, *toast, "--at=-0.36,-0.35")["states"]
+            self.assertEqual((held["position"][0], flies["position"][0] is None), (None, False), model)
         told = json_of(*self.box, "--speed", "0.5", "--rate", "50", "--until", "0.1")
         self.assertEqual([state["time"] for state in told["states"]], [0, 0.02, 0.04, 0.06, 0.08, 0.1])
 
