@@ -201,7 +201,7 @@ std::string explanation_of(const Comparison& comparison, const Scene& scene, con
 LimitRequest limit_request(const DiscreteSide& side, const Scene& scene) {
   if (!side.in_space) {
     const int listed = static_cast<int>(std::max<std::size_t>(side.impacts.size(), 1));
-    return {.impacts = scene.until ? listed : scene.request.impacts, .planar = true};
+    return {.impacts = std::isfinite(scene.request.until) ? listed : scene.request.impacts, .planar = true};
   }
   LimitRequest request{.impacts = 0, .planar = false};
   for (const SequenceImpact& impact : side.impacts) {

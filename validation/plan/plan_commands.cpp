@@ -2,6 +2,8 @@
 // `clatter plan` and `clatter tradeoff`: what accuracy costs.
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "validation/command/command.hpp"
 #include "validation/command/options.hpp"
 #include "validation/output/bad_input.hpp"
@@ -25,7 +27,7 @@ void require_counted_impacts(const Scene& scene, const char* command) {
   const auto refuse = [&](const char* key) {
     throw BadInput(fmt::format("{}: must be left out for clatter {}, which counts impacts", key, command));
   };
-  if (scene.until) refuse("run.until");
+  if (std::isfinite(scene.request.until)) refuse("run.until");
   if (scene.request.starts_on_ground) refuse("drop.start = \"rest\"");
 }
 

@@ -292,13 +292,6 @@ class Runner {
   long evaluations_ = 0;
 };
 
-/// When the last of what the run tells ends [s].
-double end_of(const Simulation& run) {
-  if (run.rest) return run.rest->time;
-  const double last = run.impacts.empty() ? 0 : run.impacts.back().value.start + run.impacts.back().value.duration;
-  return run.on_ground ? std::max(last, run.on_ground_from) : last;
-}
-
 /// The state of the flight that ends in `touch`, at a time before that [s]; its errors are those of rounding.
 numeric::StateRecord before_touch(const numeric::Body& body, const numeric::World& world,
                                   const numeric::MotionState& touch, double time) {
@@ -324,7 +317,7 @@ void add_states(const Scene& scene, const numeric::Body& body, const numeric::Mo
                 const numeric::Observer& observer, PlannedRun& planned) {
   Simulation& run = planned.run;
   if (!scene.has_times() || run.outcome == Outcome::interrupted) return;
-  const std::vector<double> times = state_times(scene, end_of(run));
+  const std::vector<double> times = state_times(scene, run_of(run));
   const auto touch = std::lower_bound(times.begin(), times.end(), 0.0);
   for (auto time = times.begin(); time != touch; ++time) {
     run.states.push_back(before_touch(body, scene.world, start, *time));
@@ -340,7 +333,6 @@ void add_states(const Scene& scene, const numeric::Body& body, const numeric::Mo
   request.until = infinity;
   request.times.assign(touch, times.end());
   Simulation told = numeric::simulate(body, scene.world, start, request, accuracy, {.progress = observer.progress});
-  run.state_evaluations += told.force_evaluations + told.state_evaluations;
   add_facet_errors(scene, told);
   run.states.insert(run.states.end(), told.states.begin(), told.states.end());
 }

@@ -557,6 +557,14 @@ std::string landing_words(const std::vector<space::Corner>& corners) {
 
 double given_inclination(const Scene& scene) { return scene.is_released() ? no_inclination : scene.angle_deg; }
 
+analytic::SequenceOptions sequence_options(const Scene& scene, bool with_errors) {
+  return {.impacts = scene.most_impacts(),
+          .digits = scene.accuracy.digits,
+          .amplification = with_errors,
+          .until_rest = scene.until_rest,
+          .until = scene.request.until};
+}
+
 Run named_run(const Scene& scene, const DiscreteSequence& sequence, const Vector3& centre) {
   Run run;
   if (const auto* const planar = std::get_if<analytic::Sequence>(&sequence)) {
@@ -593,19 +601,11 @@ space::Drop in_space(const PreparedScene& prepared) {
   return space_drop(prepared.scene, space::outline(std::get<analytic::Drop>(prepared.drop).body));
 }
 
-/// When the last of what the run tells ends [s].
-double end_of(const Run& run) {
-  double end = run.impacts.empty() ? 0 : run.impacts.back().value.start;
-  if (run.tail) end = std::fmax(end, run.tail->sum.value.start);
-  if (run.end_motion && run.end_motion->ends()) end = std::fmax(end, run.end_motion->begin + run.end_motion->duration);
-  return end;
-}
-
 /// Follows the motion, whatever the number of impacts asked for, and notes where it is at the times asked for.
 void add_states(const PreparedScene& prepared, Run& run) {
   const Scene& scene = prepared.scene;
   if (!scene.has_times()) return;
-  const std::vector<double> times = state_times(scene, end_of(run));
+  const std::vector<double> times = state_times(scene, run);
   const analytic::SequenceOptions options{
       .impacts = 1'000'000, .digits = scene.accuracy.digits, .until_rest = true, .until = times.back(), .times = times};
   for (const space::StateAt& state : impact_sequence(in_space(prepared), options).states)
@@ -616,10 +616,7 @@ void add_states(const PreparedScene& prepared, Run& run) {
 
 DiscreteRun run_discrete(const PreparedScene& prepared) {
   const Scene& scene = prepared.scene;
-  const analytic::SequenceOptions options{.impacts = scene.most_impacts(),
-                                          .digits = scene.accuracy.digits,
-                                          .until_rest = scene.until_rest,
-                                          .until = scene.until.value_or(std::numeric_limits<double>::infinity())};
+  const analytic::SequenceOptions options = sequence_options(scene);
   DiscreteSequence sequence =
       std::visit([&](const auto& drop) -> DiscreteSequence { return impact_sequence(drop, options); }, prepared.drop);
   Run run = named_run(scene, sequence, prepared.centre);

@@ -155,6 +155,9 @@ struct PreparedScene {
 /// @throws BadInput for closed-form, which former versions had, and for unknown names.
 std::string read_sequence_method(const std::string& option, const std::string& name);
 
+/// What a scene asks of its sequence.
+[[nodiscard]] analytic::SequenceOptions sequence_options(const Scene& scene, bool with_errors = true);
+
 /// A sequence of the discrete model, and its record.
 struct DiscreteRun {
   DiscreteSequence sequence;

@@ -71,16 +71,25 @@ const std::vector<StateQuantity>& quantities() {
   return listed;
 }
 
+/// When the last of what the run tells ends [s].
+double end_of(const Run& run) {
+  double end = run.impacts.empty() ? 0 : run.impacts.back().value.start + run.impacts.back().value.duration;
+  if (run.tail) end = std::fmax(end, run.tail->sum.value.start);
+  if (!run.end_motion) return end;
+  return std::fmax(end, run.end_motion->begin + (run.end_motion->ends() ? run.end_motion->duration : 0));
+}
+
 }  // namespace
 
-std::vector<double> state_times(const Scene& scene, double end) {
+std::vector<double> state_times(const Scene& scene, const Run& run) {
   std::vector<double> times = scene.times;
   if (scene.rate > 0) {
-    const double last = scene.until.value_or(end) * scene.rate;
+    const double end = std::isfinite(scene.request.until) ? scene.request.until : end_of(run);
+    const double last = end * scene.rate;
     if (!(last <= most_times)) {
       throw BadInput(
           fmt::format("run.rate = {}: gives more than a million states until {} s; give a lower one, or run.until",
-                      shortest(scene.rate), shortest(scene.until.value_or(end))));
+                      shortest(scene.rate), shortest(end)));
     }
     for (double k = 0; k <= last * (1 + 1e-12); ++k) times.push_back(k / scene.rate);
   }

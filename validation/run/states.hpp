@@ -12,10 +12,10 @@
 
 namespace clatter::validation {
 
-/// run.at and the grid of run.rate, ascending, each once.
-/// @param end  of the grid where the scene has no run.until [s]
+/// run.at and the grid of run.rate, which ends at run.until or, without it, with the last of what the run tells,
+/// ascending, each once.
 /// @throws BadInput where there are more than a million
-[[nodiscard]] std::vector<double> state_times(const Scene& scene, double end);
+[[nodiscard]] std::vector<double> state_times(const Scene& scene, const Run& run);
 
 /// What tables, CSV and JSON have of a state.
 [[nodiscard]] std::vector<Column> state_columns();

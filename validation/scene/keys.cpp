@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "validation/output/json.hpp"
 #include "validation/scene/floors.hpp"
@@ -515,8 +516,8 @@ void append_run(std::vector<Key>& keys) {
            [](const Scene& s, Model) { return s.until_rest ? Echo::value : Echo::absent; }},
           {"run.until", Use::both, "--until", "S", "s",
            "the run ends at this time since the first impact; 100000 impacts at most",
-           OptionalNumber{[](Scene& s) -> std::optional<double>& { return s.until; }, positive_number},
-           [](const Scene& s, Model) { return only_if(s.until.has_value()); }},
+           NumberValue{[](Scene& s) -> double& { return s.request.until; }, positive_number},
+           [](const Scene& s, Model) { return only_if(std::isfinite(s.request.until)); }},
           {"run.at", Use::both, "--at", "T,...", "s",
            "times since the first impact at which the state is printed, too, with its errors",
            ListValue{[](const Scene& s) { return s.times; },

@@ -375,10 +375,7 @@ Scene read_values(SceneValues values, const std::vector<SceneOverride>& override
   check_body(values, scene.body);
   check_ground(values, scene, model);
   check_impact(values, scene);
-  if (scene.until) {
-    scene.request.until = *scene.until;
-    if (model == Model::continuous) scene.request.impacts = scene.most_impacts();
-  }
+  if (model == Model::continuous && std::isfinite(scene.request.until)) scene.request.impacts = scene.most_impacts();
   scene.settle_restitution();
   std::ranges::sort(scene.times);
   if (!scene.times.empty() && scene.times.front() < 0 && !scene.is_released())

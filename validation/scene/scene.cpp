@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "validation/scene/scene.hpp"
 
+#include <cmath>
+
 namespace clatter::validation {
 
 analytic::RestitutionLaw restitution_law(const Scene& scene) {
@@ -23,7 +25,7 @@ Scene Scene::at(double value) const {
   return one;
 }
 
-int Scene::most_impacts() const { return until_rest || until ? 100'000 : request.impacts; }
+int Scene::most_impacts() const { return until_rest || std::isfinite(request.until) ? 100'000 : request.impacts; }
 
 bool Scene::has_vectors() const { return !attitude.empty() || !velocity.empty() || !angular_velocity.empty(); }
 

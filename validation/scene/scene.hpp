@@ -171,7 +171,6 @@ struct Scene {
   numeric::Request request;  ///< with starts_on_ground the body lies still there, but for what drags and turns it
   numeric::Accuracy accuracy;
   bool until_rest = false;      ///< the discrete model goes on until nothing follows, whatever request.impacts is
-  std::optional<double> until;  ///< no impact after this time since the first is followed [s]
   std::vector<double> times;    ///< times at which the state is wanted [s]
   double rate = 0;              ///< of further ones, equally far apart from 0 on; 0: none [Hz]
   bool require_digits = false;  ///< fewer known digits are exit status 3

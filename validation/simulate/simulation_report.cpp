@@ -67,8 +67,8 @@ ImpactDigits digits_of(const Scene& scene, const PlannedRun& planned, bool trust
 }
 
 /// The sum of the normal impulses as far as it is known.
-std::string total_words(const Scene& scene, const PlannedRun& planned) {
-  const Estimated total = totals(run_of(planned.run)).normal_impulse;
+std::string total_words(const Scene& scene, const PlannedRun& planned, const Run& run) {
+  const Estimated total = totals(run).normal_impulse;
   const bool trusted = trusted_impacts(scene, planned.run) == planned.run.impacts.size();
   ImpactDigits digits = digits_of(scene, planned, trusted);
   return shown_text(digits.cell(total.value, total.error, Scale::none));
@@ -118,8 +118,7 @@ std::string local_slip_words(const Scene& scene, const Simulation& run) {
 }
 
 /// How deep the body goes at most.
-std::string depth_words(const Scene& scene, const PlannedRun& planned) {
-  const Run run = run_of(planned.run);
+std::string depth_words(const Scene& scene, const PlannedRun& planned, const Run& run) {
   const auto deepest = std::ranges::max_element(run.impacts, {}, [](const Impact& i) { return i.value.indentation; });
   const Estimated depth = totals(run).largest_depth;
   return fmt::format(
@@ -135,7 +134,8 @@ std::vector<std::string> remarks_of(const Scene& scene, const Simulation& run) {
   return remarks;
 }
 
-std::vector<std::string> notes_of(const Scene& scene, const PlannedRun& planned) {
+/// @param record  of the run, as of the functions below
+std::vector<std::string> notes_of(const Scene& scene, const PlannedRun& planned, const Run& record) {
   const Simulation& run = planned.run;
   std::vector<std::string> notes{planned.first_touch ? words_of(*planned.first_touch) : "", trust_words(scene, run)};
   for (const std::string& warning : planned.warnings) notes.push_back("!: warning: " + warning);
@@ -143,11 +143,11 @@ std::vector<std::string> notes_of(const Scene& scene, const PlannedRun& planned)
   for (const ImpactRecord& row : run.impacts) gap = std::max(gap, std::fabs(row.ledger_gap));
   if (!run.impacts.empty()) {
     notes.push_back(fmt::format("Sum of normal impulses: {} N·s; the ledger of energy closes to {}",
-                                total_words(scene, planned), significant(gap, 1)));
-    notes.push_back(depth_words(scene, planned));
+                                total_words(scene, planned, record), significant(gap, 1)));
+    notes.push_back(depth_words(scene, planned, record));
   }
   for (const std::string& remark : remarks_of(scene, run)) notes.push_back(remark);
-  for (const std::string& words : state_notes(run_of(run))) notes.push_back(words);
+  for (const std::string& words : state_notes(record)) notes.push_back(words);
   for (const std::string& words :
        {method_words(run), accuracy_words(scene, planned), fmt::format("{}: {}", outcome_name(run), run.message)}) {
     notes.push_back(words);
@@ -182,10 +182,10 @@ std::vector<Column> columns_of(const Scene& scene) {
   return impact_columns(RunModel::continuous, shown);
 }
 
-std::vector<Row> rows_of(const Scene& scene, const PlannedRun& planned) {
+std::vector<Row> rows_of(const Scene& scene, const PlannedRun& planned, const Run& record) {
   std::vector<Row> rows;
   const std::size_t trust = trusted_impacts(scene, planned.run);
-  for (const Impact& impact : named_run(scene, planned.run).impacts) {
+  for (const Impact& impact : record.impacts) {
     const bool trusted = rows.size() < trust;
     rows.push_back(impact_row(impact, RunModel::continuous, digits_of(scene, planned, trusted)));
     rows.back()[0].shown = fmt::format("{}{}{}", impact.n, trusted ? "" : "?", impact.submerged ? "!" : "");
@@ -208,7 +208,7 @@ Value shortfall_value(const Scene& scene, const PlannedRun& planned) {
   return text_or_nothing(shortfall(scene, planned));
 }
 
-void add_results(const Scene& scene, const PlannedRun& planned, Value& fields) {
+void add_results(const Scene& scene, const PlannedRun& planned, const Run& record, Value& fields) {
   const Simulation& run = planned.run;
   fields["outcome"] = outcome_name(run);
   fields["warnings"] = planned.warnings;
@@ -222,12 +222,12 @@ void add_results(const Scene& scene, const PlannedRun& planned, Value& fields) {
                                      {"achieved", planned.achieved},
                                      {"known_impacts", planned.known_impacts},
                                      {"planned", planned.planned}};
-  add_totals(totals(run_of(run)), fields);
+  add_totals(totals(record), fields);
   fields["shortfall"] = shortfall_value(scene, planned);
   fields["energy_start"] = run.energy_start;
   if (planned.first_touch) fields["first_touch"] = fields_of(*planned.first_touch);
   if (const auto rest = rest_face(scene, run)) fields["rest"] = fields_of(*rest);
-  if (const std::optional<EndMotion> motion = run_of(run).end_motion) fields["end_motion"] = fields_of(*motion);
+  if (record.end_motion) fields["end_motion"] = fields_of(*record.end_motion);
   fields["cost"] =
       Value::Fields{{"force_evaluations", run.force_evaluations}, {"root_evaluations", run.root_evaluations}};
 }
@@ -235,7 +235,8 @@ void add_results(const Scene& scene, const PlannedRun& planned, Value& fields) {
 /// Adds the impacts of a run to the report of a sweep.
 void add_run(const SweptRun& swept, const Scene& scene, Report& report) {
   const Simulation& run = swept.planned.run;
-  Grid impacts{impact_columns(RunModel::continuous, {}), rows_of(swept.scene, swept.planned)};
+  Grid impacts{impact_columns(RunModel::continuous, {}),
+               rows_of(swept.scene, swept.planned, named_run(swept.scene, run))};
   report.fields["runs"].push_back(Value::Fields{{scene.sweep->name(), swept.value},
                                                 {"outcome", outcome_name(run)},
                                                 {"message", run.message},
@@ -261,9 +262,10 @@ Report simulation_report(const Scene& scene, const PlannedRun& planned) {
   Report report = begun_report("simulate", "impact sequence, continuous contact");
   report.head = scene_head(scene);
   if (const std::string facets = facet_words(scene, planned.run); !facets.empty()) report.head.push_back(facets);
-  report.notes = notes_of(scene, planned);
-  report.remarks = {totals_line(totals(run_of(planned.run)))};
-  report.grid = {columns_of(scene), rows_of(scene, planned)};
+  const Run record = named_run(scene, planned.run);
+  report.notes = notes_of(scene, planned, record);
+  report.remarks = {totals_line(totals(record))};
+  report.grid = {columns_of(scene), rows_of(scene, planned, record)};
   report.fields["model"] = "continuous";
   report.fields["scene"] = scene_value(scene);
   report.fields["body"] = body_value(scene);
@@ -272,11 +274,11 @@ Report simulation_report(const Scene& scene, const PlannedRun& planned) {
     const bool is_still = planned.run.impacts.empty();  // nothing says then how fast it might be
     const double speed = is_still ? 1 : planned.sizes[5], rate = is_still ? 1 : planned.sizes[8];
     report.further = state_grid(
-        run_of(planned.run), reason_in_space(scene).empty(), scene.accuracy.digits,
+        record, reason_in_space(scene).empty(), scene.accuracy.digits,
         {.length = rate > 0 ? speed / rate : 0, .speed = speed, .rate = rate, .energy = planned.run.energy_start});
     report.fields["states"] = row_objects(*report.further);
   }
-  add_results(scene, planned, report.fields);
+  add_results(scene, planned, record, report.fields);
   shorten_durations(scene, report.grid);
   return report;
 }

@@ -174,11 +174,7 @@ bool SweptBody::renew(const Scene& scene, const std::vector<double>& values) {
 
 /// The sequence of the drop, in the plane or in space.
 DiscreteSequence SceneRunner::sequence(const DiscreteDrop& drop, bool with_errors) {
-  const analytic::SequenceOptions options{.impacts = scene_.most_impacts(),
-                                          .digits = scene_.accuracy.digits,
-                                          .amplification = with_errors,
-                                          .until_rest = scene_.until_rest,
-                                          .until = scene_.until.value_or(std::numeric_limits<double>::infinity())};
+  const analytic::SequenceOptions options = sequence_options(scene_, with_errors);
   const auto* const planar = std::get_if<analytic::Drop>(&drop);
   const RowLayout& layout = plan_.layout;
   const bool sums_only =

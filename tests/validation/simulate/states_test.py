@@ -5,7 +5,7 @@ import csv
 import math
 import unittest
 
-from run_folder import EmptyFolder, json_of, run
+from run_folder import EmptyFolder, json_of, rows_of, run
 
 G, SPEED, MASS, SIZE, STIFFNESS = 9.81, 0.5, 0.2, (0.1, 0.05, 0.02), 1e8
 # Sides that stand upright bear nothing on the projected area.
@@ -61,6 +61,8 @@ class States(EmptyFolder):
         self.assertEqual(told["impacts"], json_of(*drop)["impacts"], "states change no other number")
         self.assertEqual(len(json_of(*drop, "--until", "0.15")["impacts"]), 2)
         self.assertEqual(json_of(*drop, "--until", "0.15")["outcome"], "time-limit")
+        swept = rows_of("sweep", self.box[1], "--set", "drop.speed=0.5", "--set", "run.until=0.05,0.15", "--model", "continuous")
+        self.assertEqual([row["impacts"] for row in swept], ["1", "2"])
 
     def test_rates_and_times_before_the_touch_agree_with_the_discrete_model(self):
         toast = ("--body", "box", "--size", "0.102x0.102x0.015", "--mass", "0.03", "--release-height", "0.74", "--release-angle=-35",
