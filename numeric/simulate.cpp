@@ -78,6 +78,7 @@ std::string words_for(const Simulation& run, const Request& request, const Accur
       } else {
         text << "the body lies still on the ground from " << time << " s";
       }
+      if (run.on_ground->rocks) text << ", but for rocking at up to " << run.on_ground->left_speed << " m/s";
       break;
     case Outcome::sustained_contact: text << "from " << time << " s the body " << words_for(*run.on_ground); break;
     case Outcome::evaluation_limit:

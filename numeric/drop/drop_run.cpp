@@ -346,10 +346,20 @@ class Run {
     row.submerged = contact.submerged;
     row.amplification = std::numeric_limits<double>::quiet_NaN();
     row.energy_stored = contact.energy_stored;
+    if (contact.goes_on && contact.goes_on->kind == GroundMotionKind::rests) note_rest(*contact.goes_on, row);
     const double gap =
         n.energy_loss - n.work_damping - n.work_friction - n.work_released - (row.energy_stored - stored_before_);
     row.ledger_gap = gap / std::max(result_.energy_start, row.energy_stored);
     return row;
+  }
+
+  static void note_rest(const GroundMotion& motion, ImpactRecord& row) {
+    const bool slides = motion.stops_after > 0;
+    if (!slides) row.carried = motion.rest_force;
+    if (!motion.rocks) return;
+    row.left_speed = motion.left_speed;
+    row.left_turning = motion.left_turning;
+    if (slides) row.left_time = motion.left_speed / motion.acceleration.norm();
   }
 
   void rest_or_glide(const GroundMotion& motion) {

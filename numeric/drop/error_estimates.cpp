@@ -104,11 +104,24 @@ void add_rounding(const Body& body, const ImpactRecord& row, ImpactNumbers& erro
     add(error.velocity_after[i], n.velocity_after.norm());
     add(error.angular_velocity_after[i], n.angular_velocity_after.norm() + n.approach_speed / body.radius());
   }
+  if (!(row.left_speed > 0)) return;
+  // What a closed form at the end leaves out is no smaller where steps are.
+  error.duration += row.left_time;
+  error.impulse += n.impulse.cwiseAbs() * (row.left_time / n.duration);
+  error.velocity_after.array() += row.left_speed;
+  error.angular_velocity_after.array() += row.left_turning;
 }
 
 /// Relative, of the impulses.
 double distance_of(const ImpactRecord& row, const ImpactRecord& second) {
   return (second.value.impulse - row.value.impulse).norm() / row.value.impulse.norm();
+}
+
+/// The second row, its impulse until the time at which the first run says that the body lies still.
+ImpactRecord until_the_same_rest(const ImpactRecord& row, ImpactRecord second) {
+  if (row.carried.isZero(0) || second.carried.isZero(0)) return second;
+  second.value.impulse += (row.value.duration - second.value.duration) * row.carried;
+  return second;
 }
 
 /// A part of a contact's time from its beginning or its end changes at most this part of what the contact does, over
@@ -215,11 +228,12 @@ SecondRun second_run(const Integration& main, double used_step) {
 }
 
 bool has_the_same_contacts(const ImpactRecord& row, const ImpactRecord& second) {
-  return second.end == row.end && (second.touches == row.touches || distance_of(row, second) <= of_a_graze);
+  return second.end == row.end &&
+         (second.touches == row.touches || distance_of(row, until_the_same_rest(row, second)) <= of_a_graze);
 }
 
 bool goes_another_way(const ImpactRecord& row, const ImpactRecord& second) {
-  return !has_the_same_contacts(row, second) || !(distance_of(row, second) <= another_way);
+  return !has_the_same_contacts(row, second) || !(distance_of(row, until_the_same_rest(row, second)) <= another_way);
 }
 
 double tolerance_beside(const Body& body, double tolerance, const ImpactRecord& row, const ImpactRecord& second) {
@@ -242,7 +256,7 @@ void estimate_errors(const Body& body, double error_per_distance, std::vector<Im
     parted = parted || i >= second.size();
     const bool known = !parted && has_the_same_contacts(row, second[i]);
     parted = parted || goes_another_way(row, second[i]);
-    const ImpactNumbers& other = known ? second[i].value : row.value;
+    const ImpactNumbers other = known ? until_the_same_rest(row, second[i]).value : row.value;
     for_each_number(row.value, other, row.error, [&](double value, double other_value) {
       return known ? error_per_distance * std::fabs(value - other_value) : not_known;
     });

@@ -47,7 +47,8 @@ void estimate_errors(const Body& body, double error_per_distance, std::vector<Im
                      const std::vector<ImpactRecord>& second);
 
 /// What rounding leaves uncertain, grown by the row's amplification: 4 ε (1 + amplification) × the size of what the
-/// number is computed from; of a time, also the body's radius over the speed at which the ground is reached or left.
+/// number is computed from; of a time, also the body's radius over the speed at which the ground is reached or left;
+/// and the rocking that a row leaves out.
 [[nodiscard]] ImpactNumbers rounding_errors(const Body& body, const ImpactRecord& row);
 
 /// How many of the states, from the first on, a second run can tell the errors of: those that are known and

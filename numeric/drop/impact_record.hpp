@@ -53,7 +53,12 @@ struct ImpactRecord {
   /// Whether rounding errors, so grown, stay below one part in a hundred, and a second run, if errors were asked for,
   /// has not gone another way before.
   bool predictable = true;
-  double energy_stored = 0;  ///< left in the ground's springs: 0 after a lift-off, not at rest [J]
+  /// At the end of a body that comes to rest but for rocking (GroundMotion::rocks): speeds of that [m/s], [rad/s], and
+  /// by how much it may shift the end of a slide [s].
+  double left_speed = 0, left_turning = 0, left_time = 0;
+  /// Force of the ground on a body that lies still from then on, which lets the impulse depend on when it is said to.
+  Vector3 carried = Vector3::Zero();  ///< [N]
+  double energy_stored = 0;           ///< left in the ground's springs: 0 after a lift-off, not at rest [J]
   /// energy_loss − work_damping − work_friction − work_released − energy_stored, over the energy at the start or
   /// that stored, whichever is larger: the ledger's gap.
   double ledger_gap = 0;

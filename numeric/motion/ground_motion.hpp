@@ -39,6 +39,7 @@ struct GroundMotion {
   double left_speed = 0;    ///< of the vertical motion and sliding that `from` leaves out [m/s]
   double left_turning = 0;  ///< of the tipping and spinning that it leaves out [rad/s]
   double left_time = 0;     ///< in which that dies away or turns back, about [s]
+  bool rocks = false;       ///< whether that goes on for long, of a size that counts: see RockingWatch
 
   /// After `time` [s], at least 0.
   [[nodiscard]] MotionState at(double time) const;

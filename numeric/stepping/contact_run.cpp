@@ -6,8 +6,6 @@
 #include <cmath>
 #include <limits>
 
-#include "numeric/stepping/steady_motion.hpp"
-
 namespace clatter::numeric {
 namespace {
 
@@ -99,6 +97,7 @@ void ContactRun::begin(const MotionState& touch, const Vector3& point) {
   deepest_.begin();
   local_slip_.begin(control_->least_local_slip * scales.energy / scales.depth);
   touches_.begin(point);
+  rocking_.begin(system_.evaluations());
   switches_ = 0;
   next_time_ = 0;
   now_.time = 0;
@@ -139,6 +138,7 @@ std::optional<ContactEnding> ContactRun::advance() {
 
 std::optional<ContactEnding> ContactRun::ending_on_the_ground() {
   result_.goes_on = motion_on_the_ground(system_, now_, kept_up_speed());
+  if (!result_.goes_on) result_.goes_on = rocking_.look(system_, now_);
   if (!result_.goes_on) return std::nullopt;
   const bool rests = result_.goes_on->kind == GroundMotionKind::rests;
   return rests ? ContactEnding::at_rest : ContactEnding::sustained_contact;
@@ -224,22 +224,27 @@ void ContactRun::collect() {
   result_.end = contact_end(touches_.touched_a(), touches_.touched_b());
   result_.goes_on_from = now_.time;
   const std::optional<GroundMotion>& motion = result_.goes_on;
-  if (motion && motion->kind == GroundMotionKind::rests && motion->stops_after > 0) slide_to_rest(*motion);
+  if (motion && motion->kind == GroundMotionKind::rests && (motion->stops_after > 0 || motion->rocks))
+    come_to_rest(*motion);
 }
 
 /// Friction takes what the body moves with along the ground and falls by on its way, the dampers what is left of other
 /// motion and what its tilt sets free at the end.
-void ContactRun::slide_to_rest(const GroundMotion& motion) {
+void ContactRun::come_to_rest(const GroundMotion& motion) {
   const double mass = system_.body().mass();
   const Vector3 v = velocity(now_.state), turning = angular_velocity(now_.state);
-  const MotionState end = motion.at(std::nextafter(motion.stops_after, 0.0));
+  const bool slides = motion.stops_after > 0;
+  const MotionState end = slides ? motion.at(std::nextafter(motion.stops_after, 0.0)) : motion.from;
   const Vector3 way = end.centre - motion.from.centre, turned = end.centre - motion.rest.state.centre;
   const double tipped = mass * (system_.gravity() * turned.z() - system_.gravity_along() * turned.x()) +
                         motion.energy_stored - motion.rest.energy_stored;
-  result_.work_friction += mass * (v.head<2>().squaredNorm() / 2 + system_.gravity_along() * way.x());
-  result_.work_damping +=
-      std::max(tipped + mass * v.z() * v.z() / 2 + turning.dot(system_.body().inertia() * turning) / 2, 0.0);
+  const double along = mass * (v.head<2>().squaredNorm() / 2 + system_.gravity_along() * way.x());
+  if (slides) result_.work_friction += along;
+  result_.work_damping += std::max(
+      (slides ? 0 : along) + tipped + mass * v.z() * v.z() / 2 + turning.dot(system_.body().inertia() * turning) / 2,
+      0.0);
   result_.duration += motion.stops_after;
+  if (result_.mode == FrictionMode::stick) result_.mode = FrictionMode::slip;  // nothing had slipped before
   result_.after = motion.rest.state;
   result_.energy_stored = motion.rest.energy_stored;
 }

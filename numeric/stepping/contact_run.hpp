@@ -10,6 +10,7 @@
 #include "numeric/stepping/contact_result.hpp"
 #include "numeric/stepping/friction_phases.hpp"
 #include "numeric/stepping/local_slip.hpp"
+#include "numeric/stepping/steady_motion.hpp"
 #include "numeric/stepping/step_control.hpp"
 #include "numeric/stepping/step_events.hpp"
 #include "numeric/stepping/stepper.hpp"
@@ -74,7 +75,7 @@ class ContactRun {
   void show_times(const ContactInstant& next);
   [[nodiscard]] double kept_up_speed() const;
   void collect();
-  void slide_to_rest(const GroundMotion& motion);
+  void come_to_rest(const GroundMotion& motion);
 
   ContactSystem& system_;
   ContactStep step_;
@@ -84,6 +85,7 @@ class ContactRun {
   DeepestPoint deepest_;
   FrictionPhases friction_;
   TouchCounter touches_;
+  RockingWatch rocking_;
   LocalSlipEstimate local_slip_;
 
   const ContactControl* control_ = nullptr;    ///< of the present run

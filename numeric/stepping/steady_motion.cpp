@@ -16,6 +16,10 @@ constexpr double largest_left = 1e-3;
 constexpr double slow_roll = 1e-2;  ///< of g: deceleration of a body that rolls on
 constexpr double no_slip = 1e-3;    ///< of its speed: slip of a body that rolls
 constexpr double roundness = 1e-9;  ///< of shape and inertia
+/// A window of RockingWatch, in evaluations; growth between two that counts as none; how fast its farthest point may
+/// turn, over a fall; how far a body that rocks in place may move, over its depth.
+constexpr long window = 10'000;
+constexpr double steady_growth = 1.05, fastest_rocking = 3, farthest_move = 10;
 
 /// An instant on the ground, with what its motions are measured by.
 struct Instant {
@@ -34,7 +38,6 @@ std::optional<Instant> instant_of(const ContactSystem& system, const ContactInst
   const double g = system.gravity(), depth = at.diagnosis.load.deepest, fall = std::sqrt(g * depth);
   if (!(g > 0) || !(depth > 0)) return std::nullopt;
   const double part = std::clamp(kept_up / fall, least_rest, largest_rest);
-  if (!(std::fabs(velocity(at.state).z()) <= std::max(part, largest_left) * fall)) return std::nullopt;
   return Instant{.system = system,
                  .at = at,
                  .fall = fall,
@@ -170,6 +173,17 @@ GroundMotion slide_of(const Instant& now) {
   return motion;
 }
 
+/// The equilibrium about which the body rocks, its pressure centre where it is.
+std::optional<GroundMotion> rocking_rest_of(const Instant& now) {
+  const ContactSystem& system = now.system;
+  GroundMotion motion = rest_of(now);
+  const auto level = equilibrium_near(system.body(), system.ground(), Gravity(system.gravity(), system.gravity_along()),
+                                      system.planar(), motion.from);
+  if (!level) return std::nullopt;
+  motion.rest = *level;
+  return motion;
+}
+
 /// Sliding and spinning on.
 GroundMotion glide_of(const Instant& now) {
   const auto kind = now.sliding > now.rest ? GroundMotionKind::slides : GroundMotionKind::spins;
@@ -211,7 +225,8 @@ std::optional<GroundMotion> roll_of(const Instant& now) {
 std::optional<GroundMotion> motion_on_the_ground(const ContactSystem& system, const ContactInstant& at,
                                                  double kept_up) {
   const auto now = instant_of(system, at, kept_up);
-  if (!now) return std::nullopt;
+  if (!now || !(std::fabs(velocity(at.state).z()) <= std::max(now->part, largest_left) * now->fall))
+    return std::nullopt;
   const bool moves = now->sliding > now->rest || now->spin > now->rest;
   if (is_steady(*now, moves && slides_down(*now) ? downhill_acceleration(*now) : Vector3::Zero(), now->part)) {
     if (!moves) return rest_of(*now);
@@ -219,6 +234,51 @@ std::optional<GroundMotion> motion_on_the_ground(const ContactSystem& system, co
   }
   if (slides_to_rest(*now) && is_steady(*now, sliding_acceleration(*now), largest_left)) return slide_of(*now);
   return roll_of(*now);
+}
+
+void RockingWatch::begin(long evaluations) {
+  now_ = {};
+  before_.reset();
+  ends_ = evaluations + window;
+}
+
+std::optional<GroundMotion> RockingWatch::look(const ContactSystem& system, const ContactInstant& at) {
+  const Vector3 v = velocity(at.state);
+  now_.heave = std::max(now_.heave, std::fabs(v.z()));
+  now_.sliding = std::max(now_.sliding, std::hypot(v.x(), v.y()));
+  now_.turning = std::max(now_.turning, angular_velocity(at.state).norm());
+  now_.spin = std::max(now_.spin, std::fabs(at.diagnosis.spin));
+  now_.depth = std::max(now_.depth, at.diagnosis.load.deepest);
+  now_.slips = now_.slips && system.phase().kind != FrictionPhase::Kind::stick;
+  if (system.evaluations() < ends_) return std::nullopt;
+  now_.place = system.motion(at.state).centre;
+  const auto found = judge(system, at);
+  before_ = now_;
+  now_ = {};
+  ends_ = system.evaluations() + window;
+  return found;
+}
+
+std::optional<GroundMotion> RockingWatch::judge(const ContactSystem& system, const ContactInstant& at) const {
+  if (!before_) return std::nullopt;
+  const double fall = std::sqrt(system.gravity() * now_.depth), radius = system.body().radius();
+  const bool is_small = now_.heave <= fall && radius * now_.turning <= fastest_rocking * fall;
+  const bool is_steady =
+      now_.heave <= steady_growth * before_->heave && now_.turning <= steady_growth * before_->turning;
+  const auto now = instant_of(system, at, 0);
+  if (!is_small || !is_steady || !now) return std::nullopt;
+  const double moved = (now_.place - before_->place).head<2>().norm();
+  const bool stays = now_.sliding <= fall && moved <= farthest_move * now_.depth &&
+                     (system.ground().has_friction() || radius * now_.spin <= now->rest);
+  std::optional<GroundMotion> motion;
+  if (stays) motion = rocking_rest_of(*now);
+  else if (now_.slips && before_->slips && radius * now_.spin <= now->rest && slides_to_rest(*now))
+    motion = slide_of(*now);
+  if (!motion) return std::nullopt;
+  motion->left_speed = std::hypot(now_.heave, stays ? now_.sliding : radius * now_.turning);
+  motion->left_turning = now_.turning;
+  motion->rocks = true;
+  return motion;
 }
 
 }  // namespace clatter::numeric

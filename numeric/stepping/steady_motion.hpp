@@ -25,4 +25,31 @@ namespace clatter::numeric {
 [[nodiscard]] std::optional<GroundMotion> motion_on_the_ground(const ContactSystem& system, const ContactInstant& at,
                                                                double kept_up);
 
+/// Watches a body that the ground carries for rocking and heaving that the dampers take away so slowly (they act in
+/// proportion to the depth) that to follow it would never end.
+class RockingWatch {
+ public:
+  /// Of a contact that begins at this count of evaluations.
+  void begin(long evaluations);
+  /// The rest or slide of the body about which it rocks, told after each step.  Two windows of 10,000 evaluations must
+  /// show that the body heaves by less than a fall into its contact and turns no faster than that allows, neither more
+  /// in the second than in the first, and that it stays in place or slides all the time in a way that friction stops.
+  /// `left_speed` and `left_turning` are the largest speeds of the second: observed, no bound.  The centre of mass of a
+  /// body that rocks while it slides is slowed by the same impulse, μ_k (m g t − m v_z), as long as all of it slips.
+  [[nodiscard]] std::optional<GroundMotion> look(const ContactSystem& system, const ContactInstant& at);
+
+ private:
+  struct Window {
+    double heave = 0, sliding = 0, turning = 0, spin = 0;  ///< largest speeds [m/s], [rad/s]
+    double depth = 0;                                      ///< largest [m]
+    Vector3 place = Vector3::Zero();                       ///< at its end [m]
+    bool slips = true;                                     ///< all the time
+  };
+  [[nodiscard]] std::optional<GroundMotion> judge(const ContactSystem& system, const ContactInstant& at) const;
+
+  Window now_;
+  std::optional<Window> before_;
+  long ends_ = 0;
+};
+
 }  // namespace clatter::numeric

@@ -6,5 +6,8 @@
 namespace clatter::numeric {
 
 Equilibrium equilibrium(const Body&, const World&, const MotionState&) { throw validation::LeftToNextProgram(); }
+Equilibrium sliding_equilibrium(const Body&, const World&, const MotionState&) {
+  throw validation::LeftToNextProgram();
+}
 
 }  // namespace clatter::numeric

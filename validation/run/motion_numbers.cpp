@@ -42,7 +42,11 @@ MotionNumbers motion_sizes(std::span<const Impact> impacts, const BodySize& body
 
 MotionNumbers motion_sizes(const numeric::Simulation& run, std::size_t count, const numeric::Body& body) {
   std::vector<Impact> impacts;
-  for (std::size_t i = 0; i < count; ++i) impacts.push_back(impact_of(run.impacts[i]));
+  for (std::size_t i = 0; i < count; ++i) {
+    impacts.push_back(impact_of(run.impacts[i]));
+    const bool slid_to_rest = impacts[i].largest_speed == 0;  // from a start on the ground
+    if (slid_to_rest) impacts[i].largest_speed = std::sqrt(2 * std::fabs(impacts[i].value.energy_loss) / body.mass());
+  }
   return motion_sizes(impacts, {.reach = body.radius(), .mass = body.mass()});
 }
 

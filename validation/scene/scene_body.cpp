@@ -85,7 +85,9 @@ numeric::MotionState Scene::start(const numeric::Body& dropped, double* fall) co
   state = numeric::on_ground(dropped, state);
   if (request.starts_on_ground) {
     if (fall) *fall = 0;
-    numeric::MotionState rest = numeric::equilibrium(dropped, world, state).state;
+    const bool slides = state.angular_velocity.isZero(0);
+    numeric::MotionState rest =
+        (slides ? numeric::sliding_equilibrium : numeric::equilibrium)(dropped, world, state).state;
     rest.velocity = {state.velocity.x(), state.velocity.y(), 0};
     rest.angular_velocity = rest.attitude.conjugate() * touch_angular_velocity();
     return rest;

@@ -141,3 +141,59 @@ BOOST_AUTO_TEST_CASE(a_box_that_slides_and_spins_says_where_it_stands) {
   BOOST_TEST((run.outcome == Outcome::evaluation_limit), run.message);
   BOOST_TEST(run.message.find("moves along the ground at 0.") != std::string::npos, run.message);
 }
+
+/// Pressed as its slide presses it, the box neither rocks nor heaves on undamped ground, whichever way it slides.
+BOOST_AUTO_TEST_CASE(a_box_that_starts_on_the_ground_slides_without_rocking) {
+  for (const FrictionLaw law : {FrictionLaw::coulomb, FrictionLaw::local}) {
+    World world = world_of(law);
+    world.ground.damping = 0;
+    const Vector3 way(0.6, -0.8, 0);
+    MotionState start = touching_state(cube(), {.velocity = speed * way});
+    start.attitude = Eigen::AngleAxisd(std::atan2(-0.8, 0.6), Vector3::UnitZ());
+    start = sliding_equilibrium(cube(), world, start).state;
+    start.velocity = speed * way;
+    BOOST_TEST((start.attitude * Vector3::UnitZ()).dot(way) == Wedge().tilt,
+               boost::test_tools::tolerance(1e-3));
+    Request request = plain_impacts(5);
+    request.starts_on_ground = true;
+    const Simulation run = simulate(cube(), world, start, request);
+    BOOST_TEST((run.outcome == Outcome::at_rest), run.message);
+    BOOST_TEST(run.rest->time == speed / (mu * g), boost::test_tools::tolerance(1e-12));
+    BOOST_TEST(run.rest->slid == speed * speed / (2 * mu * g), boost::test_tools::tolerance(1e-12));
+    BOOST_TEST(run.force_evaluations <= 200);
+    if (law == FrictionLaw::coulomb) BOOST_TEST((run.impacts.at(0).mode == FrictionMode::slip));
+  }
+}
+
+/// Undamped it heaves about its equilibrium for ever, by sqrt(g d) at most if it was let down without a speed; its
+/// slide stops when μ (g t − v_z) has used up v.
+BOOST_AUTO_TEST_CASE(a_body_that_heaves_for_ever_is_said_to) {
+  World world = world_of(FrictionLaw::coulomb);
+  world.ground.damping = 0;
+  const double depth = g / (stiffness * side * side), fall = std::sqrt(g * depth), shallow = depth / 2;
+  Request request{.impacts = 5};
+  request.starts_on_ground = true;
+  MotionState start = touching_state(cube(), {.velocity = Vector3::Zero()});
+  start.centre.z() -= shallow;
+  const Simulation still = simulate(cube(), world, start, request);
+  BOOST_TEST((still.outcome == Outcome::at_rest), still.message);
+  BOOST_TEST(still.message.find("but for rocking") != std::string::npos, still.message);
+  BOOST_TEST(still.force_evaluations <= 100'000);
+  const ImpactRecord& row = still.impacts.at(0);
+  BOOST_TEST(row.error.velocity_after.z() == fall / 2, boost::test_tools::tolerance(0.01));
+  BOOST_TEST(row.value.impulse.z() == g * row.value.duration, boost::test_tools::tolerance(1e-9));
+  BOOST_TEST(row.error.impulse.z() <= 1e-9);
+  BOOST_TEST(std::fabs(row.ledger_gap) <= 1e-9);
+
+  constexpr double slow = 0.1, friction = 0.01;
+  world.ground = with_friction(world.ground, friction);
+  start.velocity = {slow, 0, 0};
+  const Simulation slides = simulate(cube(), world, start, request);
+  BOOST_TEST((slides.outcome == Outcome::at_rest), slides.message);
+  BOOST_TEST_REQUIRE(slides.impacts.size() == 1U);
+  const ImpactRecord& slide = slides.impacts[0];
+  BOOST_TEST(slides.force_evaluations <= 100'000);
+  BOOST_TEST(std::fabs(slides.rest->time - slow / (friction * g)) <= slide.error.duration);
+  BOOST_TEST(slide.error.duration <= 2 * fall / (friction * g));
+  BOOST_TEST(std::fabs(slide.ledger_gap) <= 1e-6);
+}
