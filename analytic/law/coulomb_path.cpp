@@ -221,6 +221,29 @@ PathEnd<Number> ratio_impulse(const PathCoefficients<Number>& path, const PathSt
           ratio == 0 ? ImpactMode::frictionless : ImpactMode::slip};
 }
 
+/// Moreau's impulse per unit mass.  As P_t grows along the line on which u rises by (1+e) v, so does the slip after:
+/// stick, or slip one way, whichever the cone allows, is the one solution.
+template <class Number>
+PathEnd<Number> moreau_impulse(const PathCoefficients<Number>& path, const PathStart<Number>& start, double friction) {
+  const Number rise = (1 + start.restitution) * start.approach_speed,
+               separation = start.restitution * start.approach_speed;
+  const Number coupled = path.normal_coupling / path.tangential;
+  const Number sticking = (rise - coupled * start.slip) / (path.normal - coupled * path.slip_drift);
+  const Number holding = (path.slip_drift * sticking - start.slip) / path.tangential;
+  const bool slipped = value_of(start.slip) != 0;
+  if (sticking >= Number(0) && std::fabs(value_of(holding)) <= friction * value_of(sticking)) {
+    return {sticking, holding, separation, slipped ? ImpactMode::slip_stick : ImpactMode::stick};
+  }
+  const double against = sticking >= Number(0) ? value_of(holding) : -value_of(path.normal_coupling);
+  const double sense = against < 0 ? 1 : -1;
+  const Number impulse = rise / (path.normal + sense * friction * path.normal_coupling);
+  const bool goes_on = sense * value_of(start.slip) >= 0;
+  return {impulse, -sense * friction * impulse, separation,
+          friction == 0 ? ImpactMode::frictionless
+          : goes_on     ? ImpactMode::slip
+                        : ImpactMode::reverse_slip};
+}
+
 }  // namespace
 
 template <class Number>
@@ -232,18 +255,18 @@ Number restitution_at(const ImpactLaw& law, const Number& approach_speed) {
 template <class Number>
 PathEnd<Number> point_impulse(const PathCoefficients<Number>& path, const PathStart<Number>& start,
                               const ImpactLaw& law) {
-  if (law.friction != FrictionKind::coulomb) return ratio_impulse(path, start, law);
+  if (!law.has_cone()) return ratio_impulse(path, start, law);
+  if (law.friction == FrictionKind::moreau) return moreau_impulse(path, start, law.friction_value);
   return coulomb_path(path, start, law);
 }
 
 template <class Number>
 PathEnd<Number> flat_impulse(const PathStart<Number>& start, const Number& turning, const ImpactLaw& law) {
-  if (law.friction != FrictionKind::coulomb) {
-    return ratio_impulse(PathCoefficients<Number>{}, start, law);
-  }
+  if (!law.has_cone()) return ratio_impulse(PathCoefficients<Number>{}, start, law);
   const Number impulse = (1 + start.restitution) * start.approach_speed;
   const PathCoefficients<Number> path{
       .normal = 1, .normal_coupling = 0, .slip_drift = (1 + start.restitution) * turning / impulse, .tangential = 1};
+  if (law.friction == FrictionKind::moreau) return moreau_impulse(path, start, law.friction_value);
   ImpactLaw whole = law;  // e, which slip does not change here, is already that of the pressure centre
   if (law.law == RestitutionLaw::viscoelastic) whole.law = RestitutionLaw::newton;
   return coulomb_path(path, start, whole);

@@ -56,7 +56,7 @@ template <class Number>
 [[nodiscard]] Number restitution_at(const ImpactLaw& law, const Number& approach_speed);
 
 /// Impulse of a contact at one point, per unit mass: Eq. 8 for an impulse ratio, Routh's path for
-/// Coulomb's law.  `path` holds A, B, B and C of impact.hpp (b).
+/// Coulomb's law, the cone at the end for Moreau's.  `path` holds A, B, B and C of impact.hpp (b).
 /// @throws OutsideModelError if the impulse ratio is at or beyond the jamming limit.
 template <class Number>
 [[nodiscard]] PathEnd<Number> point_impulse(const PathCoefficients<Number>& path, const PathStart<Number>& start,

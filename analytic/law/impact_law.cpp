@@ -2,6 +2,7 @@
 #include "analytic/law/impact_law.hpp"
 
 #include <cmath>
+#include <stdexcept>
 
 #include "analytic/base/errors.hpp"
 
@@ -16,8 +17,9 @@ void ImpactLaw::validate() const {
     refuse("restitution", restitution, "between 0 and 1");
   }
   if (!std::isfinite(friction_value)) refuse("friction", friction_value, "finite");
-  if (friction == FrictionKind::coulomb && !(friction_value >= 0)) {
-    refuse("friction", friction_value, "at least 0");
+  if (has_cone() && !(friction_value >= 0)) refuse("friction", friction_value, "at least 0");
+  if (friction == FrictionKind::moreau && law != RestitutionLaw::newton) {
+    throw std::domain_error("friction at the end of an impact (Moreau): goes with Newton's restitution alone");
   }
   if (!(damping_per_stiffness >= 0 && std::isfinite(damping_per_stiffness))) {
     refuse("damping per stiffness", damping_per_stiffness, "at least 0 and finite");

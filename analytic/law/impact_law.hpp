@@ -26,16 +26,21 @@ enum class FrictionKind {
   none,
   impulse_ratio,  ///< P_t = μ_i P_n with μ_i as given: Eq. 8 as it stands, admissible or not
   coulomb,        ///< |P_t| <= μ P_n at every instant, against the slip: Routh's construction
+  /// |P_t| <= μ P_n of the impact as a whole, and P_t = −μ P_n s′/|s′| where the slip s′ after it is not zero, as
+  /// time-stepping engines have it (Moreau 1988, without tangential restitution); with Newton's e.
+  moreau,
 };
 
 struct ImpactLaw {
   double restitution = 1;  ///< e in [0, 1]; 1 for the viscoelastic law, which computes its own
   RestitutionLaw law = RestitutionLaw::newton;
   FrictionKind friction = FrictionKind::none;
-  double friction_value = 0;         ///< μ_i (any finite value) or Coulomb's μ >= 0
+  double friction_value = 0;         ///< μ_i (any finite value) or μ >= 0
   double damping_per_stiffness = 0;  ///< τ = c_G/k_G >= 0 of the viscoelastic law [s/m]
 
-  /// Coulomb's with μ > 0.
+  /// Whether friction lies in a cone about the normal, as Coulomb's and Moreau's does.
+  [[nodiscard]] bool has_cone() const { return friction == FrictionKind::coulomb || friction == FrictionKind::moreau; }
+  /// Coulomb's with μ > 0, along the path of the impact.
   [[nodiscard]] bool rubs() const { return friction == FrictionKind::coulomb && friction_value > 0; }
   /// Most that friction can be of the normal force, as a share.
   [[nodiscard]] double most_friction() const;

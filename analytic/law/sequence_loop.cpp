@@ -8,7 +8,7 @@ namespace clatter::analytic {
 std::string energy_warning(FrictionKind friction, const CreatedEnergy& created, double joules) {
   std::ostringstream text;
   text.precision(6);
-  text << (friction == FrictionKind::coulomb ? "the law of restitution, with friction," : "the impulse ratio")
+  text << (friction != FrictionKind::impulse_ratio ? "the law of restitution, with friction," : "the impulse ratio")
        << " creates energy: " << joules << " J in all, from impact " << created.first << " on";
   return text.str();
 }

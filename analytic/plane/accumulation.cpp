@@ -137,7 +137,7 @@ std::optional<Tail> resting_tail(const BodyMotion& motion, const ImpactLaw& law,
               .after_error = {}};
 }
 
-bool may_accumulate(const ImpactLaw& law) { return law.restitution < 1 || law.friction == FrictionKind::coulomb; }
+bool may_accumulate(const ImpactLaw& law) { return law.restitution < 1 || law.has_cone(); }
 
 double damping_loss(const ImpactLaw& law, double approach_speed) {
   const bool damped = law.law == RestitutionLaw::viscoelastic && approach_speed > 0;

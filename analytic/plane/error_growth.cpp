@@ -201,7 +201,7 @@ double impulse_rounding(const StruckState& struck, const Impact& impact) {
 
 /// Size of the parts that make up P_t: with Coulomb's law those before and after slip has stopped.
 double tangential_size(const StruckState& struck, const Impact& impact) {
-  const bool parts = struck.law.friction == FrictionKind::coulomb;
+  const bool parts = struck.law.has_cone();
   return std::fmax(std::fabs(impact.tangential_impulse), parts ? struck.law.friction_value * impact.normal_impulse : 0);
 }
 

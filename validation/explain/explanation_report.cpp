@@ -121,6 +121,8 @@ void write_law(StepWriter& writer, const Scene& scene, const analytic::ImpactLaw
   const Quantity coefficient = number("μ", law.friction_value, "");
   if (law.friction == analytic::FrictionKind::coulomb && law.friction_value > 0)
     given.friction = writer.given(coefficient, {"Coulomb's coefficient of friction"});
+  if (law.friction == analytic::FrictionKind::moreau && law.friction_value > 0)
+    given.moreau = writer.given(coefficient, {"coefficient of friction, by the slip after the impact"});
   if (law.friction == analytic::FrictionKind::impulse_ratio)
     given.impulse_ratio =
         writer.given(number("μ_i", law.friction_value, ""), {"impulse ratio, tangential over normal"});

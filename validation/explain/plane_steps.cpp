@@ -229,13 +229,14 @@ class PlanarImpact {
     Quantity b = a;
     u_ = writer_.found(number("u", -row_.impact.approach_speed, "m/s", row_.error.approach_speed), vn_ - w_ * dt_,
                        {"normal velocity of the contact, before"});
-    const bool rubs = given_.friction || given_.impulse_ratio;
+    const bool rubs = given_.has_friction();
     if (rubs) {
       b = writer_.computed("B", "", dt_ * dn_ / k2_);
       s_ = writer_.found(number("s", row_.impact.slip_before, "m/s", 0, speed_), vt_ + w_ * dn_,
                          {"slip of the contact, before"});
     }
-    const bool is_single = row_.impact.mode != ImpactMode::slip_stick && row_.impact.mode != ImpactMode::reverse_slip;
+    const bool is_single =
+        given_.moreau || (row_.impact.mode != ImpactMode::slip_stick && row_.impact.mode != ImpactMode::reverse_slip);
     Quantity e = u_;
     if (is_single || drop_.law.law != analytic::RestitutionLaw::viscoelastic)
       e = write_restitution(writer_, given_, u_, row_.impact.restitution());
@@ -243,9 +244,33 @@ class PlanarImpact {
       const Quantity c = coulomb_contact();
       coulomb(a, b, c, e, is_single);
     }
+    if (given_.moreau) friction_at_end(a, b, e);
     eq8(a, b, e, is_single || drop_.law.law == analytic::RestitutionLaw::newton);
     const Expression work = *normal_ * (u_ + u_after_);
     energy(-((rubs ? work + *tangential_ * (*s_ + *s_after_) : work) / 2));
+  }
+
+  [[nodiscard]] bool sticks() const {
+    return row_.impact.mode == ImpactMode::stick || row_.impact.mode == ImpactMode::slip_stick;
+  }
+
+  /// Moreau's: the impulse that holds the contact, or μ against the slip after it.
+  void friction_at_end(const Quantity& a, const Quantity& b, const Quantity& e) {
+    writer_.open("Friction by the slip after the impact",
+                 {fmt::format("Moreau's condition: the contact sticks if the impulse that holds it lies in the cone of "
+                              "friction, and else slips against it. The contact's mode is {}.",
+                              mode_name(row_.impact.mode))});
+    if (!sticks()) {
+      const Expression mu = *given_.moreau;
+      ratio_ = writer_.computed("μ_i", "", row_.impact.tangential_impulse < 0 ? -mu : mu,
+                                {"impulse ratio, against the slip after"});
+      return;
+    }
+    const Quantity c = writer_.computed("C", "", 1 + square(dn_) / k2_);
+    const Quantity holding = writer_.computed("p", "m/s", -(((1 + e) * u_ + b * *s_ / c) / (a - b * b / c)),
+                                              {"normal impulse of a contact that is held, over m"});
+    ratio_ = writer_.found(number("μ_i", row_.impact.impulse_ratio(), "", row_.error.impulse_ratio, 1),
+                           (b * holding - *s_) / (c * holding), {"impulse ratio that holds the contact, at most μ"});
   }
 
   Quantity coulomb_contact() {
@@ -448,7 +473,7 @@ class PlanarImpact {
     normal_ = writer_.found(p, -((1 + e) * m * vn_), {"normal impulse"});
     vn_after_ = writer_.found(vn, -(e * vn_));
     w_after_ = writer_.found(w, -(e * w_));
-    const bool rubs = given_.friction || given_.impulse_ratio;
+    const bool rubs = given_.has_friction();
     if (rubs)
       tangential_ =
           writer_.found(pt, flat_friction(e), {fmt::format("tangential impulse, mode {}", mode_name(impact.mode))});
@@ -463,8 +488,8 @@ class PlanarImpact {
     if (given_.impulse_ratio) return *given_.impulse_ratio * pn;
     s_ = writer_.found(number("s", row_.impact.slip_before, "m/s", 0, speed_), vt_ + w_ * dn_,
                        {"slip of the face, before"});
-    if (row_.impact.mode == ImpactMode::stick || row_.impact.mode == ImpactMode::slip_stick)
-      return m * (e * w_ * dn_ - vt_);
+    if (sticks()) return m * (e * w_ * dn_ - vt_);
+    if (given_.moreau) return (row_.impact.tangential_impulse < 0 ? -*given_.moreau : Expression(*given_.moreau)) * pn;
     const Quantity drift = writer_.computed("D", "", -(w_ * dn_ / vn_), {"drift of the face by its turning"});
     const Expression along = s_->value(0, 0) == 0 ? -drift : Expression(*s_);
     const Quantity r = writer_.computed("r_1", "", -(*given_.friction * function("sgn", along)), {"against the slip"});

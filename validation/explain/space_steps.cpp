@@ -254,8 +254,7 @@ class SpatialImpact {
     arm_ = arm;
     contact_ = velocity;
     heights(arm);
-    const bool rubs = given_.friction || given_.impulse_ratio;
-    if (rubs) {
+    if (given_.has_friction()) {
       w_ = writer_.computed("W", "1/kg", 1 / given_.mass - cross_matrix(arm) * power(inertia_, -1) * cross_matrix(arm));
       b_ = writer_.given({"b", w_.value.block(0, 2, 2, 1), "1/kg", w_.error, w_.size},
                          {"its mixed part, along the ground and normal"});
@@ -266,7 +265,7 @@ class SpatialImpact {
                             {"normal part of W"});
     }
     if (given_.friction) path();
-    impulse();
+    given_.moreau ? impulse_by_end() : impulse();
     velocities();
   }
 
@@ -357,6 +356,31 @@ class SpatialImpact {
     } else {
       impulse_ = writer_.found(p, end * normal_);
     }
+  }
+
+  /// Moreau's: the impulse that holds the corner, or μ against the slip after it.
+  void impulse_by_end() {
+    const Quantity approach = writer_.computed("v_z", "m/s", up(contact_), {"normal velocity of the corner, before"});
+    const Expression e = *given_.restitution;
+    const bool sticks = struck_.path == space::PathKind::stick || struck_.path == space::PathKind::slip_stick;
+    writer_.open("The impulse", {fmt::format("Newton's restitution, and Moreau's condition for the slip after the "
+                                             "impact. Kind ({}): {}.",
+                                             mode_name(struck_.path),
+                                             sticks ? "the impulse that holds the corner lies in the cone of friction"
+                                                    : "the corner slips, and friction acts against that slip")});
+    const Quantity p = {"P", struck_.impulse, "N·s", row_.error.impulse};
+    if (sticks) {
+      impulse_ = writer_.found(p, -(power(w_, -1) * (contact_ + e * approach * normal_)));
+      return;
+    }
+    const space::Vector2 slip = -struck_.impulse.head<2>().normalized();
+    const Quantity s = writer_.given({"s", slip, ""}, {"direction of the slip after"}),
+                   along = writer_.given({"s_3", Vector3(slip.x(), slip.y(), 0), ""},
+                                         {"the same as a vector of three components"});
+    const Expression mu = *given_.moreau;
+    const Quantity z = writer_.found(number("P_z", struck_.impulse.z(), "N·s", row_.error.impulse),
+                                     -((1 + e) * approach / (c_ - mu * dot(b_, s))), {"normal impulse"});
+    impulse_ = writer_.found(p, z * (normal_ - mu * along));
   }
 
   void velocities() {

@@ -52,7 +52,10 @@ struct Given {
   std::optional<Quantity> restitution{};    ///< e, unless it comes from the ground
   std::optional<Quantity> damping_time{};   ///< τ = c_G/k_G, if e comes from the ground
   std::optional<Quantity> friction{};       ///< Coulomb's μ > 0
+  std::optional<Quantity> moreau{};         ///< the same, judged by the slip after the impact
   std::optional<Quantity> impulse_ratio{};  ///< μ_i as given
+
+  [[nodiscard]] bool has_friction() const { return friction || moreau || impulse_ratio; }
 };
 /// Opens the first step with mass and gravity, ...
 [[nodiscard]] Given write_body(StepWriter& writer, double mass, double gravity);

@@ -158,7 +158,7 @@ std::string reason_against_closed_form(const Drop& drop) {
   if (drop.body.vertex_count != 2) return "it is for a thin rod";
   if (drop.velocity.tangential != 0 || drop.velocity.angular != 0) return "it starts from a straight fall";
   if (drop.inclination.radians == 0) return "in it one end strikes first";
-  if (drop.law.friction == analytic::FrictionKind::coulomb) return "it knows an impulse ratio, not Coulomb's law";
+  if (drop.law.has_cone()) return "it knows an impulse ratio, not Coulomb's law";
   if (drop.law.law == analytic::RestitutionLaw::viscoelastic && drop.law.damping_per_stiffness > 0)
     return "it has one coefficient of restitution, and damping makes it depend on the speed";
   return "";

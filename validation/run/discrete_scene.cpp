@@ -228,6 +228,8 @@ std::string law_friction_words(const Scene& scene, const DiscreteLaw& law) {
   const char* const from = law.friction_from == LawSource::ground ? ", from the ground" : "";
   switch (law.law.friction) {
     case analytic::FrictionKind::coulomb: return fmt::format("Coulomb friction μ = {}{}", value, from);
+    case analytic::FrictionKind::moreau:
+      return fmt::format("friction μ = {}{} by the slip after the impact (Moreau)", value, from);
     case analytic::FrictionKind::impulse_ratio: return fmt::format("impulse ratio μᵢ = {}", value);
     case analytic::FrictionKind::none: break;
   }
@@ -288,6 +290,7 @@ DiscreteLaw discrete_law(const Scene& scene) {
     law.friction = analytic::FrictionKind::coulomb;
     law.friction_value = ground.sliding_friction;
   }
+  if (scene.impact.is_moreau) law.friction = analytic::FrictionKind::moreau;
   return found;
 }
 
@@ -504,6 +507,7 @@ Value law_fields(const Scene& scene, std::optional<double> approach) {
   switch (law.friction) {
     case analytic::FrictionKind::none: fields["friction_law"] = "none"; break;
     case analytic::FrictionKind::coulomb: fields["friction_law"] = "coulomb"; break;
+    case analytic::FrictionKind::moreau: fields["friction_law"] = "moreau"; break;
     case analytic::FrictionKind::impulse_ratio: fields["friction_law"] = "impulse-ratio"; break;
   }
   if (law.friction != analytic::FrictionKind::none) fields["friction"] = law.friction_value;

@@ -98,6 +98,11 @@ const std::vector<std::string>& area_names() {
   return names;
 }
 
+const std::vector<std::string>& impact_friction_names() {
+  static const std::vector<std::string> names{"coulomb", "moreau"};
+  return names;
+}
+
 const std::vector<std::string>& friction_law_names() {
   static const std::vector<std::string> names{"coulomb", "regularised", "local"};
   return names;

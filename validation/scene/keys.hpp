@@ -149,6 +149,7 @@ void add_keys(const Scene& scene, Model model, Value& fields);
 [[nodiscard]] const std::vector<std::string>& start_names();
 [[nodiscard]] const std::vector<std::string>& area_names();
 [[nodiscard]] const std::vector<std::string>& friction_law_names();
+[[nodiscard]] const std::vector<std::string>& impact_friction_names();
 [[nodiscard]] const std::vector<std::string>& method_names();
 [[nodiscard]] const std::vector<std::string>& sweep_names();
 

@@ -315,6 +315,12 @@ Scene default_scene(const SceneValues& values) {
 /// Which of the laws' numbers go together, and which a ground must give.
 void check_impact(const SceneValues& values, const Scene& scene) {
   using analytic::RestitutionLaw;
+  if (scene.impact.is_moreau) {
+    if (restitution_law(scene) != RestitutionLaw::newton)
+      values.refuse("impact.friction_law", "moreau with newton's restitution alone: give impact.restitution");
+    if (!scene.impact.friction && !takes_friction_of_ground(scene))
+      values.refuse("impact.friction_law", "moreau with a coefficient, impact.friction");
+  }
   if (!scene.impact.law || *scene.impact.law == RestitutionLaw::newton) return;
   const bool is_viscoelastic = *scene.impact.law == RestitutionLaw::viscoelastic;
   if (is_viscoelastic && !scene.has_ground())

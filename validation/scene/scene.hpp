@@ -26,6 +26,7 @@ struct DiscreteImpact {
   std::optional<double> restitution;
   std::optional<analytic::RestitutionLaw> law;
   std::optional<double> impulse_ratio, friction;
+  bool is_moreau = false;  ///< friction judged by the slip after the impact
 };
 
 /// The mesh of a body's file, read once for all who ask (body_properties.cpp).

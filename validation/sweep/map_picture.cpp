@@ -297,7 +297,7 @@ std::optional<analytic::RodParameters> rod_of(const DiscreteDrop& drop) {
   using analytic::FrictionKind;
   if (!planar || !planar->body.uniform_thin_rod || planar->velocity.angular != 0 || !(planar->velocity.normal < 0) ||
       planar->law.law != analytic::RestitutionLaw::newton ||
-      (planar->law.friction == FrictionKind::coulomb && planar->law.friction_value != 0)) {
+      (planar->law.has_cone() && planar->law.friction_value != 0)) {
     return {};
   }
   const double length = 2 * planar->body.reach(), fall = planar->velocity.normal;

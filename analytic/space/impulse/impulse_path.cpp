@@ -15,6 +15,7 @@
 #include "analytic/base/limits.hpp"
 #include "analytic/law/coulomb_path.hpp"
 #include "analytic/space/flight/body.hpp"
+#include "analytic/space/impulse/moreau_contact.hpp"
 #include "analytic/space/impulse/path_progress.hpp"
 #include "analytic/space/impulse/slip_field.hpp"
 #include "analytic/space/impulse/turning_slip.hpp"
@@ -404,10 +405,19 @@ ContactImpulse ratio_impulse(const Contact& contact, const Law& law, NormalCoupl
   return result;
 }
 
+ContactImpulse end_impulse(const Contact& contact, const Law& law, NormalCoupling coupling, ImpulseSlopes* slopes) {
+  const MoreauContact at(contact, coupling == NormalCoupling::none, law.law.friction_value, law.law.restitution);
+  const ContactImpulse result = at.impulse();
+  if (slopes != nullptr) at.derive(result, *slopes);
+  return result;
+}
+
 ContactImpulse impulse(const Contact& contact, const Law& law, NormalCoupling coupling, ImpulseSlopes* slopes) {
   if (slopes != nullptr) slopes->of_turns = slopes->of_velocity = Matrix3::Constant(none);
-  const ContactImpulse result =
-      law.law.rubs() ? coulomb_impulse(contact, law, coupling, slopes) : ratio_impulse(contact, law, coupling, slopes);
+  const bool at_end = law.law.friction == FrictionKind::moreau && law.law.friction_value > 0;
+  const ContactImpulse result = at_end           ? end_impulse(contact, law, coupling, slopes)
+                                : law.law.rubs() ? coulomb_impulse(contact, law, coupling, slopes)
+                                                 : ratio_impulse(contact, law, coupling, slopes);
   if (!result.impulse.allFinite() || !result.velocity_after.allFinite()) {
     throw NumericalError("the impulse of a corner overflows");
   }
@@ -431,17 +441,6 @@ ContactImpulse face_impulse(const FaceContact& face, const Law& law) {
                .friction = law.law.friction,
                .friction_value = law.law.friction_value};
   return impulse(contact, whole, NormalCoupling::none, nullptr);
-}
-
-void Law::validate() const {
-  law.validate();
-  const double length = ratio_direction.norm();
-  if (!(std::fabs(length - 1) <= 8 * std::numeric_limits<double>::epsilon())) {
-    std::ostringstream text;
-    text.precision(17);
-    text << "length of the impulse ratio's direction = " << length << ": must be 1";
-    throw std::domain_error(text.str());
-  }
 }
 
 }  // namespace clatter::analytic::space
