@@ -385,6 +385,19 @@ std::string depth_warning(const numeric::Body& body, const Scene& scene, const S
       scene.world.ground.is_half_space() ? "half-space" : "bed of springs");
 }
 
+/// A warning that tells where a body that is put down at rest lies otherwise than asked; empty: it does not.
+std::string laid_warning(const Scene& scene, const numeric::MotionState& start) {
+  constexpr double least = 0.5;  // [°]
+  if (!scene.request.starts_on_ground) return "";
+  const numeric::Vector3 asked = scene.touch_attitude().conjugate() * numeric::Vector3::UnitZ(),
+                         lies = start.attitude.conjugate() * numeric::Vector3::UnitZ();
+  const double off = std::atan2(asked.cross(lies).norm(), asked.dot(lies)) * analytic::degrees_per_radian;
+  if (!(off > least)) return "";
+  return fmt::format(
+      "put down at rest, the body comes to lie {}° from the attitude asked for, where the ground carries it",
+      significant(off, 3));
+}
+
 }  // namespace
 
 std::string planar_warning(const numeric::Body& body, const numeric::World& world, const numeric::MotionState& start) {
@@ -412,6 +425,7 @@ PlannedRun run_to_digits(const Scene& scene, const numeric::Body& body, const nu
   add_states(scene, body, start, fall, observer, planned);
   const std::string out_of_plane = planar_warning(body, world, start);
   if (!out_of_plane.empty()) planned.warnings.push_back(out_of_plane);
+  if (const std::string laid = laid_warning(scene, start); !laid.empty()) planned.warnings.push_back(laid);
   const std::string sunk = submersion_warning(planned.run), deep = depth_warning(body, scene, planned.run);
   if (!sunk.empty()) planned.warnings.push_back(sunk);
   else if (!deep.empty()) planned.warnings.push_back(deep);

@@ -337,9 +337,20 @@ Value fields_of(const EndMotion& motion) {
                        {"angular_velocity_after", list(motion.angular_velocity_after)}};
 }
 
+namespace {
+
+/// The models' words of an end, before it is known how the body goes on.
+void say_instead(std::string& message, std::string_view words, std::string_view better) {
+  if (const std::size_t at = message.find(words); at != std::string::npos) message.replace(at, words.size(), better);
+}
+
+}  // namespace
+
 void settle_outcome(bool followed, bool stops, Run& run) {
   if (!run.end_motion) {
-    if (run.moves_on && !(followed && stops)) run.outcome = "slides-on";
+    if (run.moves_on && followed && stops)
+      say_instead(run.message, "the body slides on", "the body slides until friction stops it");
+    else if (run.moves_on) run.outcome = "slides-on";
     return;
   }
   const EndMotion& motion = *run.end_motion;
@@ -349,9 +360,7 @@ void settle_outcome(bool followed, bool stops, Run& run) {
   if (motion.kind == "rests" || (motion.kind != "rolls" && followed && motion.ends())) run.outcome = "at-rest";
   const std::string words = words_of(motion);
   if (words.empty()) return;
-  const char* const unknown = "; the body slides and turns on its round surface, which impacts do not describe";
-  if (const std::size_t at = run.message.find(unknown); at != std::string::npos)
-    run.message.replace(at, std::string_view(unknown).size(), "");
+  say_instead(run.message, "; the body slides and turns on its round surface, which impacts do not describe", "");
   run.message += "; " + words;
 }
 
