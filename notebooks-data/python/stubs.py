@@ -28,10 +28,12 @@ from clatter.results import Comparison, ComparisonSweep, Sequence, Simulation, S
 def declaration(name: str, function: Any) -> str:
     """The function with its own parameters as they are written, and the keys."""
     own = inspect.signature(function.__wrapped__)
+    changes = own.parameters.get("changes")
+    swept = changes is not None and changes.annotation == "SweptKey"
     parameters = []
     for one in inspect.signature(function).parameters.values():
         declared = own.parameters.get(one.name)
-        annotation = declared.annotation if declared else f"{KEYS[one.name].type_name()} | None"
+        annotation = declared.annotation if declared else "Swept | None" if swept else f"{KEYS[one.name].type_name()} | None"
         if one.kind is one.KEYWORD_ONLY and "*" not in parameters:
             parameters.append("*")
         parameters.append(f"{one.name}: {annotation}" + ("" if one.default is one.empty else f" = {one.default!r}"))

@@ -226,6 +226,24 @@ class SweepsAsTheProgram(unittest.TestCase):
         turned = np.array([own[f"drop.attitude_q{i}"] for i in range(4)]).T
         np.testing.assert_allclose(turned, [[np.cos(np.radians(5)), 0, -np.sin(np.radians(5)), 0]] * 5, atol=1e-12)
 
+    def test_a_sweep_takes_the_names_that_a_sequence_takes(self):
+        by_key = clatter.sweep("phone-corner", {"drop.angle_deg": [20, 30], "world.gravity": 9.81}, model="discrete")
+        by_name = clatter.sweep("phone-corner", angle=np.linspace(20, 30, 2), gravity=9.81, model="discrete")
+        np.testing.assert_array_equal(by_name["total_normal_impulse"], by_key["total_normal_impulse"])
+        with self.assertRaisesRegex(clatter.BadArgument, "^angle 10: drop.angle_deg is given, too"):
+            clatter.sweep("rod-10", {"drop.angle_deg": 20}, angle=10)
+        alone = clatter.sweep(angle=[10, 20], impacts=2)
+        self.assertEqual(list(alone["total_normal_impulse"]),
+                         [clatter.sequence(angle, impacts=2).total_normal_impulse for angle in (10, 20)])
+
+    def test_a_run_has_its_columns_by_name_and_the_module_its_public_names(self):
+        run = clatter.sequence(angle=10)
+        np.testing.assert_array_equal(run["impulse_normal"], [impact.impulse_normal for impact in run])
+        np.testing.assert_array_equal(run.at([0.1, 0.2])["position_z"], run.at([0.1, 0.2]).column("position_z"))
+        with self.assertRaises(KeyError):
+            run["impuls"]
+        self.assertEqual(set(dir(clatter)), {*clatter.__all__, "__version__"})
+
     def test_flags_alone_are_a_scene_for_every_call(self):
         self.assertEqual(clatter.simulate(angle=10, stiffness=1e9, impacts=1).impacts[0].n, 1)
         with self.assertRaisesRegex(clatter.BadInput, "stiffness: required"):

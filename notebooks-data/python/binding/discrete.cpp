@@ -18,6 +18,7 @@
 #include "validation/rod/angles_report.hpp"
 #include "validation/rod/regimes_report.hpp"
 #include "validation/run/discrete_scene.hpp"
+#include "validation/run/shortfall.hpp"
 #include "validation/sequence/sequence_report.hpp"
 
 namespace clatter::python {
@@ -32,14 +33,17 @@ PreparedScene read_discrete(const SceneSource& source) {
   return validation::read_discrete_scene(source.values(), validation::scene_overrides(source.changes));
 }
 
-Report sequence(const std::string& name, const std::optional<std::string>& text, const NamedTexts& changes,
-                const std::string& method) {
-  return run_interruptible([source = SceneSource{name, text, changes}, method](const Watch&) -> Report {
-    const PreparedScene scene = read_discrete(source);
+/// (report, why it falls short, its outcome, number of impacts, warnings): what a call looks at without the report.
+py::tuple sequence(const std::string& name, const std::optional<std::string>& text, const NamedTexts& changes,
+                   const std::string& method) {
+  const auto [scene, run] = run_interruptible([source = SceneSource{name, text, changes}, method](const Watch&) {
+    const auto prepared = std::make_shared<const PreparedScene>(read_discrete(source));
     validation::read_sequence_method("--method", method);
-    const auto run = std::make_shared<const validation::DiscreteRun>(validation::run_discrete(scene));
-    return {[scene, run] { return validation::sequence_report(scene, *run); }};
+    return std::pair(prepared, std::make_shared<const validation::DiscreteRun>(validation::run_discrete(*prepared)));
   });
+  const validation::Run& told = run->run;
+  return py::make_tuple(Report{[scene = scene, run = run] { return validation::sequence_report(*scene, *run); }},
+                        shortfall(scene->scene, told), told.outcome, told.impacts.size(), told.warnings);
 }
 
 /// (report, warnings)

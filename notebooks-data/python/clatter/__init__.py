@@ -9,7 +9,7 @@
 >>> clatter.angles(step=5)                          # contact angles and impulses of the thin rod
 >>> clatter.simulate("phone-damped", history=True)  # continuous model of a scene
 >>> clatter.compare("rod-45")                       # both models, impact by impact
->>> clatter.sweep("phone-corner", {"drop.orientation": range(1, 27)})  # many scenes: grids or random ones
+>>> clatter.sweep("phone-corner", orientation=range(1, 27))  # many scenes: grids or random ones
 >>> clatter.plan("phone-corner", digits=3)          # the smallest model that serves; tradeoff() measures them
 >>> clatter.verify(quick=True)                      # every claim of the paper, checked
 >>> clatter.measured_score("cube-tosses")           # impact laws against tracked drops
@@ -40,3 +40,7 @@ __all__ = [
     "extremes", "figure", "gradient", "measured_fit", "measured_predict", "measured_score", "plan", "regimes", "sequence",
     "simulate", "sweep", "tradeoff", "verify",
 ]
+
+
+def __dir__() -> list[str]:
+    return [*__all__, "__version__"]

@@ -122,11 +122,15 @@ def texts_of(arguments: Mapping[str, Any]) -> dict[str, str]:
 
 
 
-def swept_text(name: str, values: Any) -> str:
-    """The value or the values of a key of a scene file in a sweep, as --set has them.  @raise BadInput: there is none."""
-    values, key = plain(values), _BY_NAME.get(name)
+def swept_text(name: str, values: Any, called: str | None = None) -> str:
+    """The value or the values of a key of a scene file in a sweep, as --set has them; called: the key where it is refused.
+
+    @raise BadInput: there is none.
+    """
+    values, key, is_attitude = plain(values), _BY_NAME.get(name), name == "drop.attitude"
+    name = called or name
     if not is_list(values):
-        return number_text(values) if name == "drop.attitude" and is_number(values) else text_of(name, key, values)
+        return number_text(values) if is_attitude and is_number(values) else text_of(name, key, values)
     parts = [plain(part) for part in values]
     if not parts:
         raise BadInput(f"{name} {shown(values)}: must have at least one value")
@@ -209,3 +213,4 @@ def checked(function: Callable[_Arguments, _Returned]) -> Callable[_Arguments, _
 # What **changes stand for: keys of scenes, in the second case those that the discrete model knows.
 AnyKey = Value | None
 DiscreteKey = Value | None
+SweptKey = Swept | None  # values of keys, one or many

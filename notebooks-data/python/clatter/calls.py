@@ -7,13 +7,13 @@ import warnings
 from collections.abc import Iterable, Mapping
 
 from clatter import _clatter
-from clatter.arguments import AnyKey, DiscreteKey, Path, Progress, Scene, Swept, checked, swept_text, texts_of
+from clatter.arguments import KEYS, AnyKey, DiscreteKey, Path, Progress, Scene, Swept, SweptKey, checked, shown, swept_text, texts_of
 from clatter.arrays import numpy_for
-from clatter.errors import ClatterWarning, NotComputed
+from clatter.errors import BadArgument, ClatterWarning, NotComputed
 from clatter.evidence import listed
 from clatter.findings import Explanation, Gradient, Plan, Rows, Scored, Tradeoff
 from clatter.records import History
-from clatter.results import Comparison, ComparisonSweep, Run, Sequence, Simulation, Sweep
+from clatter.results import Comparison, ComparisonSweep, Sequence, Simulation, Sweep
 from clatter.scenes import called, scene_text
 
 # Outcomes after which rows are missing because a number could not be computed.
@@ -26,13 +26,13 @@ def _warn(reservations: Iterable[str]) -> None:
         warnings.warn(words, ClatterWarning, stacklevel=4)
 
 
-def _reservations(run: Run) -> list[str]:
+def _reservations(shortfall: str | None, outcome: str, impacts: int) -> list[str]:
     """That rows are missing.  @raise NotComputed: all are, or required digits are not known."""
-    if run.shortfall is None:
+    if not shortfall:
         return []
-    if run.outcome not in _CUT_SHORT or not run.impacts:
-        raise NotComputed(run.shortfall)
-    return [run.shortfall]
+    if outcome not in _CUT_SHORT or not impacts:
+        raise NotComputed(shortfall)
+    return [shortfall]
 
 
 @checked
@@ -49,9 +49,9 @@ def sequence(scene: Scene | float | None = None, *, method: str = "auto", **chan
     >>> clatter.sequence(angle=10)[1].impulse_normal
     1.0028424649698549
     """
-    result = Sequence(called(_clatter.sequence, *scene_text(scene, changes), method))
-    _warn([*_reservations(result), *result.to_dict().get("warnings", [])])
-    return result
+    report, shortfall, outcome, impacts, said = called(_clatter.sequence, *scene_text(scene, changes), method)
+    _warn([*_reservations(shortfall, outcome, impacts), *said])
+    return Sequence(report)
 
 
 @checked
@@ -108,7 +108,7 @@ def simulate(scene: Scene | float | None = None, *, history: bool = False, progr
     if "runs" in report.data():
         return Sweep(report)
     run = Simulation(report, None if arrays is None else History(arrays))
-    _warn(_reservations(run))
+    _warn(_reservations(run.shortfall, run.outcome, len(run)))
     return run
 
 
@@ -143,8 +143,8 @@ def compare_against(
 
 @checked
 def sweep(
-    scene: Scene,
-    values: Mapping[str, Swept],
+    scene: Scene | None = None,
+    values: Mapping[str, Swept] | None = None,
     *,
     model: str | None = None,
     rows: str = "scene",
@@ -155,11 +155,13 @@ def sweep(
     errors: bool = True,
     require_digits: bool = False,
     progress: Progress | None = None,
+    **changes: SweptKey,
 ) -> Rows:
     """Many scenes that differ in the values of a few keys, computed on all cores.
 
     scene: a scene file, the name of one of cases(), or a dict like case(name).
-    values: by the key of the scene file ("drop.angle_deg") a value, a list or array of values, or a grid "FROM:TO:STEP",
+    values: by the key of the scene file ("drop.angle_deg"), or as arguments by the names that sequence() takes (angle),
+    a value, a list or array of values, or a grid "FROM:TO:STEP",
     "FROM:TO:log:COUNT" or "A,B,..." ("LOW:HIGH" or "LOW:HIGH:log" with random).  The last key varies fastest, so that a column
     of two keys is .reshape(len(first), len(second)).  Of keys that are lists drop.attitude alone can vary: a row of four for
     each scene, 26 for a box's faces, edges and corners, or with random "uniform".
@@ -171,10 +173,15 @@ def sweep(
     Raises BadInput; NotComputed if require_digits and a scene has fewer; warns of scenes that fall short.  A scene that is
     refused or outside the model is a row with its outcome and reason.
 
-    >>> clatter.sweep("phone-corner", {"drop.orientation": range(19, 27)}, model="discrete").column("impacts")
+    >>> clatter.sweep("phone-corner", orientation=range(19, 27), model="discrete")["impacts"]
     array([3., 3., 3., 3., 3., 3., 3., 3.])
     """
-    sets = [f"{key}={swept_text(key, value)}" for key, value in values.items()]
+    sets = [f"{key}={swept_text(key, value)}" for key, value in (values or {}).items()]
+    for name, value in changes.items():
+        key = KEYS[name].key
+        if value is not None and key in (values or {}):
+            raise BadArgument(f"{name} {shown(value)}: {key} is given, too")
+        sets += [] if value is None else [f"{key}={swept_text(key, value, name)}"]
     sets += [] if errors else ["run.errors=false"]
     sets += ["run.require_digits=true"] if require_digits else []
     names = columns if columns is None or isinstance(columns, str) else ",".join(columns)

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import copy
 import copyreg
+import functools
 from collections.abc import Iterable, Iterator, Mapping
 from typing import Any, Protocol, overload
 
@@ -65,7 +66,11 @@ class Result:
 
     def __init__(self, report: Report) -> None:
         self._report = report
-        self._data = report.data()
+
+    @functools.cached_property
+    def _data(self) -> dict[str, Any]:
+        """The program's JSON, made when it is first asked for."""
+        return self._report.data()
 
     def _beside(self) -> tuple[Any, ...]:
         """What it was made from beside the report."""
@@ -132,13 +137,17 @@ class States:
     def __iter__(self) -> Iterator[Record]:
         return (Record(row) for row in self._rows)
 
+    def __getitem__(self, index: str) -> Array:
+        return self.column(index)
+
 
 class Run(Result):
     """A sequence of impacts: len(run), run[0], for impact in run."""
 
-    def __init__(self, report: Report) -> None:
-        super().__init__(report)
-        self.impacts = [Impact(impact) for impact in self._data["impacts"]]
+    @functools.cached_property
+    def impacts(self) -> list[Impact]:
+        """A record for each."""
+        return [Impact(impact) for impact in self._data["impacts"]]
 
     @property
     def outcome(self) -> str:
@@ -209,8 +218,11 @@ class Run(Result):
     def __getitem__(self, index: int) -> Impact: ...
     @overload
     def __getitem__(self, index: slice) -> list[Impact]: ...
-    def __getitem__(self, index: int | slice) -> Impact | list[Impact]:
-        return self.impacts[index]
+    @overload
+    def __getitem__(self, index: str) -> Array: ...
+    def __getitem__(self, index: int | slice | str) -> Impact | list[Impact] | Array:
+        """An impact, some of them, or a column by its name: run["impulse_normal"]."""
+        return self.column(index) if isinstance(index, str) else self.impacts[index]
 
 
 class Sequence(Run):
