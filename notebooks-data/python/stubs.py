@@ -1,15 +1,16 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Writes the stub of clatter.calls, in which each key of scenes is a keyword argument.
+"""Writes the stubs of clatter.calls and clatter.commands, in which each key of scenes is a keyword argument.
 
-Usage: stubs.py FILE, with the built module in PYTHONPATH.
+Usage: stubs.py FOLDER, with the built module in PYTHONPATH.
 """
 
 import inspect
 import sys
 from pathlib import Path
+from types import ModuleType
 from typing import Any
 
-from clatter import calls
+from clatter import calls, commands
 from clatter.arguments import KEYS
 
 HEAD = '''# SPDX-License-Identifier: GPL-3.0-or-later
@@ -18,8 +19,9 @@ HEAD = '''# SPDX-License-Identifier: GPL-3.0-or-later
 from collections.abc import Iterable, Mapping
 from typing import Literal
 
-from clatter.arguments import Path, Progress, Scene, Swept
-from clatter.findings import Explanation, Gradient, Plan, Rows, Scored, Tradeoff
+from clatter.arguments import Path, Probes, Progress, Scene, Swept
+from clatter.arrays import Array
+from clatter.findings import Explanation, Gradient, Plan, Rows, Scored, Table, Tradeoff
 from clatter.results import Comparison, ComparisonSweep, Sequence, Simulation, Sweep
 
 '''
@@ -40,7 +42,14 @@ def declaration(name: str, function: Any) -> str:
     return f"def {name}(\n    " + ",\n    ".join(parameters) + f",\n) -> {own.return_annotation}: ...\n"
 
 
+def stub(module: ModuleType) -> str:
+    """Of the module's public functions."""
+    functions = {name: value for name, value in vars(module).items()
+                 if inspect.isfunction(value) and value.__module__ == module.__name__ and not name.startswith("_")}
+    return HEAD + "".join(declaration(*item) for item in functions.items())
+
+
 if __name__ == "__main__":
-    functions = {name: value for name, value in vars(calls).items()
-                 if inspect.isfunction(value) and value.__module__ == calls.__name__ and not name.startswith("_")}
-    Path(sys.argv[1]).write_text(HEAD + "".join(declaration(*item) for item in functions.items()), encoding="utf-8")
+    for module in (calls, commands):
+        name = module.__name__.rpartition(".")[2]
+        Path(sys.argv[1], f"{name}.pyi").write_text(stub(module), encoding="utf-8")

@@ -20,10 +20,11 @@ from pathlib import Path
 import clatter
 import numpy as np
 from clatter.arguments import KEYS, swept_text
-from run_folder import ROOT
+from run_folder import ROOT, json_of, run
 from waiting import until_it_computes
 
-SCENE_CALLS = ("sequence", "explain", "gradient", "simulate", "compare", "compare_against", "plan", "tradeoff")
+SCENE_CALLS = ("sequence", "explain", "gradient", "simulate", "compare", "compare_against", "plan", "tradeoff", "shock", "ground",
+               "report")
 
 
 class Series:
@@ -244,6 +245,32 @@ class SweepsAsTheProgram(unittest.TestCase):
             run["impuls"]
         self.assertEqual(set(dir(clatter)), {*clatter.__all__, "__version__"})
 
+    def test_commands_of_the_program_give_its_numbers(self):
+        place = (0.048, 0.016, 0.0095)
+        drop = ("phone-damped", "--impacts", "1", "--probe", "camera:0.048,0.016,0.0095", "--no-sensitivity")
+        shock = clatter.shock("phone-damped", impacts=1, probe={"camera": place}, sensitivity=False)
+        self.assertEqual(shock.to_dict(), json_of("shock", *drop))
+        self.assertEqual(shock["peak"][0], shock.rows[0].peak)
+        scene = clatter.case("phone-damped")
+        scene["run"] = {"impacts": 1}
+        self.assertEqual(clatter.shock(scene, probe={"camera": place}, sensitivity=False)["peak"][0], shock["peak"][0])
+        local = clatter.shock("phone-damped", impacts=1, probe={"camera": place}, sensitivity=False, friction_law="local")
+        self.assertEqual(local.scene["ground"]["friction_law"], "local")
+        self.assertEqual(clatter.atlas("rod").to_text(), run("atlas", "rod").stdout)
+        self.assertEqual(clatter.ground("phone-damped", floor="concrete").to_dict(),
+                         json_of("ground", "phone-damped", "--floor", "concrete"))
+        answer = clatter.report("phone-damped", impacts=1, probe={"camera": place}, drops=0, sensitivity=False)
+        self.assertIn("answer", answer.to_dict())
+        counts = clatter.map(over={"drop.angle_deg": (0, 60), "impact.restitution": (0.1, 1)}, size=(8, 6))
+        self.assertEqual(counts.shape, (6, 8))
+        middle = clatter.sequence(0.5 * 60 / 8, restitution=0.1 + 0.5 * 0.9 / 6, impacts=100)
+        self.assertEqual(counts[0, 0], len(middle))
+        for refused, said in ((lambda: clatter.shock("phone-damped"), "^probe: required"),
+                              (lambda: clatter.shock(scene, probe={"camera": place}, stiffness=-1), "^stiffness '-1': must be"),
+                              (lambda: clatter.map(over={"drop.angle_deg": (0, 60)}), "^over: must be given twice")):
+            with self.assertRaisesRegex(clatter.BadInput, said):
+                refused()
+
     def test_flags_alone_are_a_scene_for_every_call(self):
         self.assertEqual(clatter.simulate(angle=10, stiffness=1e9, impacts=1).impacts[0].n, 1)
         with self.assertRaisesRegex(clatter.BadInput, "stiffness: required"):
@@ -257,7 +284,7 @@ class SweepsAsTheProgram(unittest.TestCase):
     def test_the_keys_of_scenes_are_keyword_arguments(self):
         for name in SCENE_CALLS:
             parameters = inspect.signature(getattr(clatter, name)).parameters
-            continuous = name in ("simulate", "compare", "plan", "tradeoff")
+            continuous = name in ("simulate", "compare", "plan", "tradeoff", "shock", "ground", "report")
             for key in KEYS.values():
                 if key.argument == "method" and name == "sequence":
                     continue  # its own

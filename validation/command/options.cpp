@@ -41,7 +41,20 @@ void write_out(const OutputChoice& choice, const std::string& text) {
   sink.commit();
 }
 
+namespace {
+
+thread_local CaughtReport* catching = nullptr;
+
+}  // namespace
+
+CaughtReport::CaughtReport() { catching = this; }
+CaughtReport::~CaughtReport() { catching = nullptr; }
+
 void write_report(const OutputChoice& choice, const Report& report) {
+  if (catching) {
+    catching->report_ = report;
+    return;
+  }
   const std::string text = report_text(report, choice.style);
   const bool coloured = choice.style.format == Format::table && choice.path.empty() && shows_colours();
   if (!coloured) return write_out(choice, text);

@@ -314,7 +314,7 @@ void append_impact(std::vector<Key>& keys) {
            "or Coulomb's coefficient of friction; without either the ground's sliding_friction",
            OptionalNumber{[](Scene& s) -> std::optional<double>& { return s.impact.friction; }, not_negative_number},
            [](const Scene& s, Model model) { return in_discrete_only_if(s.impact.friction.has_value(), model); }},
-          {"impact.friction_law", Use::both, "--friction-law", "", "",
+          {"impact.friction_law", Use::both, "--impact-friction-law", "", "",
            "coulomb: against the slip at every instant of the impact; moreau: against that after it, as time-steppers "
            "have it, with newton's restitution",
            NameValue{&impact_friction_names(), [](const Scene& s) { return std::size_t{s.impact.is_moreau}; },

@@ -67,6 +67,7 @@ PYBIND11_MODULE(_clatter, module) {
   add_discrete_functions(module);
   add_scene_functions(module);
   add_evidence_functions(module);
+  add_commands(module);
 }
 
 }  // namespace clatter::python

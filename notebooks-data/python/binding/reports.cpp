@@ -89,6 +89,7 @@ py::list keys() {
     row["key"] = key.name;
     row["kind"] = kind_of(key);
     row["names"] = choice ? *choice->names : std::vector<std::string>{};
+    row["flag"] = key.flag;
     row["unit"] = key.unit;
     row["allowed"] = key.allowed();
     row["meaning"] = key.help;

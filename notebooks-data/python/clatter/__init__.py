@@ -23,6 +23,7 @@ long call with KeyboardInterrupt; progress=print shows how far it is.  Other Pyt
 from clatter import _clatter
 from clatter.angles import Angles, angles, regimes
 from clatter.calls import compare, compare_against, explain, gradient, plan, sequence, simulate, sweep, tradeoff
+from clatter.commands import atlas, ground, map, report, shock
 from clatter.errors import BadArgument, BadInput, ClatterWarning, Error, NotComputed, OutsideModel
 from clatter.evidence import (benchmark_list, benchmark_score, benchmark_show, benchmark_truth, extremes, figure, measured_fit,
                               measured_predict, measured_score, verify)
@@ -35,10 +36,10 @@ __version__ = _clatter.version
 __all__ = [
     "Angles", "BadArgument", "BadInput", "ClatterWarning", "Comparison", "ComparisonSweep", "Error", "Explanation", "Gradient",
     "History", "Impact", "Measured", "NotComputed", "OutsideModel", "Plan", "Problem", "Record", "Result", "Rows", "Run",
-    "Scored", "Sequence", "Simulation", "States", "Sweep", "Table", "Tradeoff", "Verification", "angles", "benchmark_list",
+    "Scored", "Sequence", "Simulation", "States", "Sweep", "Table", "Tradeoff", "Verification", "angles", "atlas", "benchmark_list",
     "benchmark_score", "benchmark_show", "benchmark_truth", "case", "cases", "compare", "compare_against", "explain",
-    "extremes", "figure", "gradient", "measured_fit", "measured_predict", "measured_score", "plan", "regimes", "sequence",
-    "simulate", "sweep", "tradeoff", "verify",
+    "extremes", "figure", "gradient", "ground", "map", "measured_fit", "measured_predict", "measured_score", "plan", "regimes", "report",
+    "sequence", "shock", "simulate", "sweep", "tradeoff", "verify",
 ]
 
 

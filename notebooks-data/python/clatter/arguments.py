@@ -21,6 +21,7 @@ from clatter.errors import BadArgument, BadInput
 Value = str | float | bool | Iterable[float]
 Swept = str | float | bool | Iterable[str] | Iterable[float] | Iterable[Iterable[float]]
 Path = str | os.PathLike[str]
+Probes = Mapping[str, Iterable[float]]  # a place on the body by the name of each
 Scene = str | os.PathLike[str] | Mapping[str, Any]
 Progress = Callable[[int, int], object]  # called with (done, of) a few times a second; what it raises ends the work
 
@@ -36,6 +37,7 @@ class Key(NamedTuple):
     key: str
     kind: str  # "number", "whole", "truth", "text", "name", "list" or "curve"
     names: list[str]
+    flag: str  # of the command line, or ""
     unit: str
     allowed: str
     meaning: str
@@ -157,6 +159,8 @@ _TYPES: dict[str, tuple[Callable[[Any], bool], str]] = {
     "Iterable[Path]": (lambda value: is_list(value) and all(isinstance(part, (str, os.PathLike)) for part in value), "a list of paths"),
     "Mapping[str, Swept]": (lambda value: isinstance(value, Mapping) and all(isinstance(key, str) for key in value),
                             "a dict of values by the keys of scenes"),
+    "Probes": (lambda value: isinstance(value, Mapping), "a dict of places by the names of probes"),
+    "Iterable[float]": (lambda value: is_list(value) and all(map(is_number, map(plain, value))), "a list of numbers"),
     "Mapping[str, Array]": (lambda value: isinstance(value, Mapping), "a dict of arrays by the names of a result's"),
 }
 

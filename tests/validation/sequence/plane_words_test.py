@@ -45,7 +45,7 @@ class Words(unittest.TestCase):
 
     def test_friction_by_the_slip_after_the_impact_turns_slip_back_where_friction_on_its_way_does_not(self):
         drop = ("--angle", "30", "--restitution", "0.5", "--friction", "0.3", "--tangential-velocity", "0.4")
-        moreau = json_of("sequence", *drop, "--friction-law", "moreau")
+        moreau = json_of("sequence", *drop, "--impact-friction-law", "moreau")
         self.assertEqual((moreau["scene"]["discrete_law"]["friction_law"], moreau["impacts"][0]["mode"]), ("moreau", "reverse-slip"))
         # m k² of a thin rod of 1 m and 1 kg is 1/12; P_t = μ P_n against a slip that has turned.
         a, b, c = 1 + 0.75 / 4 * 12, math.sqrt(3) / 16 * 12, 1 + 12 / 16
@@ -54,10 +54,10 @@ class Words(unittest.TestCase):
         self.assertLess(0.4 + (0.3 * c - b) * normal, 0)
         routh = json_of("sequence", *drop)["impacts"][0]["impulse_normal"]
         self.assertGreater(abs(routh - normal), 1e-3)
-        shown = run("explain", "1", *drop, "--friction-law", "moreau").stdout
+        shown = run("explain", "1", *drop, "--impact-friction-law", "moreau").stdout
         self.assertIn(f"= {normal:.6f} N·s, normal impulse", shown)
-        for other, said in ((("--restitution-law", "poisson"), "newton"), (("--friction-law", "morea"), "did you mean moreau")):
-            done = run("sequence", *drop, "--friction-law", "moreau", *other) if "poisson" in other else run("sequence", *drop, *other)
+        for other, said in ((("--restitution-law", "poisson"), "newton"), (("--impact-friction-law", "morea"), "did you mean moreau")):
+            done = run("sequence", *drop, "--impact-friction-law", "moreau", *other) if "poisson" in other else run("sequence", *drop, *other)
             self.assertEqual(done.returncode, 2)
             self.assertIn(said, done.stderr)
 

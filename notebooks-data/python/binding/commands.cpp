@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Commands of the program that Python calls by their arguments.
+#include <pybind11/stl.h>
+
+#include <map>
+
+#include "binding.hpp"
+#include "validation/command/options.hpp"
+#include "validation/program/parser.hpp"
+
+namespace clatter::python {
+namespace {
+
+namespace py = pybind11;
+using validation::Argument;
+using validation::Command;
+
+/// @throws BadInput for a name that none has
+Command made(const std::string& name) {
+  static const std::map<std::string, Command (*)()> commands{{"atlas", validation::atlas_command},
+                                                             {"ground", validation::ground_command},
+                                                             {"map", validation::map_command},
+                                                             {"report", validation::report_command},
+                                                             {"shock", validation::shock_command}};
+  Command command = validation::named(commands, name)();
+  command.name = name;
+  return command;
+}
+
+/// (report or None, exit status)
+py::tuple run_command(const std::string& name, const std::vector<std::string>& words) {
+  const auto work = [name, words](const Watch&) {
+    const std::vector<Command> commands{made(name)};
+    std::vector<std::string> line{name};
+    line.insert(line.end(), words.begin(), words.end());
+    const validation::CaughtReport caught;
+    const int status = parse_line(commands, line).command->run();
+    return std::pair(caught.report(), status);
+  };
+  auto [report, status] = run_interruptible(work);
+  return py::make_tuple(report ? py::cast(kept(std::move(*report))) : py::none(), status);
+}
+
+/// The arguments of its own, without those of scenes and of the form of the output.
+py::list command_arguments(const std::string& name) {
+  py::list rows;
+  const Command command = made(name);
+  for (const Argument& argument : command.arguments) {
+    if (!argument.is_option() || argument.group.starts_with("Scene")) continue;
+    py::dict row;
+    row["flag"] = argument.name;
+    row["type"] = argument.type;
+    row["help"] = argument.help;
+    row["is_truth"] = argument.is_flag();
+    rows.append(row);
+  }
+  return rows;
+}
+
+}  // namespace
+
+void add_commands(py::module_& module) {
+  module.def("run_command", &run_command, py::arg("name"), py::arg("words"), "What a command says, and its status.");
+  module.def("command_arguments", &command_arguments, py::arg("name"), "The arguments of a command's own.");
+}
+
+}  // namespace clatter::python

@@ -1,0 +1,228 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Shock, ground, report, atlas and map: the program's commands, with arguments by the names of their flags."""
+
+from __future__ import annotations
+
+import os
+import re
+import tempfile
+import tomllib
+from collections.abc import Iterable, Mapping
+from pathlib import Path as FilePath
+from typing import Any
+
+from clatter import _clatter
+from clatter.arguments import KEYS, AnyKey, Path, Probes, Scene, Swept, checked, shown, swept_text, text_of, texts_of
+from clatter.arrays import Array, numpy_for
+from clatter.errors import BadArgument, BadInput
+from clatter.findings import Table
+from clatter.results import Report
+from clatter.scenes import called, cases, scene_text, toml_lines
+
+
+def _file_of(scene: Scene, changes: Mapping[str, Any], folder: str) -> str:
+    """A scene file or case as it is; what is no text, or has keys without a flag, as a file in the folder."""
+    if isinstance(scene, Mapping):
+        table: dict[str, Any] = {name: value for name, value in scene.items() if name != "file"}
+    elif not changes:
+        return os.fspath(scene)
+    else:
+        name, text, _ = scene_text(scene, {})
+        table = tomllib.loads(text if text is not None else FilePath(name).read_text(encoding="utf-8"))
+    lines = toml_lines(table)
+    for key, value in changes.items():
+        lines = [line for line in lines if not line.startswith(f"{key} = ")] + toml_lines({key: value})
+    path = os.path.join(folder, "scene.toml")
+    FilePath(path).write_text("\n".join(lines) + "\n", encoding="utf-8")
+    return path
+
+
+def _run(command: str, scene: Scene | float | None, changes: Mapping[str, Any], options: list[str]) -> Report | None:
+    words = list(options)
+    given = {name: value for name, value in changes.items() if value is not None}
+    if isinstance(scene, (int, float)):
+        if "angle" in given:
+            raise BadInput(f"angle {shown(given['angle'])}: given twice")
+        given, scene = {"angle": scene, **given}, None
+    files = {}
+    for name, value in given.items():
+        key = KEYS[name]
+        text = text_of(name, key, value)
+        if not key.flag:
+            files[key.key] = value
+        elif key.kind != "truth":
+            words += [f"{key.flag}={text.replace('x', ',') if key.kind == 'list' and name != 'size' else text}"]
+        elif value:
+            words.append(key.flag)
+    with tempfile.TemporaryDirectory() as folder:
+        if scene is not None or files:
+            words.append(_file_of({} if scene is None else scene, files, folder))
+        try:
+            report, _ = called(_clatter.run_command, command, words)
+        except BadInput as error:
+            raise BadInput(re.sub(re.escape(folder) + r"/scene\.toml(:\d+:\d+)?: ", "", str(error))) from None
+    return report
+
+
+def _options(given: Mapping[str, Any]) -> list[str]:
+    truths = [f"--{name.replace('_', '-')}" for name, value in given.items() if value is True]
+    texts = texts_of({name: value for name, value in given.items() if not isinstance(value, bool)})
+    return truths + [f"--{name.replace('_', '-')}={text}" for name, text in texts.items()]
+
+
+def _probes(probe: str | Iterable[str] | Probes | None) -> list[str]:
+    if probe is None:
+        return []
+    if isinstance(probe, Mapping):
+        return [f"--probe={name}:{text_of('probe', None, place).replace('x', ',')}" for name, place in probe.items()]
+    return [f"--probe={text}" for text in ([probe] if isinstance(probe, str) else probe)]
+
+
+def _table(report: Report | None) -> Table:
+    assert report is not None
+    return Table(report)
+
+
+@checked
+def shock(
+    scene: Scene | float | None = None,
+    *,
+    probe: str | Iterable[str] | Probes | None = None,
+    model: str | None = None,
+    axis: str | None = None,
+    quality: str | float | None = None,
+    frequencies: str | None = None,
+    first: int | None = None,
+    severity: float | None = None,
+    part: str | None = None,
+    sensitivity: bool = True,
+    rows: str = "impact",
+    rate: float | None = None,
+    measured: Path | None = None,
+    column: str | None = None,
+    unit: str | None = None,
+    against: Path | None = None,
+    **changes: AnyKey,
+) -> Table:
+    """What the impacts of a drop do to points of the body: peaks, changes of velocity, response spectra, damage boundary.
+
+    scene and keys as for simulate().  probe: {"camera": (x, y, z)} in m from the geometric centre, or texts NAME:X,Y,Z.
+    model: "discrete" or "continuous".  rows: "impact", "spectrum" or "pulse"; to_dict() has all.  rate [Hz]: rows are the
+    history.  part: "HZ:G", "G" or "G:MS", what the part at the probe bears.  first: so many impacts are the first ones.
+    measured: accelerations of a logger (CSV) in place of a drop; its column and unit; against: a scene beside it.
+    Raises BadInput, OutsideModel, NotComputed.
+
+    >>> clatter.shock("phone-damped", probe={"camera": (0.048, 0.016, 0.0095)}, impacts=1)["peak"]
+    """
+    options = {"model": model, "axis": axis, "quality": quality, "frequencies": frequencies, "first": first,
+               "severity": severity, "part": part, "no_sensitivity": not sensitivity, "rows": rows, "rate": rate,
+               "measured": measured and os.fspath(measured), "column": column, "unit": unit,
+               "against": against and os.fspath(against)}
+    return _table(_run("shock", scene, changes, _probes(probe) + _options(options)))
+
+
+@checked
+def ground(
+    scene: Scene | float | None = None,
+    *,
+    measured_e: float | None = None,
+    contact_time: float | None = None,
+    peak_force: float | None = None,
+    indentation: float | None = None,
+    modulus: float | None = None,
+    poisson: float | None = None,
+    footprint: float | None = None,
+    thickness: float | None = None,
+    floor: str | None = None,
+    **changes: AnyKey,
+) -> Table:
+    """k_G and c_G of the ground from two measurements of a drop (measured_e, contact_time, peak_force, indentation), or from
+    its material: modulus and poisson with a footprint or the thickness of a layer, or a floor by name.
+
+    scene and keys as for simulate().  Raises BadInput, NotComputed.
+
+    >>> clatter.ground(body="box", size=(0.15, 0.075, 0.008), mass=0.18, orientation=19, clearance=1, floor="concrete")
+    """
+    options = {"measured_e": measured_e, "contact_time": contact_time, "peak_force": peak_force, "indentation": indentation,
+               "modulus": modulus, "poisson": poisson, "footprint": footprint, "thickness": thickness, "floor": floor}
+    return _table(_run("ground", scene, changes, _options(options)))
+
+
+@checked
+def report(
+    scene: Scene | float | None = None,
+    *,
+    output: Path | None = None,
+    probe: str | Iterable[str] | Probes | None = None,
+    model: str | None = None,
+    axis: str | None = None,
+    quality: str | float | None = None,
+    frequencies: str | None = None,
+    first: int | None = None,
+    severity: float | None = None,
+    part: str | None = None,
+    sensitivity: bool = True,
+    drops: int | None = None,
+    scatter: float | None = None,
+    rank_by: str | None = None,
+    **changes: AnyKey,
+) -> Table | None:
+    """The worst of all attitudes of a drop, and what it does: as a result, or, with output, as the page FILE.html (nothing is
+    returned then).
+
+    Arguments as for shock(); drops and scatter [°]: of the random attitudes; rank_by: a column of sweep()'s rows.
+    Raises BadInput, OutsideModel, NotComputed.
+    """
+    options = {"model": model, "axis": axis, "quality": quality, "frequencies": frequencies, "first": first,
+               "severity": severity, "part": part, "no_sensitivity": not sensitivity, "drops": drops, "scatter": scatter,
+               "rank_by": rank_by, "output": output and os.fspath(output), "format": None if output else "json"}
+    made = _run("report", scene, changes, _probes(probe) + _options(options))
+    return None if made is None else Table(made)
+
+
+@checked
+def atlas(scene: Scene | None = None, *, plane: bool = False, **changes: AnyKey) -> Table:
+    """Clattering close to flat, in closed form.
+
+    scene: "rod", "box", "cube", "square", "rectangle", "triangle", "phone", or a scene as for sequence().  plane: of a box
+    or mesh, tilts in the plane y = 0 alone.
+
+    >>> clatter.atlas("rod")
+    """
+    name = scene if isinstance(scene, str) and scene not in cases() and not os.path.exists(scene) else None
+    options = _options({"plane": plane}) + ([name] if name else [])
+    return _table(_run("atlas", None if name else scene, changes, options))
+
+
+@checked
+def map(
+    scene: Scene | None = None,
+    over: Mapping[str, Swept] | None = None,
+    values: Mapping[str, Swept] | None = None,
+    *,
+    quantity: str = "impacts",
+    size: Iterable[float] = (80, 60),
+    samples: int | None = None,
+    seed: int | None = None,
+) -> Array:
+    """A quantity over two keys of a scene, as an array, upward and across (NaN: left open by rounding, or no drop).
+
+    over: two keys of the scene file with their ranges, {"drop.angle_deg": (0, 60), "impact.restitution": "0.1:1:log"},
+    across and upward.  values: of other keys, as for sweep(), with samples ranges, too.  quantity: "impacts", "total",
+    "loss" ..., with samples "NAME=CLASS", the share of that class; then the last axis is share, least and most (Wilson's).
+    Raises BadInput.
+    """
+    numpy = numpy_for("map()")
+    words = [f"--quantity={quantity}", "--size=" + "x".join(str(int(side)) for side in size)]
+    for key, bounds in (over or {}).items():
+        text = bounds if isinstance(bounds, str) else ":".join(text_of(key, None, bound) for bound in bounds)  # type: ignore[union-attr]
+        words.append(f"--over={key}={text}")
+    words += [f"--set={key}={swept_text(key, value)}" for key, value in (values or {}).items()]
+    words += _options({"samples": samples, "seed": seed})
+    with tempfile.TemporaryDirectory() as folder:
+        path = os.path.join(folder, "map.npy")
+        _run("map", scene, {}, [*words, f"--output={path}"])
+        if not os.path.exists(path):
+            raise BadArgument("map: was interrupted")
+        array: Array = numpy.load(path)
+    return array
