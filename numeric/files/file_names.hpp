@@ -13,7 +13,7 @@ namespace clatter::numeric {
 inline constexpr std::array<std::string_view, 8> surface_extensions{".stl",  ".obj", ".ply", ".off",
                                                                     ".gltf", ".glb", ".3mf", ".dae"};
 /// What Gmsh reads: solid elements, or a geometry that it meshes.
-inline constexpr std::array<std::string_view, 6> gmsh_extensions{".msh", ".geo", ".step", ".stp", ".iges", ".igs"};
+inline constexpr std::array<std::string_view, 4> gmsh_extensions{".msh", ".geo", ".step", ".stp"};
 
 /// Index of the extension, of whatever case, with which the path ends; their number if there is none.
 template <class Extensions>

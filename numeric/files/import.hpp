@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 #include "numeric/files/file_names.hpp"
 #include "numeric/mesh/mesh.hpp"
@@ -41,6 +42,10 @@ struct SurfaceFile {
 /// @throws MeshError naming the file, and the line or triangle: unreadable, truncated, no file on a disk, none of these
 ///         forms; a face with a corner that is not there; whatever cannot be repaired.  std::domain_error for the unit.
 [[nodiscard]] SurfaceFile read_surface(const std::string& path, const SurfaceFileOptions& options = {});
+
+/// The same of the contents of such a file, whose name is as before; not of the forms that assimp reads.
+[[nodiscard]] SurfaceFile parse_surface(const std::string& path, std::string_view contents,
+                                        const SurfaceFileOptions& options = {});
 
 /// The same of an STL file, whatever its name, with nothing repaired.
 [[nodiscard]] Surface read_stl(const std::string& path, double unit = 1);

@@ -138,7 +138,7 @@ Triangles triangles_of(const std::string& path, double unit) {
   const aiScene* const scene = import(path.c_str(), 0, nullptr, settings);
   if (!scene) throw MeshError("assimp says: " + std::string(complaint()));
   Triangles all{.corners = {}, .triangles = {}, .rounding = 0x1p-24};
-  // Of COLLADA assimp hands over metres, of the others the file's own.
+  // Coordinates of COLLADA come in metres, others in the unit of the file.
   const bool is_scaled = surface_extensions[extension_index(surface_extensions, path)] == ".dae";
   Matrix4 place = Matrix4::Identity();
   if (is_scaled) place.topLeftCorner<3, 3>() /= unit;

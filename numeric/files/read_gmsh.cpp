@@ -230,7 +230,7 @@ Mesh assemble(const std::vector<TaggedElement>& elements, const std::unordered_m
 }
 
 Mesh read(const std::string& path, double density, double unit) {
-  if (!is_gmsh_file(path)) throw MeshError("is neither a .msh nor a .geo, .step, .stp, .iges or .igs file");
+  if (!is_gmsh_file(path)) throw MeshError("is neither a .msh nor a .geo, .step or .stp file");
   const bool geometry = extension_index(gmsh_extensions, path) > 0;
   static_cast<void>(file_contents(path));  // refuses what is no file on a disk
   const Session session;

@@ -14,8 +14,15 @@ using Parse = TriangleFile (*)(std::string_view file);
 /// Readers of surface_extensions; those without one are assimp's.
 constexpr std::array<Parse, surface_extensions.size()> readers{parse_stl, parse_obj, parse_ply, parse_off};
 
-TriangleFile parsed(const std::string& path, Parse parse) {
-  const std::string contents = file_contents(path);
+/// Null: assimp's.
+Parse reader_of(const std::string& path) {
+  const std::size_t form = extension_index(surface_extensions, path);
+  if (form == surface_extensions.size())
+    throw MeshError(path + ": is no .stl, .obj, .ply, .off, .gltf, .glb, .3mf or .dae file");
+  return readers[form];
+}
+
+TriangleFile parsed(const std::string& path, std::string_view contents, Parse parse) {
   try {
     return parse(contents);
   } catch (const MeshError& error) {
@@ -46,15 +53,20 @@ SurfaceFile made(const std::string& path, TriangleFile file, const SurfaceFileOp
 
 SurfaceFile read_surface(const std::string& path, const SurfaceFileOptions& options) {
   if (options.unit != 0) detail::require_positive("unit", options.unit);
-  const std::size_t form = extension_index(surface_extensions, path);
-  if (form == surface_extensions.size())
-    throw MeshError(path + ": is no .stl, .obj, .ply, .off, .gltf, .glb, .3mf or .dae file");
-  return made(path, readers[form] ? parsed(path, readers[form]) : read_by_assimp(path), options);
+  return reader_of(path) ? parse_surface(path, file_contents(path), options)
+                         : made(path, read_by_assimp(path), options);
+}
+
+SurfaceFile parse_surface(const std::string& path, std::string_view contents, const SurfaceFileOptions& options) {
+  if (options.unit != 0) detail::require_positive("unit", options.unit);
+  const Parse reader = reader_of(path);
+  if (!reader) throw MeshError(path + ": can only be read from a disk");
+  return made(path, parsed(path, contents, reader), options);
 }
 
 Surface read_stl(const std::string& path, double unit) {
   detail::require_positive("unit", unit);
-  return made(path, parsed(path, parse_stl), {.unit = unit, .strict = true}).surface;
+  return made(path, parsed(path, file_contents(path), parse_stl), {.unit = unit, .strict = true}).surface;
 }
 
 }  // namespace clatter::numeric

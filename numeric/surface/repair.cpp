@@ -207,7 +207,7 @@ class Mender {
 
   // --- Triangles that lie on another.
 
-  /// Of triangles with the same corners one stays; none of a wall that two parts have between them, each its own side.
+  /// One stays of triangles with the same corners; none of a wall that two parts have between them, each its own side.
   void drop_doubled() {
     if (unmatched_.empty()) return;
     std::vector<std::pair<Corners, int>> keys;
@@ -250,7 +250,7 @@ class Mender {
     return b[(k + 1) % 3] == a[1];
   }
 
-  /// Of groups that face both ways those that are walls within the body: two other triangles go on from an edge of them
+  /// Which groups that face both ways are walls within the body: two other triangles go on from an edge of them
   /// or of one that is joined to them.
   [[nodiscard]] std::vector<char> inner_walls(const std::vector<int>& group, const std::vector<char>& is_mixed) const {
     using Side = std::tuple<int, int, int>;  // low and high node, group

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <mutex>
 #include <optional>
 #include <tuple>
@@ -12,6 +13,7 @@
 #include "analytic/space/flight/body.hpp"
 #include "numeric/files/import.hpp"
 #include "numeric/mesh/generators.hpp"
+#include "validation/embedded/embedded.hpp"
 #include "validation/output/bad_input.hpp"
 #include "validation/output/json.hpp"
 #include "validation/output/number.hpp"
@@ -123,10 +125,22 @@ numeric::Mesh gmsh_mesh(const BodyScene& body, double unit) {
   return mesh;
 }
 
+/// The mesh of a case that comes with the program, where it is not on the disk.
+const EmbeddedFile* carried_file(const std::string& path) {
+  std::error_code error;
+  if (std::filesystem::exists(path, error)) return nullptr;
+  const std::vector<EmbeddedFile>& all = embedded_files();
+  const auto found = std::find_if(all.begin(), all.end(), [&](const EmbeddedFile& file) { return file.name == path; });
+  return found == all.end() ? nullptr : &*found;
+}
+
 SolidBody read_solid(const BodyScene& body) {
   if (body.is_surface()) {
-    numeric::SurfaceFile file = numeric::read_surface(
-        body.file, {.unit = body.has_unit ? body.unit : 0, .weld = body.weld, .strict = body.strict});
+    const numeric::SurfaceFileOptions options{
+        .unit = body.has_unit ? body.unit : 0, .weld = body.weld, .strict = body.strict};
+    const EmbeddedFile* const carried = carried_file(body.file);
+    numeric::SurfaceFile file =
+        carried ? numeric::parse_surface(body.file, carried->text, options) : numeric::read_surface(body.file, options);
     const MassProperties properties = surface_properties(body, file.surface);
     return {properties, std::move(file.surface), {}, file.repairs, file.unit};
   }

@@ -371,7 +371,7 @@ void append_mesh(std::vector<Key>& keys) {
            WholeNumber{[](Scene& s) -> int& { return s.body.nz; }, 1, most}, of_box},
           {"body.mesh.file", Use::both, "--mesh", "FILE", "",
            "a mesh as the body: STL, OBJ, PLY, OFF, glTF, 3MF or COLLADA, closed but for small faults; Gmsh's .msh and "
-           ".geo, STEP, IGES",
+           ".geo, STEP",
            TextValue{[](Scene& s) -> std::string& { return s.body.file; }}, of_mesh},
           {"body.mesh.unit", Use::both, "--unit", "M", "m",
            "of the mesh file's coordinates: mm, cm, m, in or so many m; without it what the file names, else m",

@@ -455,7 +455,7 @@ std::vector<std::string> case_names() {
   const std::string before = case_path(""), folder = before.substr(0, before.rfind('/') + 1);
   for (const EmbeddedFile& file : embedded_files()) {
     const std::filesystem::path path(file.name);
-    if (std::string_view(file.name).starts_with(folder)) names.push_back(path.stem().string());
+    if (file.name.starts_with(folder) && file.name.ends_with(".toml")) names.push_back(path.stem().string());
   }
   return names;
 }
