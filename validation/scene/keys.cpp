@@ -374,7 +374,7 @@ void append_mesh(std::vector<Key>& keys) {
            ".geo, STEP",
            TextValue{[](Scene& s) -> std::string& { return s.body.file; }}, of_mesh},
           {"body.mesh.unit", Use::both, "--unit", "M", "m",
-           "of the mesh file's coordinates: mm, cm, m, in or so many m; without it what the file names, else m",
+           "of the mesh file's coordinates; without it what the file names, else m",
            NumberValue{[](Scene& s) -> double& { return s.body.unit; }, file_units}, of_mesh},
           {"body.mesh.weld", Use::both, "", "X", "",
            "corners at gaps that are closer than this are one, of the largest extent; 0: only equal ones",
