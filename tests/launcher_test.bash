@@ -106,7 +106,7 @@ set_up() {
   make_stubs
   write_program
   echo 0 >"$settings/uid"
-  printf '%s\n' libgsl-dev libboost-dev libeigen3-dev libcli11-dev nlohmann-json3-dev libfmt-dev libtomlplusplus-dev librandom123-dev libqhull-dev \
+  printf '%s\n' libgsl-dev libboost-dev libeigen3-dev libcli11-dev nlohmann-json3-dev libfmt-dev libtomlplusplus-dev librandom123-dev libqhull-dev libassimp-dev \
     >"$settings/installed"
   cd "$scratch/$1"
 }
@@ -419,7 +419,7 @@ test_root_installs_all_that_is_missing_at_once() {
   expect "exit status" 0 "$status"
   expect_calls 1 "apt-get"
   expect "what is installed" "cmake ninja-build g++ libgsl-dev libboost-dev libeigen3-dev libcli11-dev\
- nlohmann-json3-dev libfmt-dev libtomlplusplus-dev librandom123-dev libqhull-dev" "$(sed -n 's/^apt-get .*--no-install-recommends //p' \
+ nlohmann-json3-dev libfmt-dev libtomlplusplus-dev librandom123-dev libqhull-dev libassimp-dev" "$(sed -n 's/^apt-get .*--no-install-recommends //p' \
     "$settings/calls")"
 }
 

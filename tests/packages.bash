@@ -9,7 +9,7 @@
 # Debian's own version (1.74 on Debian 12) and holds Math and Multiprecision.
 # shellcheck disable=SC2034  # the lists are read by the callers
 program_packages=(cmake ninja-build g++ libgsl-dev libboost-dev libeigen3-dev libcli11-dev
-                  nlohmann-json3-dev libfmt-dev libtomlplusplus-dev librandom123-dev libqhull-dev)
+                  nlohmann-json3-dev libfmt-dev libtomlplusplus-dev librandom123-dev libqhull-dev libassimp-dev)
 # gnuplot draws pictures.  It comes when it is first asked for: without it all else is there.
 # shellcheck disable=SC2034
 picture_packages=(gnuplot-nox)

@@ -13,6 +13,7 @@
 #include <unordered_map>
 
 #include "numeric/base/errors.hpp"
+#include "numeric/files/file_text.hpp"
 #include "numeric/files/import.hpp"
 #include "numeric/mesh/element_geometry.hpp"
 
@@ -229,9 +230,9 @@ Mesh assemble(const std::vector<TaggedElement>& elements, const std::unordered_m
 }
 
 Mesh read(const std::string& path, double density, double unit) {
-  const bool geometry = path.ends_with(".geo");
-  if (!geometry && !path.ends_with(".msh")) throw MeshError("is neither a .msh nor a .geo file");
-  if (!std::ifstream(path)) throw MeshError("cannot be opened");
+  if (!is_gmsh_file(path)) throw MeshError("is neither a .msh nor a .geo, .step or .stp file");
+  const bool geometry = extension_index(gmsh_extensions, path) > 0;
+  static_cast<void>(file_contents(path));  // refuses what is no file on a disk
   const Session session;
   Library::call<decltype(gmshOpen)>("gmshOpen", path.c_str());
   if (geometry) Library::call<decltype(gmshModelMeshGenerate)>("gmshModelMeshGenerate", 3);

@@ -27,8 +27,25 @@ class Edges {
     sides_.push_back({std::min(from, to), std::max(from, to), owner, from > to});
   }
 
-  /// Sorts by edge, sides of one edge by owner.
-  void sort() { std::sort(sides_.begin(), sides_.end(), is_before); }
+  /// Sorts by edge, sides of one edge by owner: into places by the lower node, of which few sides share one, then
+  /// those.
+  void sort() {
+    int most = -1;
+    for (const EdgeSide& side : sides_) most = std::max(most, side.low);
+    std::vector<std::size_t> end(static_cast<std::size_t>(most + 1) + 1, 0);
+    for (const EdgeSide& side : sides_) ++end[static_cast<std::size_t>(side.low) + 1];
+    for (std::size_t n = 1; n < end.size(); ++n) end[n] += end[n - 1];
+    std::vector<EdgeSide> sorted(sides_.size());
+    for (const EdgeSide& side : sides_) sorted[end[static_cast<std::size_t>(side.low)]++] = side;
+    sides_.swap(sorted);
+    std::size_t begin = 0;
+    for (int n = 0; n <= most; ++n) {
+      const std::size_t last = end[static_cast<std::size_t>(n)];
+      std::sort(sides_.begin() + static_cast<std::ptrdiff_t>(begin), sides_.begin() + static_cast<std::ptrdiff_t>(last),
+                is_before);
+      begin = last;
+    }
+  }
 
   /// Calls visit(std::span<const EdgeSide>) once for each edge.  Call sort() first.
   template <typename Visit>

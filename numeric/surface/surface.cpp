@@ -148,15 +148,15 @@ void check_surface_nodes(const Surface& surface, int index) {
   const auto count = static_cast<std::size_t>(corner_count(element));
   for (std::size_t i = 0; i < count; ++i) {
     const int node = element.nodes[i];
-    const std::string name = surface_element_name(surface, index) + ": node " + std::to_string(node);
+    const auto name = [&] { return surface_element_name(surface, index) + ": node " + std::to_string(node); };
     if (!(node >= 0 && static_cast<std::size_t>(node) < surface.nodes.size())) {
-      throw MeshError(name + " is not one of the " + std::to_string(surface.nodes.size()) + " nodes");
+      throw MeshError(name() + " is not one of the " + std::to_string(surface.nodes.size()) + " nodes");
     }
     if (std::count(element.nodes.begin(), element.nodes.begin() + static_cast<std::ptrdiff_t>(i), node)) {
-      throw MeshError(name + " is repeated");
+      throw MeshError(name() + " is repeated");
     }
     if (!surface.nodes[node].allFinite()) {
-      throw MeshError(name + " has a coordinate that is not finite");
+      throw MeshError(name() + " has a coordinate that is not finite");
     }
   }
 }

@@ -20,10 +20,11 @@ std::vector<std::string> tracks_head(const MeasuredRun& run) {
   const TrackDescription& d = run.file.file.description;
   std::vector<std::string> head{
       fmt::format("{}: {} drops, {} frames at {} Hz, motion in {}", run.file.file.path, run.file.file.tracks.size(),
-                  run.file.file.frames, shortest(d.rate), d.is_planar() ? "a plane" : "space"),
+                  run.file.file.frames, d.time.empty() ? shortest(d.rate) : significant(d.rate, 6),
+                  d.is_planar() ? "a plane" : "space"),
       fmt::format("body: box {} × {} × {} m, {} kg", shortest(d.size.x()), shortest(d.size.y()), shortest(d.size.z()),
                   shortest(d.mass)),
-      run.split_words};
+      "poses: " + d.frame_words(), run.split_words};
   if (!d.source.empty()) head.push_back(fmt::format("data: {} ({})", d.source, d.licence));
   return head;
 }

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <limits>
@@ -33,6 +34,9 @@ const std::vector<std::string>& description_keys() {
                                              "track.rate",
                                              "track.drop",
                                              "track.sample",
+                                             "track.time",
+                                             "track.time_unit",
+                                             "track.quaternion",
                                              "track.x",
                                              "track.y",
                                              "track.z",
@@ -62,10 +66,15 @@ std::string column_name(const SceneValues& values, const std::string& key, const
 void put_columns(const SceneValues& values, TrackDescription& d) {
   d.drop = column_name(values, "drop", "drop");
   d.sample = column_name(values, "sample", "sample");
+  values.exclude("track.sample", "track.time");
+  d.time = column_name(values, "time", "");
+  if (values.has("track.time_unit") && d.time.empty())
+    values.refuse("track.time_unit", "left out: it is only for a column of times");
   d.x = column_name(values, "x", "x_m");
   d.z = column_name(values, "z", "z_m");
   if (d.is_planar()) {
-    for (const char* key : {"track.y", "track.q0", "track.q1", "track.q2", "track.q3", "track.attitude"})
+    for (const char* key :
+         {"track.y", "track.q0", "track.q1", "track.q2", "track.q3", "track.attitude", "track.quaternion"})
       if (values.has(key)) values.refuse(key, "left out: motion is in a plane");
     d.angle = column_name(values, "angle", "angle_rad");
     return;
@@ -80,7 +89,7 @@ TrackDescription described(const SceneValues& values) {
   TrackDescription d;
   d.path = values.path();
   values.require("body.size", "the box's [L, W, T] in m");
-  values.require("track.rate", "frames per second");
+  if (!values.has("track.time")) values.require("track.rate", "frames per second, or track.time, a column of times");
   values.require("track.motion", "\"plane\" or \"space\"");
   const std::vector<double> size = values.numbers("body.size", {3}, positive, "three lengths in m");
   d.size = {size[0], size[1], size[2]};
@@ -91,6 +100,8 @@ TrackDescription described(const SceneValues& values) {
   d.angle_unit = values.number("track.angle_unit", 1, positive);
   d.clockwise = values.name("track.turns", 0, {"counter-clockwise", "clockwise"}) == 1;
   d.to_body = values.name("track.attitude", 0, {"body-to-world", "world-to-body"}) == 1;
+  d.scalar_last = values.name("track.quaternion", 0, {"scalar-first", "scalar-last"}) == 1;
+  d.time_unit = values.number("track.time_unit", 1, positive);
   d.ground = values.number("world.ground", 0, any);
   d.gravity = values.number("world.gravity", 9.81, positive);
   d.lever_tolerance = values.number("impact.lever_tolerance", 0.1, from_0_to_1);
@@ -128,6 +139,13 @@ Body box_with(const TrackDescription& d, double rounding, double inertia_factor)
 }
 
 }  // namespace
+
+std::string TrackDescription::frame_words() const {
+  if (is_planar())
+    return fmt::format("x to the right and z up, angles {}", clockwise ? "clockwise" : "counter-clockwise");
+  return fmt::format("z up; quaternions with the scalar part {}, {}", scalar_last ? "last" : "first",
+                     to_body ? "world to body" : "body to world");
+}
 
 std::vector<std::string> carried_descriptions() {
   std::vector<std::string> names;
@@ -211,7 +229,8 @@ constexpr double third_difference = 20;  // variance of (1, −3, 3, −1) of in
 TableRequest request_for(const TrackDescription& d) {
   TableRequest request;
   request.renaming = fmt::format("track.drop, track.x and so on in {} name them", d.path);
-  request.names = {{"drop", d.drop}, {"sample", d.sample}, {"x", d.x}, {"z", d.z}};
+  const std::string& sample = d.time.empty() ? d.sample : d.time;
+  request.names = {{"drop", d.drop}, {"sample", sample}, {"x", d.x}, {"z", d.z}};
   request.required = {"drop", "sample", "x", "z"};
   if (d.is_planar()) {
     request.names["angle"] = d.angle;
@@ -237,14 +256,16 @@ class FrameReader {
 
   [[nodiscard]] Frame frame(std::size_t row) const {
     const TrackDescription& d = description_;
-    Frame frame{.time = value(row, "sample") / d.rate};
+    Frame frame{.time = d.time.empty() ? value(row, "sample") / d.rate : d.time_unit * value(row, "sample")};
     frame.position = d.unit * Vector3(value(row, "x"), d.is_planar() ? 0 : value(row, "y"), value(row, "z"));
     if (d.is_planar()) {
       const double angle = d.angle_unit * value(row, "angle");
       frame.attitude = rotation_of((d.clockwise ? angle : -angle) * Vector3::UnitY());
       return frame;
     }
-    const Quaternion q(value(row, "q0"), value(row, "q1"), value(row, "q2"), value(row, "q3"));
+    std::array<double, 4> p{value(row, "q0"), value(row, "q1"), value(row, "q2"), value(row, "q3")};
+    if (d.scalar_last) std::rotate(p.begin(), p.begin() + 3, p.end());
+    const Quaternion q(p[0], p[1], p[2], p[3]);
     if (!(std::fabs(q.norm() - 1) <= worst_length)) table_.refuse(row, "q0", "part of a quaternion of length 1");
     frame.attitude = d.to_body ? q.normalized().conjugate() : q.normalized();
     return frame;
@@ -260,7 +281,21 @@ double spread_of(std::vector<double>& magnitudes) {
   return magnitudes.empty() ? 0 : deviation_of_median * median(std::move(magnitudes)) / std::sqrt(third_difference);
 }
 
-TrackFile tracks_of(const NumericTable& table, const TrackDescription& description) {
+/// Frames per second by the middle step of the times within a drop.
+double rate_of(const NumericTable& table, double time_unit) {
+  std::vector<double> steps;
+  const std::size_t drop = *table.column("drop"), time = *table.column("sample");
+  for (std::size_t row = 1; row < table.rows(); ++row) {
+    if (table.at(row, drop) == table.at(row - 1, drop)) steps.push_back(table.at(row, time) - table.at(row - 1, time));
+  }
+  const double step = time_unit * median(std::move(steps));
+  if (!(step > 0)) throw BadInput(fmt::format("{}: has no two times one after the other in a drop", table.path()));
+  return 1 / step;
+}
+
+TrackFile tracks_of(const NumericTable& table, TrackDescription description) {
+  if (!(description.rate > 0)) description.rate = rate_of(table, description.time_unit);
+  const double in_samples = description.time.empty() ? 1 : description.time_unit * description.rate;
   const FrameReader reader(table, description);
   TrackFile file{.path = table.path(), .description = description, .tracks = {}, .frames = table.rows()};
   double before = 0;
@@ -275,7 +310,7 @@ TrackFile tracks_of(const NumericTable& table, const TrackDescription& descripti
     } else {
       if (!(sample > before))
         table.refuse(row, "sample", fmt::format("greater than {}, that of the row before", before));
-      file.tracks.back().missing += static_cast<int>(std::lround(sample - before)) - 1;
+      file.tracks.back().missing += std::max(static_cast<int>(std::lround(in_samples * (sample - before))) - 1, 0);
     }
     before = sample;
     file.tracks.back().frames.push_back(reader.frame(row));

@@ -14,6 +14,8 @@ namespace clatter::validation {
 //
 //     [body]       size = [L, W, T], mass                              a box; in the plane W is left out of account
 //     [track]      motion = "plane" or "space", rate [Hz], drop, sample, x, y, z, angle, q0 … q3: names of columns
+//                  time: name of a column of times in place of the samples, time_unit [s]; the rate then follows
+//                  quaternion = "scalar-first" or "scalar-last": the order of q0 … q3
 //                  unit [m], angle_unit [rad], turns = "counter-clockwise" or "clockwise" (z up, x right),
 //                  attitude = "body-to-world" or "world-to-body"
 //     [world]      ground: height of the ground [m]; gravity [m/s²]
@@ -42,16 +44,21 @@ struct TrackDescription {
   double unit = 1;                 ///< of the positions [m]
   double angle_unit = 1;           ///< of the angle [rad]
   bool clockwise = false;          ///< the angle's sense, with z up and x to the right
+  double time_unit = 1;            ///< of the times [s]
   bool to_body = false;            ///< the quaternion maps world to body
+  bool scalar_last = false;        ///< of q0 … q3 the last is the scalar part
   double ground = 0;               ///< its height [m]
   double gravity = 9.81;           ///< expected along the fall [m/s²]
   double lever_tolerance = 0.1;    ///< of a point impact, over the corner's distance from the centre
   std::optional<StatedLaw> published;
   std::string source, licence;
   std::string drop, sample, x, y, z, angle;  ///< names of columns
-  std::vector<std::string> quaternion;       ///< likewise, scalar first
+  std::vector<std::string> quaternion;       ///< likewise, in their order
+  std::string time;                          ///< likewise; empty: samples in its place
 
   [[nodiscard]] bool is_planar() const { return motion == Motion::plane; }
+  /// How poses are to be understood, for a reader.
+  [[nodiscard]] std::string frame_words() const;
 };
 
 /// Reads a description: a file, or the name of one that the program carries ("square-drops").

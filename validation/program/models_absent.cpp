@@ -52,7 +52,9 @@ Mesh box_mesh(const BoxMesh&) { leave(); }
 Mesh rod_mesh(const RodMesh&) { leave(); }
 Mesh round_mesh(const RoundMesh&) { leave(); }
 Mesh read_gmsh(const std::string&, double, double) { leave(); }
-Surface read_stl(const std::string&, double) { leave(); }
+SurfaceFile read_surface(const std::string&, const SurfaceFileOptions&) { leave(); }
+SurfaceFile parse_surface(const std::string&, std::string_view, const SurfaceFileOptions&) { leave(); }
+std::string Repairs::words() const { leave(); }
 Surface boundary_surface(const Mesh&) { leave(); }
 MassProperties mass_properties(const Mesh&) { leave(); }
 MassProperties mass_properties(const Surface&, double) { leave(); }

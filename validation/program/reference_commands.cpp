@@ -138,7 +138,7 @@ std::string example(const Key& key) {
   if (const auto* choice = std::get_if<NameValue>(&key.value)) return compact_json(Value(choice->names->front()));
   if (key.is_truth()) return "true";
   const std::string_view name = key.name;
-  return name == "run.tolerance" || name == "run.step" ? "1e-6" : "1";
+  return name == "run.tolerance" || name == "run.step" || name == "body.mesh.weld" ? "1e-6" : "1";
 }
 
 /// A scene file with every key: those of the rod are given, the others are comments.

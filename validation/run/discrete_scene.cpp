@@ -382,17 +382,18 @@ double first_approach_speed(const DiscreteDrop& drop) {
   };
   if (const auto* const planar = std::get_if<analytic::Drop>(&drop)) {
     const double sine = std::sin(planar->inclination.radians), cosine = std::cos(planar->inclination.radians);
+    const double reach = planar->body.reach();
     for (int i = 0; i < planar->body.vertex_count; ++i) {
       const analytic::ContactPoint d = planar->body.contact_point(i, sine, cosine);
-      take(d.normal, -normal_velocity(planar->velocity, d), planar->body.reach());
+      take(d.normal, -normal_velocity(planar->velocity, d), reach);
     }
     return speed;
   }
   const auto& in_space = std::get<space::Drop>(drop);
   if (in_space.release_height)
     return impact_sequence(in_space, {.impacts = 1, .amplification = false}).rows.front().approach_speed;
-  const auto at = [&](const Vector3& arm) {
-    take(arm.z(), -(in_space.velocity + in_space.angular_velocity.cross(arm)).z(), in_space.body.reach());
+  const auto at = [&, reach = in_space.body.reach()](const Vector3& arm) {
+    take(arm.z(), -(in_space.velocity + in_space.angular_velocity.cross(arm)).z(), reach);
   };
   for (const Vector3& vertex : in_space.body.vertices) at(in_space.attitude * vertex);
   for (const space::Rim& rim : in_space.body.rims) {

@@ -264,7 +264,8 @@ std::vector<std::string> scene_head(const Scene& scene, Model model, std::option
       std::none_of(unsettled.begin(), unsettled.end(), [](const std::string& key) { return key.starts_with("body."); });
   if (is_one_body) {
     head.insert(head.begin() + 1, body_words(scene, model));
-    if (const std::string doubts = unit_doubts(body_properties(scene, model)); !doubts.empty())
+    if (const std::string words = mesh_words(scene); !words.empty()) head.insert(head.begin() + 2, words);
+    if (const std::string doubts = unit_doubts(scene, body_properties(scene, model)); !doubts.empty())
       head.insert(head.begin(), doubts);
     if (const std::string doubts = pad_doubts(scene); !doubts.empty() && is_settled("ground.thickness"))
       head.insert(head.begin(), "!: warning: " + doubts);

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <mutex>
 #include <optional>
 #include <tuple>
@@ -12,6 +13,7 @@
 #include "analytic/space/flight/body.hpp"
 #include "numeric/files/import.hpp"
 #include "numeric/mesh/generators.hpp"
+#include "validation/embedded/embedded.hpp"
 #include "validation/output/bad_input.hpp"
 #include "validation/output/json.hpp"
 #include "validation/output/number.hpp"
@@ -102,7 +104,7 @@ Bounds bounds_of(const Vector3& centre, const numeric::Surface& surface) {
   return bounds;
 }
 
-MassProperties stl_properties(const BodyScene& body, const numeric::Surface& surface) {
+MassProperties surface_properties(const BodyScene& body, const numeric::Surface& surface) {
   MassProperties properties{.mass = body.mass};
   if (!body.density && !body.centre.empty() && !body.inertia.empty()) return properties;  // nothing of it is needed
   properties = mass_properties(surface, body.density.value_or(1));
@@ -114,8 +116,8 @@ MassProperties stl_properties(const BodyScene& body, const numeric::Surface& sur
 }
 
 /// With a mass instead of a density the mesh's own is scaled.
-numeric::Mesh gmsh_mesh(const BodyScene& body) {
-  numeric::Mesh mesh = numeric::read_gmsh(body.file, body.density.value_or(1), body.unit);
+numeric::Mesh gmsh_mesh(const BodyScene& body, double unit) {
+  numeric::Mesh mesh = numeric::read_gmsh(body.file, body.density.value_or(1), unit);
   if (!body.density) {
     const double factor = body.mass / numeric::mass_properties(mesh).mass;
     for (numeric::Element& element : mesh.elements) element.density *= factor;
@@ -123,13 +125,29 @@ numeric::Mesh gmsh_mesh(const BodyScene& body) {
   return mesh;
 }
 
+/// The mesh of a case that comes with the program, where it is not on the disk.
+const EmbeddedFile* carried_file(const std::string& path) {
+  std::error_code error;
+  if (std::filesystem::exists(path, error)) return nullptr;
+  const std::vector<EmbeddedFile>& all = embedded_files();
+  const auto found = std::find_if(all.begin(), all.end(), [&](const EmbeddedFile& file) { return file.name == path; });
+  return found == all.end() ? nullptr : &*found;
+}
+
 SolidBody read_solid(const BodyScene& body) {
-  if (body.is_stl()) {
-    const numeric::Surface surface = numeric::read_stl(body.file, body.unit);
-    return {stl_properties(body, surface), surface, {}};
+  if (body.is_surface()) {
+    const numeric::SurfaceFileOptions options{
+        .unit = body.has_unit ? body.unit : 0, .weld = body.weld, .strict = body.strict};
+    const EmbeddedFile* const carried = carried_file(body.file);
+    numeric::SurfaceFile file =
+        carried ? numeric::parse_surface(body.file, carried->text, options) : numeric::read_surface(body.file, options);
+    const MassProperties properties = surface_properties(body, file.surface);
+    return {properties, std::move(file.surface), {}, file.repairs, file.unit};
   }
-  const numeric::Mesh mesh = gmsh_mesh(body);
-  return {numeric::mass_properties(mesh), numeric::boundary_surface(mesh), {}};
+  // OpenCASCADE hands over millimetres, whatever the file's unit.
+  const double unit = numeric::is_cad_file(body.file) && !body.has_unit ? 0.001 : body.unit;
+  const numeric::Mesh mesh = gmsh_mesh(body, unit);
+  return {numeric::mass_properties(mesh), numeric::boundary_surface(mesh), {}, {}, unit};
 }
 
 /// Properties of a sphere, an ellipsoid or a capsule.
@@ -217,23 +235,67 @@ BodyProperties shape_properties(const Scene& scene, double radius) {
 
 }  // namespace
 
-/// Keeps the mesh that it has read, and reads again only where unit, density or mass have changed.
+namespace {
+
+/// The body of a file, with centre and inertia that the scene gives.
+SolidBody settled_solid(const Scene& scene) {
+  const BodyScene& body = scene.body;
+  SolidBody solid = read_solid(body);
+  MassProperties& properties = solid.properties;
+  if (!body.centre.empty()) properties.centre = solid.unit * vector_of(body.centre);
+  if (!body.inertia.empty()) properties.inertia = symmetric(body.inertia);
+  check(scene, properties.mass, properties.inertia / properties.mass, bounds_of(properties.centre, solid.surface));
+  return solid;
+}
+
+}  // namespace
+
+/// Keeps the mesh that it has read, and reads again only where something has changed that its body depends on.
 class MeshFile {
  public:
-  [[nodiscard]] SolidBody read(const BodyScene& body) {
+  [[nodiscard]] std::shared_ptr<const SolidBody> read(const Scene& scene) {
     const std::scoped_lock lock(mutex_);
-    const Key key{body.file, body.unit, body.density, body.mass, body.centre.empty(), body.inertia.empty()};
-    if (key_ != key) solid_ = read_solid(body);
+    const BodyScene& body = scene.body;
+    const Key key{
+        body.file,   body.has_unit ? body.unit : 0, body.weld, body.strict, body.density, body.mass, body.centre,
+        body.inertia};
+    if (key_ != key) solid_ = std::make_shared<const SolidBody>(settled_solid(scene));
     key_ = key;
-    return *solid_;
+    return solid_;
   }
 
  private:
-  using Key = std::tuple<std::string, double, std::optional<double>, double, bool, bool>;
+  using Key = std::tuple<std::string, double, double, bool, std::optional<double>, double, std::vector<double>,
+                         std::vector<double>>;
   std::mutex mutex_;
   std::optional<Key> key_;
-  std::optional<SolidBody> solid_;
+  std::shared_ptr<const SolidBody> solid_;
 };
+
+namespace {
+
+std::shared_ptr<const SolidBody> solid_of_file(const Scene& scene) {
+  return scene.body.mesh_file ? scene.body.mesh_file->read(scene)
+                              : std::make_shared<const SolidBody>(settled_solid(scene));
+}
+
+/// Bounds of what is left open of a body by its file.
+struct FileErrors {
+  double volume = 0, inertia = 0;  ///< [m³]; of each moment [kg·m²]
+};
+
+FileErrors file_errors(const Scene& scene, const SolidBody& solid) {
+  const numeric::Repairs& repairs = *solid.repairs;
+  FileErrors errors{.volume = repairs.volume_error};
+  if (!scene.body.inertia.empty()) return errors;
+  const MassProperties& p = solid.properties;
+  const double density = p.mass / repairs.volume;
+  errors.inertia = density * repairs.moment_error;
+  if (!scene.body.density) errors.inertia += p.inertia.diagonal().maxCoeff() * repairs.volume_error / repairs.volume;
+  return errors;
+}
+
+}  // namespace
 
 analytic::space::Body round_body(const BodyScene& body) {
   if (body.shape == BodyScene::Shape::capsule)
@@ -251,30 +313,64 @@ SolidBody solid_body(const Scene& scene) {
     const BodyProperties given = shape_properties(scene, body.meshed_radius());
     return {{.mass = given.mass, .centre = given.centre, .inertia = given.mass * given.gyration_square},
             numeric::boundary_surface(own_mesh(body)),
-            body.is_smooth() ? std::optional(round_shape(body)) : std::nullopt};
+            body.is_smooth() ? std::optional(round_shape(body)) : std::nullopt,
+            {}};
   }
-  SolidBody solid = body.mesh_file ? body.mesh_file->read(body) : read_solid(body);
-  MassProperties& properties = solid.properties;
-  if (!body.centre.empty()) properties.centre = body.unit * vector_of(body.centre);
-  if (!body.inertia.empty()) properties.inertia = symmetric(body.inertia);
-  check(scene, properties.mass, properties.inertia / properties.mass, bounds_of(properties.centre, solid.surface));
-  return solid;
+  return *solid_of_file(scene);
 }
 
 BodyProperties body_properties(const Scene& scene, Model model) {
-  if (scene.body.is_polyhedron()) return of_solid(solid_body(scene));
+  if (scene.body.is_polyhedron()) return of_solid(*solid_of_file(scene));
   return shape_properties(scene, model == Model::discrete ? scene.body.radius : scene.body.meshed_radius());
+}
+
+namespace {
+
+Value mesh_value(const SolidBody& solid, const Scene& scene) {
+  const numeric::Repairs& r = *solid.repairs;
+  const FileErrors errors = file_errors(scene, solid);
+  return Value::Fields{{"unit", solid.unit},
+                       {"triangles", static_cast<long long>(solid.surface.elements.size())},
+                       {"corners_joined", r.joined},
+                       {"flat_left_out", r.flat},
+                       {"doubled_left_out", r.doubled},
+                       {"turned_outward", r.turned},
+                       {"touching_edges", r.touching},
+                       {"parts", r.parts},
+                       {"cavities", r.cavities},
+                       {"nested_left_out", r.nested},
+                       {"overlapping", r.overlapping},
+                       {"volume", r.volume},
+                       {"volume_error", errors.volume},
+                       {"inertia_error", errors.inertia}};
+}
+
+}  // namespace
+
+std::string mesh_words(const Scene& scene) {
+  if (!scene.body.is_polyhedron() || !scene.body.is_surface()) return "";
+  const std::shared_ptr<const SolidBody> solid = solid_of_file(scene);
+  const numeric::Repairs& r = *solid->repairs;
+  const FileErrors errors = file_errors(scene, *solid);
+  std::string pieces;
+  if (r.parts > 1) pieces += fmt::format(", {} parts", r.parts);
+  if (r.cavities > 0) pieces += fmt::format(", {} {}", r.cavities, r.cavities == 1 ? "cavity" : "cavities");
+  const std::string inertia = errors.inertia > 0 ? fmt::format(", inertia ± {} kg·m²", rounded_up(errors.inertia)) : "";
+  return fmt::format("mesh: {} triangles{}, {}; volume {} m³ ± {}{}", solid->surface.elements.size(), pieces, r.words(),
+                     short_text(r.volume), rounded_up(errors.volume), inertia);
 }
 
 Value body_value(const Scene& scene, Model model) {
   const BodyProperties body = body_properties(scene, model);
   const auto list = [](const Vector3& v) { return std::vector<double>{v.x(), v.y(), v.z()}; };
   const Matrix3 i = body.mass * body.gyration_square;
-  return Value::Fields{{"mass", body.mass},
-                       {"extents", list(body.extents)},
-                       {"centre", list(body.centre)},
-                       {"principal_inertia", list(body.principal_inertia())},
-                       {"inertia", std::vector<double>{i(0, 0), i(1, 1), i(2, 2), i(0, 1), i(0, 2), i(1, 2)}}};
+  Value value = Value::Fields{{"mass", body.mass},
+                              {"extents", list(body.extents)},
+                              {"centre", list(body.centre)},
+                              {"principal_inertia", list(body.principal_inertia())},
+                              {"inertia", std::vector<double>{i(0, 0), i(1, 1), i(2, 2), i(0, 1), i(0, 2), i(1, 2)}}};
+  if (scene.body.is_polyhedron() && scene.body.is_surface()) value["mesh"] = mesh_value(*solid_of_file(scene), scene);
+  return value;
 }
 
 std::string body_words(const Scene& scene, Model model) {
@@ -287,10 +383,15 @@ std::string body_words(const Scene& scene, Model model) {
                      three(body.principal_inertia(), ", "));
 }
 
-std::string unit_doubts(const BodyProperties& body) {
-  constexpr double largest = 20, heaviest = 1000, densest = 2.5e5;  // [m], [kg], [kg/m³]
+std::string unit_doubts(const Scene& scene, const BodyProperties& body) {
+  constexpr double least = 1e-5, largest = 20, heaviest = 1000, densest = 2.5e5;  // [m], [kg], [kg/m³]
   const double volume = body.extents.prod();  // of the box about the body, which it does not exceed
   const bool is_large = body.extents.maxCoeff() > largest, is_dense = volume > 0 && body.mass > densest * volume;
+  if (scene.body.is_polyhedron() && (is_large || body.extents.maxCoeff() < least)) {
+    return fmt::format("!: warning: a mesh of {} m across: {}", significant(body.extents.maxCoeff(), 3),
+                       is_large ? "millimetres? say unit = \"mm\" (--unit mm)"
+                                : "say the unit of its coordinates (--unit mm|cm|m|in)");
+  }
   if (!is_large && !is_dense && !(body.mass > heaviest)) return "";
   const std::string words = is_large ? fmt::format("{} m across", significant(body.extents.maxCoeff(), 3))
                             : is_dense

@@ -8,6 +8,7 @@
 
 #include "analytic/space/flight/body.hpp"
 #include "numeric/body/mass_properties.hpp"
+#include "numeric/surface/repair.hpp"
 #include "numeric/surface/smooth_shape.hpp"
 #include "validation/output/value.hpp"
 #include "validation/scene/scene.hpp"
@@ -34,6 +35,8 @@ struct SolidBody {
   numeric::MassProperties properties;
   numeric::Surface surface;
   std::optional<numeric::SmoothShape> smooth;
+  std::optional<numeric::Repairs> repairs;  ///< of a file of triangles
+  double unit = 1;                          ///< of a file's coordinates [m]
 };
 /// @throws MeshError for a file that cannot be used; BadInput naming body.inertia or body.centre if no body of this
 ///         hull can have them: principal moments not positive, larger than the sum of the other two or than m R² (R the
@@ -54,8 +57,12 @@ struct SolidBody {
 /// The same for a reader: "body: mass … kg, extents …".
 [[nodiscard]] std::string body_words(const Scene& scene, Model model);
 
+/// What a body's file of triangles has and what was repaired, for a reader: "mesh: 12 triangles, nothing repaired;
+/// volume … m³ ± …, inertia ± … kg·m²", the bars bounds of what rounding and repair leave; empty for other bodies.
+[[nodiscard]] std::string mesh_words(const Scene& scene);
+
 /// A question to whoever typed sizes or masses that no dropped thing has, "mm typed?": larger than 20 m, heavier than
-/// 1 t, or ten times as dense as any metal; empty: none.
-[[nodiscard]] std::string unit_doubts(const BodyProperties& body);
+/// 1 t, or ten times as dense as any metal; of a mesh's file also smaller than 1e-5 m; empty: none.
+[[nodiscard]] std::string unit_doubts(const Scene& scene, const BodyProperties& body);
 
 }  // namespace clatter::validation

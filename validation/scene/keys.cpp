@@ -38,6 +38,8 @@ constexpr Range parameters{-1.01, 1.01, false, "from -1.01 to 1.01"};
 constexpr Range orientations{1, orientation_count, false, "a whole number from 1 to 26"};
 constexpr Range restitutions{0, 1, false, "from 0 to 1"};
 constexpr Range losses_allowed{0, 1, true, "greater than 0 and at most 1"};
+constexpr Range file_units{0, 1e100, true, "mm, cm, m, in, or a length in m greater than 0 and at most 1e100"};
+constexpr Range welds{0, 0.1, false, "from 0 to 0.1"};
 constexpr Range tolerances{numeric::least_tolerance, 0.1, false, "from 5e-14 to 0.1"};
 
 // Keys whose place another takes.
@@ -373,10 +375,18 @@ void append_mesh(std::vector<Key>& keys) {
            WholeNumber{[](Scene& s) -> int& { return s.body.ny; }, 1, most}, of_box},
           {"body.mesh.nz", Use::continuous, "", "N", "", "through its thickness",
            WholeNumber{[](Scene& s) -> int& { return s.body.nz; }, 1, most}, of_box},
-          {"body.mesh.file", Use::both, "", "FILE", "", "Gmsh (.msh, .geo) or STL",
+          {"body.mesh.file", Use::both, "--mesh", "FILE", "",
+           "a mesh as the body: STL, OBJ, PLY, OFF, glTF, 3MF or COLLADA, closed but for small faults; Gmsh's .msh and "
+           ".geo, STEP",
            TextValue{[](Scene& s) -> std::string& { return s.body.file; }}, of_mesh},
-          {"body.mesh.unit", Use::both, "", "M", "m", "of the file's coordinates",
-           NumberValue{[](Scene& s) -> double& { return s.body.unit; }, positive_number}, of_mesh},
+          {"body.mesh.unit", Use::both, "--unit", "M", "m",
+           "of the mesh file's coordinates; without it what the file names, else m",
+           NumberValue{[](Scene& s) -> double& { return s.body.unit; }, file_units}, of_mesh},
+          {"body.mesh.weld", Use::both, "", "X", "",
+           "corners at gaps that are closer than this are one, of the largest extent; 0: only equal ones",
+           NumberValue{[](Scene& s) -> double& { return s.body.weld; }, welds}, of_mesh},
+          {"body.mesh.strict", Use::both, "", "true|false", "", "a mesh that needs repair is refused",
+           TruthValue{[](Scene& s) -> bool& { return s.body.strict; }}, of_mesh},
           {"body.mesh.density", Use::both, "", "KG/M3", "kg/m³", "of a file's body, or body.mass",
            OptionalNumber{[](Scene& s) -> std::optional<double>& { return s.body.density; }, positive_number},
            [](const Scene& s, Model) { return only_if(s.body.density.has_value()); }, false, mass_of_body},

@@ -102,7 +102,7 @@ std::string probe_doubts(const Scene& scene, const std::vector<Probe>& probes) {
 
 std::vector<std::string> doubts_of(const Scene& scene, Model model, const std::vector<Probe>& probes) {
   const std::string mark = "!: warning: ";
-  std::vector<std::string> doubts{unit_doubts(body_properties(scene, model)), pad_doubts(scene),
+  std::vector<std::string> doubts{unit_doubts(scene, body_properties(scene, model)), pad_doubts(scene),
                                   probe_doubts(scene, probes)};
   std::erase(doubts, "");
   for (std::string& doubt : doubts) {

@@ -12,6 +12,7 @@
 #include <optional>
 #include <string>
 
+#include "numeric/files/import.hpp"
 #include "validation/embedded/embedded.hpp"
 #include "validation/output/bad_input.hpp"
 #include "validation/output/number.hpp"
@@ -140,12 +141,13 @@ void refuse_both(const std::vector<SceneOverride>& overrides, const char* first,
 }
 
 void check_mesh(const SceneValues& values, BodyScene& body) {
-  values.require("body.mesh.file", "a Gmsh or STL file");
-  const std::filesystem::path file = body.file;
+  values.require("body.mesh.file", "a file such as part.stl");
   body.mesh_file = unread_mesh();
-  body.file = (file.is_absolute() ? file : std::filesystem::path(values.path()).parent_path() / file).string();
+  body.file = values.file("body.mesh.file");
+  body.has_unit = values.has("body.mesh.unit");
   note_read(body.file);
-  if (body.is_stl() && !body.density) values.require("body.mass", "or body.mesh.density: an STL surface has neither");
+  if (body.is_surface() && !body.density)
+    values.require("body.mass", "or body.mesh.density: a surface of triangles has neither");
 }
 
 /// "a rod, sphere or capsule".
@@ -168,7 +170,9 @@ void check_body(const SceneValues& values, BodyScene& body) {
     only_for(values, {"body.mesh.sectors", "body.mesh.rings"}, shapes_with(&ShapeTraits::has_sectors));
   if (!body.has_size()) only_for(values, {"body.size"}, shapes_with(&ShapeTraits::has_size));
   if (body.shape != Shape::box) only_for(values, {"body.mesh.nx", "body.mesh.ny", "body.mesh.nz"}, "a box");
-  if (body.shape != Shape::mesh) only_for(values, {"body.mesh.file", "body.mesh.unit", "body.mesh.density"}, "a mesh");
+  if (body.shape != Shape::mesh)
+    only_for(values, {"body.mesh.file", "body.mesh.unit", "body.mesh.density", "body.mesh.weld", "body.mesh.strict"},
+             "a mesh");
   if (body.shape == Shape::box) values.require("body.size", "the box's [L, W, T] in m");
   if (body.shape == Shape::mesh) check_mesh(values, body);
   if (body.shape == Shape::ellipsoid) {
@@ -347,11 +351,27 @@ void make_room_for_law(SceneValues& values, const std::vector<SceneOverride>& ov
   if (restitution != none && file_computes) values.drop("impact.law");
 }
 
+/// A mesh that a flag gives is the body, in place of the file's with its sizes.
+void make_room_for_mesh(SceneValues& values, const std::vector<SceneOverride>& overrides) {
+  const auto given = [&](const char* key) {
+    return std::any_of(overrides.begin(), overrides.end(), [&](const SceneOverride& o) { return o.key == key; });
+  };
+  if (!given("body.mesh.file") || given("body.shape")) return;
+  for (const Key& key : all_keys()) {
+    const std::string_view name = key.name;
+    if (key.is_of_body() && name != "body.mass" && name != "body.mesh.density" && name != "body.merge")
+      values.drop(key.name);
+  }
+  values.drop("drop.orientation");
+  values.set("body.shape", "--mesh", "mesh");
+}
+
 Scene read_values(SceneValues values, const std::vector<SceneOverride>& overrides, Model model) {
   values.call_by(key_flags());
   for (const Alternative& pair : alternatives()) refuse_both(overrides, pair.instead_of, pair.key);
   refuse_both(overrides, "run.tolerance", "run.step");
   make_room_for_law(values, overrides);
+  make_room_for_mesh(values, overrides);
   const auto is_curve = [](const SceneOverride& flag) { return flag.key == "ground.curve"; };
   if (std::ranges::any_of(overrides, is_curve) && values.has("ground.modulus")) values.drop("ground.body_material");
   for (const SceneOverride& flag : overrides) {
@@ -369,6 +389,7 @@ Scene read_values(SceneValues values, const std::vector<SceneOverride>& override
       drop_sweep(values, "angle_deg");
     values.set(flag.key, flag.flag, flag.text);
   }
+  values.name_numbers("body.mesh.unit", {{"mm", 0.001}, {"cm", 0.01}, {"m", 1}, {"in", 0.0254}});
   Scene scene = default_scene(values);
   scene.sweep = read_sweep_table(values);
   for (const Alternative& pair : alternatives()) values.exclude(pair.instead_of, pair.key);
@@ -391,6 +412,13 @@ Scene read_values(SceneValues values, const std::vector<SceneOverride>& override
 
 /// Whether a source that is no file could be the name of a case.
 bool is_plain_name(const std::string& source) { return source.find_first_of("./\\") == std::string::npos; }
+
+/// The scene that has a mesh, and nothing else.
+SceneValues mesh_values(const std::string& file) {
+  SceneValues values(file, "[body]\nshape = \"mesh\"\n", scene_keys());
+  values.set("body.mesh.file", "SCENE", file);
+  return values;
+}
 
 std::string case_path(const std::string& name) { return "validation/cases/" + name + ".toml"; }
 
@@ -433,7 +461,7 @@ std::vector<std::string> case_names() {
   const std::string before = case_path(""), folder = before.substr(0, before.rfind('/') + 1);
   for (const EmbeddedFile& file : embedded_files()) {
     const std::filesystem::path path(file.name);
-    if (std::string_view(file.name).starts_with(folder)) names.push_back(path.stem().string());
+    if (file.name.starts_with(folder) && file.name.ends_with(".toml")) names.push_back(path.stem().string());
   }
   return names;
 }
@@ -447,6 +475,7 @@ std::string_view case_text(const std::string& name) {
 
 SceneValues scene_values(const std::string& source) {
   if (source.empty()) return {"", "", scene_keys()};
+  if (numeric::is_surface_file(source) || numeric::is_gmsh_file(source)) return mesh_values(source);
   std::error_code error;
   if (!is_plain_name(source) || std::filesystem::exists(source, error)) return {source, scene_keys()};
   const std::vector<std::string> names = case_names();

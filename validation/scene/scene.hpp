@@ -55,9 +55,12 @@ struct BodyScene {
   int rings = 0;                        ///< of that mesh, from a rod's axis outward, else from pole to equator; 0: 4
   int layers = 30;                      ///< of a rod's mesh
   int nx = 1, ny = 1, nz = 1;           ///< of a box's mesh
-  std::string file;                     ///< Gmsh (.msh, .geo) or STL, resolved
+  std::string file;                     ///< triangles (STL, OBJ, ...) or what Gmsh reads, resolved
   std::shared_ptr<MeshFile> mesh_file;  ///< shared by copies of the scene
   double unit = 1;                      ///< of the file's coordinates [m]
+  bool has_unit = false;                ///< it is given, and goes before one that the file names
+  double weld = 1e-6;                   ///< numeric::RepairOptions::weld
+  bool strict = false;                  ///< numeric::RepairOptions::strict
   std::optional<double> density;        ///< of a file's body, instead of a mass [kg/m³]
   /// About the centre of mass, axes of the body frame: three principal moments, or xx, yy, zz, xy, xz, yz [kg·m²];
   /// empty: that of the uniform body about its own centre, wherever `centre` has moved the mass to.
@@ -67,7 +70,8 @@ struct BodyScene {
   std::vector<double> centre;
   bool merge = true;
 
-  [[nodiscard]] bool is_stl() const;
+  /// Whether the file has triangles, of which neither mass nor density follows.
+  [[nodiscard]] bool is_surface() const;
   [[nodiscard]] const ShapeTraits& traits() const { return shape_traits[static_cast<std::size_t>(shape)]; }
   [[nodiscard]] bool is_polyhedron() const { return traits().is_polyhedron; }
   [[nodiscard]] bool is_round() const { return traits().is_round; }

@@ -4,11 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <numbers>
 
 #include "analytic/law/viscoelastic.hpp"
 #include "numeric/equilibrium.hpp"
+#include "numeric/files/import.hpp"
 #include "numeric/motion/free_flight.hpp"
 #include "validation/output/bad_input.hpp"
 #include "validation/output/number.hpp"
@@ -33,12 +33,7 @@ const std::vector<std::string>& shape_names() {
   return names;
 }
 
-bool BodyScene::is_stl() const {
-  std::string extension = std::filesystem::path(file).extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return std::tolower(c); });
-  return extension == ".stl";
-}
+bool BodyScene::is_surface() const { return numeric::is_surface_file(file); }
 
 int BodyScene::own_sectors() const { return shape == Shape::rod && meshed_radius() > length / 20 ? 64 : 16; }
 

@@ -57,11 +57,31 @@ std::string text_of(const std::string& path) {
   return text;
 }
 
+/// Refuses what is plainly of another kind, about which the parser would only say at which byte it gave up.
+void refuse_other_files(const std::string& path, std::string_view text) {
+  const std::string_view begin = text.substr(0, 4096);
+  const auto is_control = [](char c) { return (c >= 0 && c < ' ' && (c < '\t' || c > '\r')) || c == '\x7f'; };
+  if (std::any_of(begin.begin(), begin.end(), is_control))
+    throw BadInput(fmt::format("{}: is a binary file; a scene is a text (TOML), as clatter init writes it", path));
+  std::istringstream lines{std::string(begin)};
+  for (std::string line; std::getline(lines, line);) {
+    const std::size_t first = line.find_first_not_of(" \t\r\xEF\xBB\xBF");
+    if (first == std::string::npos || line[first] == '#') continue;
+    const bool is_table =
+        line.find_first_of("=[{\"'") == std::string::npos && line.find_first_of(",;\t", first) != std::string::npos;
+    if (is_table)
+      throw BadInput(fmt::format("{}: is a table of values (CSV); a scene is TOML, as clatter init writes it", path));
+    return;
+  }
+}
+
 toml::table parse(const std::string& path) {
   if (std::error_code error; !std::filesystem::is_regular_file(path, error) && !std::filesystem::is_fifo(path, error))
     throw BadInput(fmt::format("{}: {}", path, std::filesystem::exists(path, error) ? "not a file" : "cannot be read"));
   note_read(path);
-  return parse(path, text_of(path));
+  const std::string text = text_of(path);
+  refuse_other_files(path, text);
+  return parse(path, text);
 }
 
 /// [[1, 2], [3, 4]]; none: something else.
@@ -205,6 +225,16 @@ SceneValues::SceneValues(const std::string& path, std::string_view text, const s
 
 void SceneValues::set(const std::string& key, const std::string& flag, const std::string& text) {
   entries_[key] = {text, fmt::format("'{}'", text), flag, true};
+}
+
+void SceneValues::name_numbers(const std::string& key, const std::map<std::string, double, std::less<>>& names) {
+  const auto entry = entries_.find(key);
+  if (entry == entries_.end()) return;
+  const auto* const text = std::get_if<std::string>(&entry->second.value);
+  const auto number = text ? names.find(*text) : names.end();
+  if (number == names.end()) return;
+  entry->second.value = number->second;
+  entry->second.is_flag = false;
 }
 
 bool SceneValues::has_table(const std::string& name) const {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -27,6 +28,8 @@ class SceneValues {
   /// A flag takes the place of a key.
   void set(const std::string& key, const std::string& flag, const std::string& text);
   void drop(const std::string& key) { entries_.erase(key); }
+  /// Puts a number in the place of one of these texts.
+  void name_numbers(const std::string& key, const std::map<std::string, double, std::less<>>& names);
 
   /// What messages call a key that stands in no file: its flag.  @param flags  by key; outlives the values
   void call_by(const std::map<std::string, std::string>& flags) { flags_ = &flags; }

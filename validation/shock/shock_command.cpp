@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <sstream>
 
 #include "validation/command/command.hpp"
@@ -20,15 +21,29 @@ const char* const shock_summary = "shock at points of the body";
 struct ShockCommandInput : ShockInput {
   std::string measured;  ///< a record in place of a drop; empty: none
   std::string columns;   ///< of it, divided by commas
-  std::optional<AccelerationUnit> unit;
-  std::string against;  ///< a scene to stand beside it
+  std::string against;   ///< a scene to stand beside it
   OutputChoice output;
   PlotChoice plot;
 };
 
+const std::vector<std::string> unit_options{"g", "m/s2"};
+
+bool is_of_acceleration(const std::string& unit) {
+  return std::find(unit_options.begin(), unit_options.end(), unit) != unit_options.end();
+}
+
+/// --unit is a record's, unless it is that of the mesh of a scene beside it.
+std::optional<AccelerationUnit> record_unit(const ShockCommandInput& input) {
+  const std::string& unit = input.scene.texts.at("--unit");
+  const bool has_scene = !input.against.empty() || !input.scene.source.empty() || is_given(input.scene, "--mesh");
+  if (unit.empty() || (has_scene && !is_of_acceleration(unit))) return std::nullopt;
+  return static_cast<AccelerationUnit>(read_name_option("--unit", unit, unit_options));
+}
+
 /// The scene beside a record, run at its one probe; nothing where none is given.
 std::optional<ShockRun> run_beside(const ShockCommandInput& input, const ShockRequest& request) {
   ShockInput drop = input;
+  if (std::string& unit = drop.scene.texts.at("--unit"); is_of_acceleration(unit)) unit.clear();
   if (!input.against.empty() && !input.scene.source.empty())
     throw BadInput("--against: a scene is given already; give one of them, not both");
   if (!input.against.empty()) drop.scene.source = input.against;
@@ -48,7 +63,7 @@ int run_measured(const ShockCommandInput& input) {
   ShockView view = shown_of(input);
   check_files(input.output, plot_files(input.plot));
   PlotFile plot(input.plot);
-  RecordRequest wanted{.path = input.measured, .rate = input.view.rate, .unit = input.unit};
+  RecordRequest wanted{.path = input.measured, .rate = input.view.rate, .unit = record_unit(input)};
   std::istringstream names(input.columns);
   for (std::string name; std::getline(names, name, ',');) wanted.columns.push_back(name);
   view.rate.reset();
@@ -65,7 +80,7 @@ int run_measured(const ShockCommandInput& input) {
 int run_shock_command(const ShockCommandInput& input) {
   if (!input.measured.empty()) return run_measured(input);
   for (const auto& [given, option] : {std::pair{!input.columns.empty(), "--column"},
-                                      {input.unit.has_value(), "--unit"},
+                                      {is_of_acceleration(input.scene.texts.at("--unit")), "--unit"},
                                       {!input.against.empty(), "--against"}}) {
     if (given) throw BadInput(fmt::format("{}: only with --measured FILE", option));
   }
@@ -110,10 +125,12 @@ Command shock_command() {
                                 "with --measured how often was sampled",
                                 "Shock"));
     const char* const group = "Measured";
-    command.add_text("--measured", input.measured, "FILE",
-                     "accelerations of a logger or drop tower (CSV) in place of a drop: its blows and spectra", group);
+    command.add_text(
+        "--measured", input.measured, "FILE",
+        "accelerations of a logger or drop tower (CSV) in place of a drop: its blows and spectra; --unit g or "
+        "m/s2 where the file does not say",
+        group);
     command.add_text("--column", input.columns, "NAME,...", "its columns of acceleration, one to three", group);
-    command.add(choice_argument("--unit", input.unit, {"g", "m/s2"}, "of them, where the file does not say", group));
     command.add_text("--against", input.against, "SCENE", "a drop to stand beside the record, at its one probe", group);
     add_output_options(command, input.output);
     add_plot_options(command, input.plot);

@@ -402,7 +402,7 @@ double ErrorGrowth::height_bound(double time) const {
 /// @param touching  from the centre of mass to the point that does, world frame
 void ErrorGrowth::check_others(const FreeFlight& flight, const FirstContact& contact, const Quaternion& attitude,
                                const Vector3& touching) {
-  const double errs = height_bound(contact.time);
+  const double errs = height_bound(contact.time), reach = body_.reach();
   if (!(contact.near_miss.clearance > errs)) predictable_ = false;
   const PointHeights heights(body_, flight);
   const FlightMoment moment = heights.moment(contact.time);
@@ -413,7 +413,7 @@ void ErrorGrowth::check_others(const FreeFlight& flight, const FirstContact& con
     // With the touching point on the ground, a turn moves others by their distance from it.
     const Vector3 arm = attitude * touching_place(body_, attitude, i) - touching;
     const double turned = bound(cross_matrix(arm).row(2).lazyProduct(factor_.middleRows<3>(1)));
-    if (heights.is_round(i) || !(h.height > turned + 8 * epsilon * body_.reach())) predictable_ = false;
+    if (heights.is_round(i) || !(h.height > turned + 8 * epsilon * reach)) predictable_ = false;
   }
 }
 

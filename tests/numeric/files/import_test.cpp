@@ -174,11 +174,20 @@ BOOST_AUTO_TEST_CASE(a_truncated_file_is_refused) {
   check_refused(binary.substr(0, 83), ": truncated", "header");
   check_refused(binary_stl(box_triangles(), "solid").substr(0, 600), ": truncated", "12 triangles");
   check_refused("", ": ", "empty");
+  std::string lies = binary_stl(box_triangles());
+  lies.replace(80, 4, little_endian(1'000'000'000));
+  check_refused(lies, ": truncated", "1000000000 triangles take 50000000084 bytes");
 }
 
-BOOST_AUTO_TEST_CASE(trailing_data_is_refused) {
-  check_refused(binary_stl(box_triangles()) + "x", ": trailing data", "684 bytes, the file has 685");
-  check_refused(text_stl(box_triangles()) + "more\n", ":88: ", "found more");
+BOOST_AUTO_TEST_CASE(trailing_data_is_refused_where_nothing_may_be_repaired_or_a_triangle_is_there) {
+  const std::string binary = binary_stl(box_triangles()), text = text_stl(box_triangles());
+  check_refused(binary + "x", ": trailing data", "1 bytes");
+  check_refused(binary + std::string(50, 'x'), ": trailing data", "684 bytes, the file has 734");
+  check_refused(text + "more\n", ":88: ", "found more");
+  for (const std::string& file : {binary + "x", text + std::string(1, '\0'), "\xEF\xBB\xBF" + text}) {
+    const TemporaryFile stored("box.stl", file);
+    BOOST_TEST(std::fabs(enclosed(read_surface(stored.path()).surface) - 6) <= rounding * 6);
+  }
 }
 
 BOOST_AUTO_TEST_CASE(wrong_words_and_numbers_are_refused_by_line) {
@@ -186,14 +195,14 @@ BOOST_AUTO_TEST_CASE(wrong_words_and_numbers_are_refused_by_line) {
   check_refused(replaced(text, "outer loop", "inner loop"), ":4: ", "expected outer, found inner");
   check_refused(replaced(text, "vertex 0 2", "vertex zero 2"), ":6: ", "expected a number, found zero");
   check_refused(replaced(text, "vertex 0 2", "vertex 1e999 2"), ":6: ", "range");
-  check_refused(replaced(text, "vertex 0 2", "vertex nan 2"), ":9: ", "not finite");
+  check_refused(replaced(text, "vertex 0 2", "vertex nan 2"), ":6: ", "not finite");
   check_refused(replaced(text, "facet normal 0 0 0", "facet normal 0 0"), ":4: ", "expected a number");
 }
 
 BOOST_AUTO_TEST_CASE(bad_triangles_are_refused_by_number) {
   auto triangles = box_triangles();
   triangles[7][1] = triangles[7][0];
-  check_refused(text_stl(triangles), ":58: triangle 7", "same point");
+  check_refused(text_stl(triangles), ": triangle 7", "same point");
   check_refused(binary_stl(triangles), ": triangle 7", "same point");
   triangles[7][1] = (triangles[7][0] + triangles[7][2]) / 2;
   check_refused(binary_stl(triangles), ": triangle 7", "no area");
@@ -216,7 +225,8 @@ BOOST_AUTO_TEST_CASE(open_inward_and_inconsistent_surfaces_are_refused) {
 
 BOOST_AUTO_TEST_CASE(files_that_cannot_be_read_and_senseless_units_are_refused) {
   CHECK_REFUSED_SAYING(read_stl("no/such.stl"), MeshError, "no/such.stl: cannot be opened");
-  CHECK_REFUSED_SAYING(read_stl(std::filesystem::temp_directory_path().string()), MeshError, "cannot be read");
+  CHECK_REFUSED_SAYING(read_stl(std::filesystem::temp_directory_path().string()), MeshError, "is a folder");
+  CHECK_REFUSED_SAYING(read_stl("/dev/null"), MeshError, "no file on a disk");
   for (const double unit : {0., -1., not_a_number, infinite})
     CHECK_REFUSED_SAYING(read_stl("box.stl", unit), std::domain_error, "unit = ");
 }

@@ -61,6 +61,22 @@ class Measured(Folder):
             self.assertAlmostEqual(a["restitution"], b["restitution"], delta=1e-4)
             self.assertAlmostEqual(a["friction"], b["friction"], delta=1e-4)
 
+    def test_times_may_stand_for_samples_and_quaternions_end_with_their_scalar(self):
+        turned = ["toss,ms,x_m,y_m,z_m,qx,qy,qz,qw\n"]
+        for row in self.lines(CUBES)[4:]:
+            toss, sample, x, y, z, w, *vector = row.strip().split(",")
+            turned.append(",".join((toss, repr(1000 * float(sample) / 148), x, y, z, *vector, w)) + "\n")
+        self.write("turned.csv", "".join(turned))
+        self.write("turned.toml", "[body]\nsize = [0.1048, 0.1048, 0.1048]\nmass = 0.37\n[track]\nmotion = 'space'\ndrop = 'toss'\ntime = 'ms'\n"
+                   "time_unit = 0.001\nq0 = 'qx'\nq1 = 'qy'\nq2 = 'qz'\nq3 = 'qw'\nquaternion = 'scalar-last'\n[impact]\nlever_tolerance = 0.25\n")
+        one, other = self.result("fit", CUBES), self.result("fit", self.path("turned.csv"))
+        for a, b in zip(one["fits"], other["fits"]):
+            self.assertAlmostEqual(a["restitution"], b["restitution"], delta=1e-4)
+            self.assertAlmostEqual(a["friction"], b["friction"], delta=1e-4)
+        head = " ".join(self.run_program("measured", "fit", "turned.csv").stdout.split())
+        self.assertIn("148.000 Hz, motion in space", head)
+        self.assertIn("poses: z up; quaternions with the scalar part last, body to world", head)
+
     def test_what_is_wrong_is_said_in_one_line(self):
         shutil.copy(SQUARES, self.path("a.csv"))
         self.each_refused({
