@@ -7,7 +7,7 @@ import re
 STYLE = """body{font:15px/1.45 system-ui,sans-serif;color:#222;max-width:76rem;margin:2rem auto;padding:0 1rem}
 table{border-collapse:collapse;font-size:13px;display:block;overflow-x:auto}td,th{border-bottom:1px solid #ddd;padding:.2rem .5rem;
 text-align:left;vertical-align:top;white-space:nowrap}td.long{white-space:normal;min-width:16rem}svg{max-width:100%;height:auto}
-@media(prefers-color-scheme:dark){body{background:#fff}}"""
+@media screen and (prefers-color-scheme:dark){body{background:#14181c;color:#e6ebf0}td,th{border-color:#39434d}figure{background:#fff}}"""
 LONG = 40  # letters from which a cell breaks its lines
 
 
@@ -56,7 +56,7 @@ def as_html(blocks, pictures):
 
 
 def inline(words):
-    return re.sub(r"`([^`]*)`", r"<code>\1</code>", html.escape(words, quote=False))
+    return re.sub(r"\*([^*]+)\*", r"<em>\1</em>", re.sub(r"`([^`]*)`", r"<code>\1</code>", html.escape(words, quote=False)))
 
 
 def html_block(pictures, kind, *parts):
