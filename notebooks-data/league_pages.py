@@ -72,4 +72,4 @@ def html_block(pictures, kind, *parts):
     head = "".join(f"<th>{inline(cell)}</th>" for cell in parts[0])
     rows = "".join("<tr>" + "".join(f'<td{" class=long" if len(cell) > LONG else ""}>{inline(cell)}</td>' for cell in row) + "</tr>\n"
                    for row in parts[1])
-    return f"<table><tr>{head}</tr>\n{rows}</table>"
+    return f"<table tabindex=\"0\"><tr>{head}</tr>\n{rows}</table>"

@@ -145,6 +145,11 @@ class Reference(unittest.TestCase):
         self.assertNotIn("@import", sheet)
         self.assertRegex(sheet, r'prefers-color-scheme: dark\) \{ body\[data-theme="auto"\] \{[^}]*--color-background-primary: #1')
 
+    def test_each_heading_of_its_menu_has_a_level(self):
+        page = (self.folder / "index.html").read_text(encoding="utf-8")
+        self.assertIn('role="heading" aria-level="2"', page)
+        self.assertNotIn('role="heading">', page)
+
     def test_search_finds_what_a_reader_asks_for(self):
         # The words of the index, which the browser reads without a server.
         index = (self.folder / "searchindex.js").read_text(encoding="utf-8")
