@@ -72,10 +72,11 @@ export async function onPage(fragment, use, { browser = "chromium", at = address
     await page.goto(at + fragment);
     // All controls and panels, not only the first.
     if (more && options.javaScriptEnabled !== false) {
-      await page.waitForSelector("#tabs [aria-pressed]", { state: "attached" });
+      // A page of an earlier version has no panels to choose.
+      await page.waitForFunction(() => !document.getElementById("tabs") || document.querySelector("#tabs [aria-pressed]"));
       await page.evaluate(() => {
         document.getElementById("more").open = true;
-        document.querySelector('[data-tab="all"]').click();
+        document.querySelector('[data-tab="all"]')?.click();
       });
     }
     await use(page, context);

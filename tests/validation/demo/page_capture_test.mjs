@@ -137,6 +137,21 @@ test("the handout is one page: the drop in words, its picture, its blows, and qu
   assert.equal(paper.match(/\/Type\s*\/Page\b/g).length, 1);
 }, { before: () => { window.print = () => { globalThis.printing = document.body.classList.contains("handout"); }; } }));
 
+/** How many bytes draw each page. */
+function pagesOf(paper) {
+  const text = paper.toString("latin1");
+  const parts = new Map([...text.matchAll(/(\d+) 0 obj(.*?)endobj/gs)].map(([, n, part]) => [n, part]));
+  return [...parts.values()].filter((part) => /\/Type\s*\/Page\b/.test(part)).map((part) => parts.get(/\/Contents (\d+) 0 R/.exec(part)[1]).length);
+}
+
+test("on paper no page is empty, or has only the page's last line", () => onPage("#predict=0", async (page) => {
+  await page.waitForSelector('tr[data-model="continuous"]');
+  await page.waitForSelector("#explain-steps .katex");
+  await page.emulateMedia({ media: "print" });
+  const pages = pagesOf(await page.pdf({ format: "A4" }));
+  assert.ok(pages.length > 5 && pages.every((bytes) => bytes > 600), pages.join(" "));
+}));
+
 for (const sheet of ["lesson", "exercises"]) {
   test(`the sheet of ${sheet} is one page of words alone, from a dark screen, too`, () => onPage("#predict=0", async (page) => {
     await page.waitForSelector("#impact-table tbody tr");

@@ -208,7 +208,7 @@ export class Controls {
     });
     const error = make("p", { class: "error", id: `${quantity}-error`, role: "alert", hidden: true });
     const label = make("label", { for: quantity }, name);
-    const reason = make("p", { class: "hint", id: `${quantity}-reason`, hidden: true });
+    const reason = make("p", { class: "reason", id: `${quantity}-reason`, hidden: true });
     const box = make("div", { class: "row" }, label, field, make("span", { class: "unit" }, spec.unit), slider, reason, error);
     if (spec.model) box.title = `Of the ${spec.model} model`;
     slider.addEventListener("input", () => this.set(quantity, fromSlider(spec, Number(slider.value))));

@@ -143,7 +143,7 @@ export async function storyHtml(ask) {
       "Impulses of the first and the second blow of a phone"),
     text: `A phone falls from 1 m at 10°: ${significant(phone[0].impulse_normal, 3)} N·s, then ${significant(phone[1].impulse_normal, 3)} N·s, `
       + `${significant(ratio(phone), 2)} times the first. The other model follows it through each contact with a springy floor, as long as that lasts: there it is `
-      + `${significant(ratio(onSprings), 2)} times.`,
+      + `${significant(ratio(onSprings), 3)} times.`,
     link: "body=phone&amp;height=1&amp;gravity=9.81&amp;stiffness=1e8&amp;damping=0&amp;angle=10&amp;impact=2",
   }];
   const items = steps.map(({ title, question, choices, right, picture: drawn, text: words, link }, i) => `<li id="story-${i + 1}"><h3>${i + 1}. ${title}</h3>\n<p class="ask">${question}</p>\n`
