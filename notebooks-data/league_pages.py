@@ -7,7 +7,7 @@ import re
 STYLE = """body{font:15px/1.45 system-ui,sans-serif;color:#222;max-width:76rem;margin:2rem auto;padding:0 1rem}
 table{border-collapse:collapse;font-size:13px;display:block;overflow-x:auto}td,th{border-bottom:1px solid #ddd;padding:.2rem .5rem;
 text-align:left;vertical-align:top;white-space:nowrap}td.long{white-space:normal;min-width:16rem}svg{max-width:100%;height:auto}
-@media(prefers-color-scheme:dark){body{background:#fff}}"""
+@media screen and (prefers-color-scheme:dark){body{background:#14181c;color:#e6ebf0}td,th{border-color:#39434d}figure{background:#fff}}"""
 LONG = 40  # letters from which a cell breaks its lines
 
 
@@ -56,7 +56,7 @@ def as_html(blocks, pictures):
 
 
 def inline(words):
-    return re.sub(r"`([^`]*)`", r"<code>\1</code>", html.escape(words, quote=False))
+    return re.sub(r"\*([^*]+)\*", r"<em>\1</em>", re.sub(r"`([^`]*)`", r"<code>\1</code>", html.escape(words, quote=False)))
 
 
 def html_block(pictures, kind, *parts):
@@ -72,4 +72,4 @@ def html_block(pictures, kind, *parts):
     head = "".join(f"<th>{inline(cell)}</th>" for cell in parts[0])
     rows = "".join("<tr>" + "".join(f'<td{" class=long" if len(cell) > LONG else ""}>{inline(cell)}</td>' for cell in row) + "</tr>\n"
                    for row in parts[1])
-    return f"<table><tr>{head}</tr>\n{rows}</table>"
+    return f"<table tabindex=\"0\"><tr>{head}</tr>\n{rows}</table>"

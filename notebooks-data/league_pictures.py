@@ -46,11 +46,14 @@ def against_step(league):
         draw_steps(panel, league, engine)
         logarithmic(panel.xaxis)
         logarithmic(panel.yaxis, 5)
-        panel.set_xticks(list(SECONDS.values()), [f"{step} s" for step in SECONDS])
+        panel.set_xticks(list(SECONDS.values()), list(SECONDS))
         panel.set_title(engine["name"], loc="left")
         panel.set_ylim(LIMITS)
     for panel in panels[len(engines):]:
         panel.set_visible(False)
+    for panel in panels[max(0, len(engines) - ACROSS):len(engines)]:
+        panel.tick_params(labelbottom=True)
+        panel.set_xlabel("time step [s]")
     figure.supylabel("error, median of the problems, worst of the starting heights", fontsize=9)
     with_steps = next(panel for panel, engine in zip(panels, engines) if league.last_step(engine))
     common_legend(figure, with_steps.get_legend_handles_labels(), 4)

@@ -29,7 +29,8 @@ TABLES = ("accuracy", "extremes", "league", "seeded_faults", "tradeoff", "verifi
 MODULES = {"sphinx": "python3-sphinx", "furo": "furo", "myst_parser": "python3-myst-parser",
            "nbconvert": "jupyter-nbconvert"}
 TOOLS = {"node": "nodejs"}
-FILES = {"/usr/share/javascript/katex/katex.js": "libjs-katex"}
+NORMALIZE = Path("/usr/share/nodejs/normalize.css/normalize.css")
+FILES = {"/usr/share/javascript/katex/katex.js": "libjs-katex", str(NORMALIZE): "node-normalize.css"}
 
 
 class Unbuilt(Exception):
@@ -146,6 +147,13 @@ def version(program):
     return printed(program, "--version").split()[1]
 
 
+def mend_theme(sheet):
+    """Debian's theme asks a server for a sheet of another package, and is dark only where a reader says so, not where the system does."""
+    text = re.sub(r"@import url\([^)]*normalize.css\);", lambda _: NORMALIZE.read_text(encoding="utf-8"), sheet.read_text(encoding="utf-8"))
+    dark = re.search(r'body\[data-theme="dark"\] (\{[^}]*\})', text)[1]
+    sheet.write_text(f'{text}\n@media screen and (prefers-color-scheme: dark) {{ body[data-theme="auto"] {dark} }}\n', encoding="utf-8")
+
+
 def build(program, folder):
     """@raise CalledProcessError: Sphinx found a warning."""
     with tempfile.TemporaryDirectory() as scratch:
@@ -157,6 +165,9 @@ def build(program, folder):
         settings = {"CLATTER_REFERENCE_PYTHON": str(module), "CLATTER_REFERENCE_VERSION": version(program), "PYTHONDONTWRITEBYTECODE": "1"}
         subprocess.run([sys.executable, "-m", "sphinx", "-q", "-W", "--keep-going", "-b", "html", "-d", f"{scratch}/trees", source, folder],
                        env=os.environ | settings, check=True)
+    mend_theme(folder / "_static/styles/furo.css")
+    for page in folder.rglob("*.html"):  # whose theme gives its headings no level
+        page.write_text(page.read_text(encoding="utf-8").replace('role="heading">', 'role="heading" aria-level="2">'), encoding="utf-8")
     for made_by_sphinx in (".buildinfo", "objects.inv"):
         (folder / made_by_sphinx).unlink(missing_ok=True)
 

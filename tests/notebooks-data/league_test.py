@@ -73,5 +73,6 @@ class Pages(unittest.TestCase):
     def test_the_page_opens_offline_and_names_every_engine(self):
         page = (DATA / "league.html").read_text()
         self.assertEqual(re.findall(r'(?:src|href)="(?!#)[^"]*"', page), [])
+        self.assertEqual(re.findall(r"\*\w[^<]*\*|`|\]\(", re.sub("<svg.*?</svg>", "", page, flags=re.DOTALL)), [])
         for engine in League(DATA, ENGINES / "engines.toml").engines:
             self.assertIn(engine["name"], page)

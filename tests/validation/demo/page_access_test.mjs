@@ -68,6 +68,50 @@ for (const colorScheme of ["light", "dark"]) {
   }, { colorScheme }));
 }
 
+for (const [name, viewport] of [["a phone", { width: 390, height: 800 }], ["a zoom of 200 %", { width: 640, height: 450 }]]) {
+  test(`what a large screen has can be reached on ${name}, and panels are chosen instead of stacked`, () => onPage("#predict=0", async (page) => {
+    await page.waitForSelector('[data-strip="continuous-1"]');
+    assert.equal(await page.locator("#results > section:visible").count(), 1);
+    assert.ok(await page.evaluate(() => document.documentElement.scrollHeight) < 3000);
+    await page.click("#take-more");
+    await page.click("#options");
+    for (const id of ["lecture", "picture", "film", "gif", "handout-print", "lesson-print", "exercises-print", "print", "save-page", "copy-link",
+      "rate", "slow", "traces", "speeds", "sound", "story-start"]) {
+      const box = await page.locator(`#${id}`).boundingBox();
+      assert.ok(box && box.x >= 0 && box.x + box.width <= viewport.width, id);
+    }
+    for (const words of ["discrete model", "continuous model"]) assert.equal(await page.locator("#motion .legend span", { hasText: words }).first().isVisible(), true, words);
+    for (const tab of ["numbers", "table", "profile", "fan", "force", "map", "explain", "race", "measured", "strip"]) {
+      await page.click(`[data-tab="${tab}"]:is(button)`);
+      assert.equal(await page.isVisible(`#panel-${tab}`), true, tab);
+    }
+    const small = await page.locator("button:visible, select:visible").evaluateAll((all) => all.map((one) => [one.id || one.textContent, one.getBoundingClientRect()])
+      .filter(([, { width, height }]) => width < 24 || height < 24).map(([one]) => one));
+    assert.deepEqual(small, []);
+    const link = await page.evaluate(() => new Promise((done) => setTimeout(() => done(location.hash), 200)));
+    assert.ok(!link.includes("tab="), link);
+  }, { viewport, more: false }));
+}
+
+test("a wrong scene file is told where one looks, with all controls folded", () => onPage("#predict=0", async (page) => {
+  await page.waitForSelector('[data-strip="discrete-1"]');
+  await page.evaluate(() => {
+    const data = new DataTransfer();
+    data.setData("text/plain", "[drop]\nangle = 3");
+    document.dispatchEvent(new DragEvent("drop", { dataTransfer: data, bubbles: true }));
+  });
+  await page.waitForSelector("#file-error:visible");
+  assert.match(await page.textContent("#file-error"), /drop\.angle/);
+  const { y, height } = await page.locator("#file-error").boundingBox();
+  assert.ok(y >= 0 && y + height <= LARGE.height, `${y}`);
+}, { more: false }));
+
+test("a scrubber of 60 impacts is as wide as the picture", () => onPage("#predict=0&impacts=20", async (page) => {
+  await page.waitForSelector('[data-strip="discrete-1"]');
+  const [scrubber, stage] = [await page.locator("#scrubber").boundingBox(), await page.locator("#stage").boundingBox()];
+  assert.ok(scrubber.width > 0.98 * stage.width);
+}));
+
 test("scene files, attitude, strip and story can be reached by the keyboard alone", () => onPage("#predict=0&body=phone&turn=attitude&q0=1&q1=0&q2=0&q3=0", async (page) => {
   await page.waitForSelector('[data-strip="discrete-1"]');
   const reached = new Set();

@@ -36,12 +36,17 @@ onOnePage("each body that one chooses", "#predict=0&hide=map,explain&height=0.5&
 test("a coin is taken by its side, not by its faces: the side that is pulled up makes it lean", () => onPage(
   "#predict=0&hide=map,explain&body=coin&angle=80&height=0.02&gravity=9.81&e=0.6&stiffness=1e12", async (page) => {
     await page.waitForSelector("#impact-table tbody tr");
+    // What one sees is how far it is from flat, everywhere.
+    assert.match(await page.textContent("#caption"), /^Impact 1: .*, at 10\.0°/);
+    assert.equal((await column(page, "Angle"))[0], 10);
+    assert.equal(await page.inputValue("#angle"), "10");
     await page.focus("#stage");
     for (let i = 0; i < 5; i++) await page.keyboard.press("[");
-    assert.match(await page.textContent("#caption"), /^In your hand: 75\.0°/);
+    assert.match(await page.textContent("#caption"), /^In your hand: 15\.0°/);
     await page.keyboard.press("Enter");
-    await page.waitForFunction(() => document.getElementById("angle").value === "75");
-    assert.match(await page.textContent("#body-note"), /at 90° it lies flat/);
+    await page.waitForFunction(() => document.getElementById("angle").value === "15");
+    await page.waitForFunction(() => /[#&]angle=75&/.test(location.hash));
+    assert.match(await page.textContent("#body-note"), /At 0° the coin lies flat/);
   }));
 
 /** At a time between two rows of the program's history. */

@@ -49,7 +49,7 @@ const browserOf = (name) => {
 after(async () => { for (const browser of browsers.values()) await (await browser).close(); });
 
 /**
- * Opens the page, with all controls unless `more` is false, with a script before its own if `before` is one. Afterwards nothing may have gone wrong in its console, and
+ * Opens the page, with all controls and panels unless `more` is false, with a script before its own if `before` is one. Afterwards nothing may have gone wrong in its console, and
  * nothing been asked of anybody.
  */
 export async function onPage(fragment, use, { browser = "chromium", at = address, before: prepare, more = true, ...options } = {}) {
@@ -70,8 +70,15 @@ export async function onPage(fragment, use, { browser = "chromium", at = address
   try {
     if (prepare) await page.addInitScript(prepare);
     await page.goto(at + fragment);
-    // All controls, not only the first.
-    if (more && options.javaScriptEnabled !== false) await page.evaluate(() => { document.getElementById("more").open = true; });
+    // All controls and panels, not only the first.
+    if (more && options.javaScriptEnabled !== false) {
+      // A page of an earlier version has no panels to choose.
+      await page.waitForFunction(() => !document.getElementById("tabs") || document.querySelector("#tabs [aria-pressed]"));
+      await page.evaluate(() => {
+        document.getElementById("more").open = true;
+        document.querySelector('[data-tab="all"]')?.click();
+      });
+    }
     await use(page, context);
     assert.deepEqual(wrong, []);
     assert.deepEqual(foreign, []);

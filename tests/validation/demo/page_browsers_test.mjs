@@ -64,10 +64,10 @@ test("the page saves itself with the scene that it shows", async () => {
 
 test("a drop that takes for ever is left for another one", () => onPage(
   // Steps so short that the contact would take many minutes.
-  "#predict=0&stiffness=1e8&with.method=tvd-rk3&with.step=1e-12", async (page) => {
+  "#predict=0&stiffness=1e8&with.method=tvd-rk3&with.step=1e-12&with.evaluation_limit=2000000000", async (page) => {
     await page.waitForSelector('tr[data-model="discrete"]');
     assert.match(await page.textContent("#spinner"), /computing/);
-    await page.evaluate(() => { location.hash = "#predict=0&stiffness=1e8&angle=20"; });
+    await page.evaluate(() => { location.hash = "#predict=0&stiffness=1e8&angle=20&tab=all"; });
     await page.waitForSelector('tr[data-model="continuous"]');
     assert.equal(await page.textContent("#spinner"), "");
   }));

@@ -9,6 +9,8 @@ const DROP = "#predict=0&hide=map,explain&angle=20&rate=2&impacts=2";
 const BODY = [0, 114, 178];
 const WORDS = [10, 61, 98];
 
+const HANDOUT = { before: () => { window.print = () => {}; } };
+
 /** Keeps what the page hands to the browser as a file: not every browser tells of a download. */
 function keepFiles() {
   globalThis.files = [];
@@ -135,7 +137,49 @@ test("the handout is one page: the drop in words, its picture, its blows, and qu
   assert.equal(paper.match(/\/Type\s*\/Page\b/g).length, 1);
 }, { before: () => { window.print = () => { globalThis.printing = document.body.classList.contains("handout"); }; } }));
 
-const HANDOUT = { before: () => { window.print = () => {}; } };
+/** How many bytes draw each page. */
+function pagesOf(paper) {
+  const text = paper.toString("latin1");
+  const parts = new Map([...text.matchAll(/(\d+) 0 obj(.*?)endobj/gs)].map(([, n, part]) => [n, part]));
+  return [...parts.values()].filter((part) => /\/Type\s*\/Page\b/.test(part)).map((part) => parts.get(/\/Contents (\d+) 0 R/.exec(part)[1]).length);
+}
+
+test("on paper no page is empty, or has only the page's last line", () => onPage("#predict=0", async (page) => {
+  await page.waitForSelector('tr[data-model="continuous"]');
+  await page.waitForSelector("#explain-steps .katex");
+  await page.emulateMedia({ media: "print" });
+  const pages = pagesOf(await page.pdf({ format: "A4" }));
+  assert.ok(pages.length > 5 && pages.every((bytes) => bytes > 600), pages.join(" "));
+}));
+
+for (const sheet of ["lesson", "exercises"]) {
+  test(`the sheet of ${sheet} is one page of words alone, from a dark screen, too`, () => onPage("#predict=0", async (page) => {
+    await page.waitForSelector("#impact-table tbody tr");
+    await page.click(`#${sheet}-print`);
+    await page.emulateMedia({ media: "print" });
+    for (const part of ["#motion", "#story", "#panel-strip", "header", "#handout"]) assert.equal(await page.isVisible(part), false, part);
+    assert.equal(await page.isVisible(`#${sheet}`), true);
+    assert.ok((await page.textContent(`#${sheet}`)).includes("second blow"));
+    assert.equal(await page.evaluate(() => getComputedStyle(document.documentElement).getPropertyValue("--paper").trim()), "#ffffff");
+    const paper = (await page.pdf({ format: "A4" })).toString("latin1");
+    assert.equal(paper.match(/\/Type\s*\/Page\b/g).length, 1);
+    await page.evaluate(() => dispatchEvent(new Event("afterprint")));
+    await page.emulateMedia({ media: "screen" });
+    assert.deepEqual([await page.isVisible("#motion"), await page.isVisible(`#${sheet}`)], [true, false]);
+  }, { ...HANDOUT, colorScheme: "dark" }));
+}
+
+test("words in a picture are in the fonts of the page", () => onPage(DROP, async (page) => {
+  await page.waitForSelector('tr[data-model="continuous"]');
+  await fileOf(page, "#picture", "image");
+  const fonts = await page.evaluate(() => globalThis.fonts);
+  assert.ok(fonts.length > 3);
+  const family = await page.evaluate(() => getComputedStyle(document.body).fontFamily.split(",")[0]);
+  for (const font of fonts) assert.ok(font.includes(family) && !/ 10px/.test(` ${font}`), font);
+}, { before: `(${keepFiles})();
+  globalThis.fonts = [];
+  const { fillText } = CanvasRenderingContext2D.prototype;
+  CanvasRenderingContext2D.prototype.fillText = function write(...given) { if (this.canvas.isConnected === false) globalThis.fonts.push(this.font); return fillText.apply(this, given); };` }));
 
 test("the handout has the drop before it falls, and no answer; then the picture is as it was", () => onPage("", async (page) => {
   await page.waitForSelector("#impact-table tbody tr", { state: "attached" });
@@ -157,9 +201,9 @@ test("the handout has the drop before it falls, and no answer; then the picture 
   assert.deepEqual(await shown(), before);
 }, HANDOUT));
 
-for (const impacts of [6, 20]) {
-  test(`the handout has every one of ${impacts} blows of both models, on one page`, () => onPage(
-    `#predict=0&hide=map,explain&angle=2&gravity=9.81&e=0.8&impacts=${impacts}`, async (page) => {
+for (const [impacts, layout] of [[6, "overlay"], [20, "overlay"], [20, "side"]]) {
+  test(`the handout has every one of ${impacts} blows of both models, on one page, in the layout ${layout}`, () => onPage(
+    `#predict=0&hide=map,explain&angle=2&gravity=9.81&e=0.8&impacts=${impacts}&layout=${layout}`, async (page) => {
       await page.waitForSelector('tr[data-model="continuous"]');
       await page.click("#handout-print");
       await page.emulateMedia({ media: "print" });

@@ -209,7 +209,7 @@ test("a link opens the same state", () => onPage(
     });
     await context.grantPermissions(["clipboard-read", "clipboard-write"]);
     await page.click("#copy-link");
-    await page.waitForFunction(() => document.getElementById("copied").textContent === "Link copied");
+    await page.waitForFunction(() => /^Link copied: it opens this file on this computer/.test(document.getElementById("copied").textContent));
     const link = await page.evaluate(() => navigator.clipboard.readText());
     const shown = () => [...document.querySelectorAll("#numbers-table td, #time, #caption, #impact-table td, #explain-title")]
       .map((element) => element.textContent).concat([...document.querySelectorAll("input, select")]
@@ -242,6 +242,150 @@ test("lock= disables controls, hide= takes panels away", () => onPage(
     for (const panel of ["map", "explain", "energy"]) assert.equal(await page.isVisible(`#panel-${panel}`), false, panel);
     assert.equal(await page.isVisible("#panel-force"), true);
   }));
+
+/** A number of the energy table, in thousandths of the total as shown. */
+const energyOf = (page) => page.locator("#energy-table tbody tr").evaluateAll((rows) => [0, 1].map((model) =>
+  rows.map((row) => row.querySelectorAll("td")[model].textContent).map((text) => (text === "–" ? null : Number(text.replace("−", "-"))))));
+
+test("each model stops at its end: its body stays, pale, and its numbers are those of its last moment, in every panel", () => onPage(
+  "#predict=0&gravity=9.81&e=0.8&impacts=3", async (page) => {
+    await page.waitForSelector('tr[data-model="continuous"]');
+    const end = () => page.locator("#scrubber").evaluate((scrubber) => {
+      scrubber.value = scrubber.max;
+      scrubber.dispatchEvent(new Event("input", { bubbles: true }));
+    });
+    await end();
+    assert.match(await page.textContent("#numbers-title"), /^At .*: the continuous model ends here$/);
+    assert.deepEqual(await page.locator(".stage-label.over").allTextContents(), ["continuous model ends here"]);
+    assert.match(await page.textContent(".energy-bar.continuous.over"), /ends here/);
+    assert.match(await page.textContent("#patch-words"), /^the model ends here/);
+    const height = number(await page.locator("#numbers-table tbody tr").first().locator("td").nth(1).textContent());
+    assert.ok(height > 0 && height < 1000, `${height} mm`);
+    assert.equal(await page.locator("#numbers-table tbody td:nth-of-type(3)").first().textContent(), "–");
+  }));
+
+test("a body that comes to rest on a damped ground is shown soon, and the page says how far it goes and with which e", () => onPage(
+  "#predict=0&angle=10&e=0&gravity=9.81&hide=map,explain", async (page) => {
+    await page.waitForSelector('tr[data-model="continuous"]');
+    const rows = await page.evaluate(() => document.querySelectorAll('tr[data-model="continuous"]').length);
+    assert.equal(rows, 2);
+    await page.click("#next");
+    assert.match(await page.textContent("#caption"), /^Impact 1/);
+    assert.match(await page.textContent(".ground-note"), /c is such that it gives e = 0\.05, the least that the page gives it/);
+  }));
+
+test("who waits long for the continuous model can leave it, and ask for it again", () => onPage(
+  // Steps so short that the contact would take many minutes.
+  "#predict=0&stiffness=1e8&with.method=tvd-rk3&with.step=1e-12&with.evaluation_limit=2000000000&hide=map,explain", async (page) => {
+    await page.waitForSelector("#leave-continuous:visible");
+    assert.equal(await page.locator('tr[data-model="discrete"]').count(), 3);
+    await page.click("#leave-continuous");
+    assert.deepEqual([await page.textContent("#spinner"), await page.textContent("#leave-continuous")], ["continuous model: left out", "Compute it"]);
+    await page.click("#leave-continuous");
+    assert.match(await page.textContent("#spinner"), /computing/);
+  }));
+
+test("what goes wrong in drawing is told, and does not stop the page", () => onPage("#predict=0&hide=map,explain", async (page) => {
+  await page.waitForSelector("#impact-table tbody tr");
+  await page.evaluate(() => { globalThis.isBroken = true; });
+  await page.click("#next");
+  assert.match(await page.textContent("#error"), /this moment cannot be drawn: Error: broken/);
+  await page.evaluate(() => { globalThis.isBroken = false; });
+  await page.click("#next");
+  assert.equal(await page.isVisible("#error"), false);
+}, { before: () => {
+  const { clear } = WebGL2RenderingContext.prototype;
+  WebGL2RenderingContext.prototype.clear = function broken(...given) {
+    if (globalThis.isBroken) throw new Error("broken");
+    return clear.apply(this, given);
+  };
+} }));
+
+test("the panel of angles is there for thin rods without friction alone, with every end of a curve", () => onPage("#predict=0&hide=explain&gravity=4", async (page) => {
+  await page.waitForFunction(() => document.getElementById("map-folds").textContent !== "");
+  assert.equal(await page.isVisible("#panel-map"), true);
+  for (const set of [() => page.selectOption("#body", "phone"), () => page.selectOption("#body", "rod"), () => page.fill("#friction", "0.1")]) {
+    await set();
+    const isRod = (await page.inputValue("#body")) === "rod" && (await page.inputValue("#friction")) === "0";
+    assert.equal(await page.isVisible("#panel-map"), isRod);
+    assert.equal(await page.isVisible('[data-tab="map"]:is(button)'), isRod);
+  }
+}));
+
+test("restitution that follows from the ground cannot be set, and says why", () => onPage("#predict=0&stiffness=1e8&damping=1e5&law=ground", async (page) => {
+  assert.equal(await page.isDisabled("#e"), true);
+  assert.equal(await page.isDisabled("#e-slider"), true);
+  assert.match(await page.textContent("#e-reason"), /^It follows from the ground’s damping/);
+  await page.uncheck("#ofGround");
+  assert.equal(await page.isVisible("#e-reason"), false);
+}));
+
+test("energies and numbers are of one moment: at a blow both models are just after theirs", () => onPage("#predict=0&gravity=9.81&e=0.8&impact=2&hide=map,explain", async (page) => {
+  await page.waitForSelector('tr[data-model="continuous"]');
+  assert.match(await page.textContent("#numbers-title"), /^Just after blow 2/);
+  const [discrete, continuous] = (await energyOf(page)).map((parts) => parts[4]);
+  const lost = (await column(page, "Energy lost", "continuous")).slice(0, 2).reduce((sum, loss) => sum + loss, 0);
+  assert.ok(Math.abs(continuous - lost) < 2e-3, `${continuous} J are not the ${lost} J that two blows lose`);
+  assert.ok(discrete > 0.3);
+}));
+
+test("in the plane the picture is straight from the side: an impulse stands upright and the floor is level", () => onPage("#predict=0&impact=2&hide=map,explain", async (page) => {
+  await page.waitForSelector("#impact-table tbody tr");
+  const place = (text) => page.locator(".stage-label", { hasText: text }).first().evaluate((label) => {
+    const { x, width } = label.getBoundingClientRect();
+    return x + width / 2;
+  });
+  await page.locator(".stage-label.blow").waitFor();
+  const [end, tip] = [await place(/^b$/), await place(/N·s/)];
+  assert.ok(Math.abs(end - tip) < 30, `${tip} px stands over ${end} px`);
+  await page.uncheck("#speeds");
+  assert.equal(await page.isChecked("#traces"), true);
+}));
+
+/** Random states, always the same ones. CLATTER_STATES: how many. */
+test("random states throw nothing, show no number past an end, add up their energies and stay within the window", async () => {
+  let seed = 12345;
+  const random = () => { seed = (seed * 1103515245 + 12345) % 2147483648; return seed / 2147483648; };
+  const oneOf = (...some) => some[Math.floor(random() * some.length)];
+  const states = Array.from({ length: Number(process.env.CLATTER_STATES ?? 12) }, () => ({
+    body: oneOf("rod", "thick-rod", "phone", "coin", "tube", "die", "plate"), e: oneOf(0, 0.05, 0.3, 0.7, 1), gravity: oneOf(0, 1.62, 9.81),
+    angle: (random() * 90).toFixed(1), turn: oneOf("", "", "&tilt=20"), layout: oneOf("overlay", "side"), at: oneOf(0, random(), 1),
+    friction: oneOf(0, 0, 0.3), size: oneOf([1280, 900], [800, 600], [390, 800], [640, 450]), colorScheme: oneOf("light", "dark"),
+  }));
+  for (const colorScheme of ["light", "dark"]) {
+    await onPage("#predict=0&hide=fan,explain,race,measured", async (page) => {
+      for (const state of states.filter((one) => one.colorScheme === colorScheme)) {
+        const link = `#predict=0&hide=fan,explain,race,measured&tab=all&body=${state.body}&angle=${state.angle}${state.turn}&e=${state.e}`
+          + `&gravity=${state.gravity}&friction=${state.friction}&layout=${state.layout}&stiffness=1e9&impacts=4`;
+        await page.setViewportSize({ width: state.size[0], height: state.size[1] });
+        await Promise.all([page.waitForEvent("load"), page.evaluate((hash) => { location.hash = hash; }, link)]);
+        await page.waitForFunction(() => document.getElementById("spinner").textContent === "" && document.documentElement.dataset.latency !== undefined
+          && (document.querySelector("#impact-table tbody tr") !== null || !document.getElementById("error").hidden || document.querySelector(".row .error:not([hidden])") !== null));
+        await page.locator("#scrubber").evaluate((scrubber, part) => {
+          scrubber.value = String(part * Number(scrubber.max));
+          scrubber.dispatchEvent(new Event("input", { bubbles: true }));
+        }, state.at);
+        const said = `${link} at ${state.at} in ${state.size}`;
+        for (const parts of await energyOf(page)) {
+          if (parts[0] === null) continue;
+          const total = parts.pop();
+          const sum = parts.reduce((all, part) => all + part, 0);
+          assert.ok(parts.every((part) => part >= 0) && Math.abs(sum - total) <= 2e-3 * Math.max(total, 1e-3) + 5e-9, `${said}: ${parts} J are not ${total} J`);
+        }
+        const heights = await page.locator("#numbers-table tbody tr:first-child td").allTextContents();
+        for (const height of heights.slice(0, 2)) assert.ok(height === "–" || number(height) > -1, `${said}: ${height} mm`);
+        assert.deepEqual(await page.evaluate(() => {
+          const { left, right } = document.getElementById("stage").getBoundingClientRect();
+          const out = [...document.querySelectorAll(".stage-label")].filter((label) => {
+            const box = label.getBoundingClientRect();
+            return box.right < left || box.left > right;
+          });
+          return [document.documentElement.scrollWidth > innerWidth, out.length, document.getElementById("error").textContent.includes("drawn")];
+        }), [false, 0, false], said);
+      }
+    }, { colorScheme });
+  }
+});
 
 test("a link without sense shows what the program says of it", () => onPage("#predict=0&e=2&mass=-1", async (page) => {
   await page.waitForFunction(() => /must be from 0 to 1/.test(document.getElementById("e-error").textContent));

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """`clatter map`: its counts change where the paper's folds are, its pixels are what a sweep has, its picture shows them."""
 
+import colorsys
 import math
 import os
 import re
@@ -202,12 +203,19 @@ class Palette(unittest.TestCase):
                 return file.read()
         palette = dict(re.findall(r"\*(\w+) = \"(#\w{6})\"", text("validation/output/palette.hpp")))
         palette |= {name: palette[other] for name, other in re.findall(r"(\w+) = (\w+)[,;]", text("validation/output/palette.hpp"))}
-        # The page's colours stand in its style sheet alone, once for both themes.
+        # The page's colours stand in its style sheet alone: of the same hue, with a contrast of 3 to the paper of their theme.
+        hue = lambda colour: colorsys.rgb_to_hsv(*(int(colour[i:i + 2], 16) / 255 for i in (1, 3, 5)))[0]
         page = re.findall(r"^ *--([\w-]+): (#\w{6});", text("validation/demo/page/page.css"), re.MULTILINE)
         for of_page, name in (("discrete", "discrete"), ("continuous", "continuous"), ("beta", "beta"), ("gamma", "gamma"),
                               ("floor", "ground"), ("speed", "ochre"), ("tangential", "sky"), ("translation", "translation"),
                               ("rotation", "rotation"), ("potential", "potential")):
-            self.assertEqual([colour for told, colour in page if told == of_page], [palette[name]], of_page)
+            colours = [colour for told, colour in page if told == of_page]
+            self.assertIn(len(colours), (1, 2), of_page)
+            for colour in colours:
+                self.assertAlmostEqual(hue(colour), hue(palette[name]), delta=0.015, msg=of_page)
+            papers = [colour for told, colour in page if told == "paper"]
+            for colour, paper in zip((colours * 2)[:2], papers):
+                self.assertGreaterEqual(contrast(colour, paper), 3, (of_page, colour, paper))
         for file in ("colours.ts", "story.css", "charts.ts", "map.ts", "view.ts", "flat_view.ts"):
             self.assertNotRegex(text(f"validation/demo/page/{file}"), r"#[0-9a-f]{6}\b")
         look = re.search(r"PALETTE = \((.*)\)", text("notebooks-data/look.py")).group(1)
@@ -224,6 +232,12 @@ class Palette(unittest.TestCase):
             steps = [abs(b - a) for a, b in zip(lightness, lightness[1:])]
             self.assertIn(lightness, (sorted(lightness), sorted(lightness, reverse=True)))
             self.assertGreater(min(steps), step, list(zip(colours, lightness)))
+
+
+def contrast(one, other):
+    """Of sRGB colours by their luminances, 1 to 21 (WCAG 2)."""
+    dark, light = sorted(((grey(colour) + 0.16) / 1.16) ** 3 for colour in (one, other))
+    return (light + 0.05) / (dark + 0.05)
 
 
 def grey(colour):

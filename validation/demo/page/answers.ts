@@ -14,7 +14,9 @@ export interface Impact {
   /** How many places touch one after the other, or corners at once. */
   touches?: number;
   inclination_deg: number;
+  /** As one sees it, and as the program counts it. */
   contact_angle_deg: number;
+  program_angle_deg?: number;
   approach_speed: number;
   restitution: number | null;
   impulse_normal: number;

@@ -70,7 +70,7 @@ class Lane {
     const worker = new Worker(workerAddress());
     compiled ??= unpacked("module-code").arrayBuffer().then((code) => WebAssembly.compile(code));
     void compiled.then((code) => worker.postMessage(code));
-    worker.onmessage = ({ data }: MessageEvent<string>) => this.answer(JSON.parse(data) as { error?: string });
+    worker.onmessage = ({ data }: MessageEvent<{ error?: string }>) => this.answer(data);
     worker.onerror = (event) => {
       event.preventDefault();
       this.running?.reject(new ApiError("the computation broke off: it needs more memory than the browser gives"));
@@ -149,6 +149,15 @@ export class Latest<Answer, Context> {
     } else if (!this.running) void this.next();
   }
 
+  /** Nobody wants the answer any more. */
+  leave(): void {
+    this.waiting = null;
+    clearTimeout(this.timer);
+    this.running?.abort();
+    this.running = null;
+    this.onBusy(false);
+  }
+
   private async next(): Promise<void> {
     if (!this.waiting) return;
     const { request, context } = this.waiting;
@@ -164,9 +173,10 @@ export class Latest<Answer, Context> {
         if (!this.waiting) this.onError(error, context);
       }
     } finally {
-      if (this.running === running) this.running = null;
+      const isLeft = this.running !== running;
+      if (!isLeft) this.running = null;
       if (this.waiting && this.delay === 0) void this.next();
-      else if (!this.waiting && !this.running) this.onBusy(false);
+      else if (!this.waiting && !isLeft) this.onBusy(false);
     }
   }
 }

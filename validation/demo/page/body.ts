@@ -68,6 +68,11 @@ export function isDisc({ shape, length, radius }: Size): boolean {
   return shape === "rod" && 2 * radius > length;
 }
 
+/** An inclination as one sees it, and back: a disc that lies flat, whose axis the program's angle is of, leans by 0° [°]. */
+export function seenAngle(body: Size, degrees: number): number {
+  return isDisc(body) ? Number((90 - degrees).toPrecision(12)) : degrees;
+}
+
 /** Whether it can turn over, and strike with ends of its upper side. */
 export function hasUpperSide({ shape, radius, thickness }: Size): boolean {
   return shape === "box" ? thickness > 0 : radius > 0;

@@ -68,6 +68,22 @@ async function models() {
   };
 }
 
+/** A sheet as a page that is printed: headings, paragraphs, lists and tables of Markdown. */
+async function sheet(name) {
+  const text = (await readFile(path.join(here, `${name}.md`), "utf8")).replace(/\n {2,}/g, " ").replace(/&/g, "&amp;").replace(/</g, "&lt;");
+  const block = (lines) => {
+    const [first] = lines;
+    const items = (mark) => lines.map((line) => `<li>${line.replace(mark, "")}</li>`).join("");
+    if (/^#+ /.test(first)) return `<h2>${first.replace(/^#+ /, "")}</h2>`;
+    if (/^- /.test(first)) return `<ul>${items(/^- /)}</ul>`;
+    if (/^\d+\. /.test(first)) return `<ol start="${Number.parseInt(first, 10)}">${items(/^\d+\. /)}</ol>`;
+    if (!first.startsWith("|")) return `<p>${lines.join(" ")}</p>`;
+    const row = (line, tag) => `<tr>${line.split("|").slice(1, -1).map((cell) => `<${tag}>${cell.trim()}</${tag}>`).join("")}</tr>`;
+    return `<table>${lines.filter((_line, i) => i !== 1).map((line, i) => row(line, i ? "td" : "th")).join("")}</table>`;
+  };
+  return text.trim().split(/\n\n+/).map((one) => block(one.split("\n"))).join("\n");
+}
+
 /** As gzip packs it, a few per cent smaller. */
 function packed(bytes) {
   const folder = mkdtempSync(path.join(tmpdir(), "clatter-page-"));
@@ -93,7 +109,7 @@ if (loader.includes("</script")) throw new Error("the module's text would end it
 const parts = {
   "/*STYLE*/": await style(), "/*SCRIPT*/": packed(await script()).toString("base64"), "/*MODULE*/": loader, "/*CODE*/": code,
   "<!--NOTICES-->": await notices(), "<!--STORY-->": await storyHtml(await models()), "<!--VERSION-->": version,
-  "<!--MODELS-->": modelsDigest, "<!--PAGE-->": pageDigest,
+  "<!--LESSON-->": await sheet("lesson"), "<!--EXERCISES-->": await sheet("exercises"), "<!--MODELS-->": modelsDigest, "<!--PAGE-->": pageDigest,
 };
 let page = template;
 for (const [mark, text] of Object.entries(parts)) page = page.replaceAll(mark, () => text);

@@ -105,19 +105,25 @@ export class Capture {
     context.drawImage(canvas, 0, 0, width, height);
     context.textBaseline = "middle";
     for (const words of this.stage.querySelectorAll<HTMLElement>(".stage-label, #pace, .names span")) write(context, words, left, top);
-    context.font = "15px system-ui, sans-serif";
+    context.font = fontOf(byId("caption"));
     context.fillStyle = colour("--ink");
     context.fillText(byId("caption").textContent ?? "", 12, height + LINE / 2, width - 24);
   }
 }
 
+/** The shorthand is empty where its digits are all of one width. */
+export function fontOf(element: HTMLElement): string {
+  const { fontWeight, fontSize, fontFamily } = getComputedStyle(element);
+  return `${fontWeight} ${fontSize} ${fontFamily}`;
+}
+
 function write(context: CanvasRenderingContext2D, element: HTMLElement, left: number, top: number): void {
   const { x, y, width, height } = element.getBoundingClientRect();
   if (width === 0) return;
-  const { font, color, backgroundColor } = getComputedStyle(element);
+  const { color, backgroundColor } = getComputedStyle(element);
   context.fillStyle = backgroundColor;
   context.fillRect(x - left, y - top, width, height);
-  context.font = font;
+  context.font = fontOf(element);
   context.fillStyle = color;
   const text = element.textContent ?? "";
   context.fillText(text, x - left + (width - context.measureText(text).width) / 2, y - top + height / 2);

@@ -5,6 +5,7 @@ import type { SimulateAnswer } from "./answers";
 import { COLOURS } from "./colours";
 import { byId, make } from "./dom";
 import { significant } from "./format";
+import type { ModelName } from "./frame";
 import type { Energies, Motion } from "./motion";
 
 export const FONT = "12px system-ui, sans-serif";
@@ -67,9 +68,10 @@ export class ForceChart {
     this.zoom();
   }
 
-  setTime(time: number): void {
+  setTime(time: number, end: number): void {
     if (!this.plot) return;
-    const x = this.plot.valToPos(time * 1e3, "x");
+    const x = this.plot.valToPos(Math.min(time, end) * 1e3, "x");
+    this.now.textContent = time > end ? "ends here" : "";
     const inside = x >= 0 && x <= this.plot.over.clientWidth;
     this.now.hidden = !inside;
     this.now.style.transform = `translateX(${x.toFixed(1)}px)`;
@@ -135,9 +137,11 @@ export class EnergyBars {
     byId("energy-table").append(make("thead", {}, head), make("tbody", {}, ...rows, total));
   }
 
-  show(model: "discrete" | "continuous", energies: Energies | null): void {
-    const { element, parts, cells, total } = this.bars[model];
+  show(model: ModelName, energies: Energies | null, isOver: boolean): void {
+    const { element, name, parts, cells, total } = this.bars[model];
     element.classList.toggle("empty", energies === null);
+    element.classList.toggle("over", isOver);
+    name.textContent = isOver ? `${model}, ends here` : model;
     const sum = energies ? PARTS.reduce((all, { key }) => all + energies[key], 0) : 0;
     for (const { key } of PARTS) {
       // Rounding leaves losses such as −1e-16.
@@ -155,13 +159,14 @@ function amount(value: number, sum: number): string {
   return value.toFixed(places);
 }
 
-function bar(model: string): {
-  element: HTMLElement; parts: Record<Part, HTMLElement>; cells: Record<Part, HTMLElement>; total: HTMLElement;
+function bar(model: ModelName): {
+  element: HTMLElement; name: HTMLElement; parts: Record<Part, HTMLElement>; cells: Record<Part, HTMLElement>; total: HTMLElement;
 } {
   const entries = <Made>(create: (key: Part) => Made): Record<Part, Made> =>
     Object.fromEntries(PARTS.map(({ key }) => [key, create(key)])) as Record<Part, Made>;
   const parts = entries((key) => make("span", { class: `energy-${key}` }));
   const cells = entries(() => make("td"));
   const strip = make("div", { class: "strip" }, ...Object.values(parts));
-  return { element: make("div", { class: `energy-bar ${model}` }, make("span", { class: "name" }, model), strip), parts, cells, total: make("td") };
+  const name = make("span", { class: "name" }, model);
+  return { element: make("div", { class: `energy-bar ${model}` }, name, strip), name, parts, cells, total: make("td") };
 }

@@ -3,7 +3,9 @@
 // them: a solid body or an outline, a dash, a word.
 
 // All that is drawn is drawn anew; the address has the state.
-matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => location.reload());
+const dark = matchMedia("(prefers-color-scheme: dark)");
+dark.addEventListener("change", () => location.reload());
+document.documentElement.classList.toggle("drawn-dark", dark.matches);
 
 const sheet = getComputedStyle(document.documentElement);
 const of = (name: string): string => sheet.getPropertyValue(`--${name}`).trim();

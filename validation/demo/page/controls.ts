@@ -2,9 +2,9 @@
 // Sliders, number fields and choices of the situation.
 import type { ApiError } from "./api";
 import { AttitudeControls } from "./attitude_controls";
-import { BODIES, type BodyName } from "./body";
+import { BODIES, seenAngle, type BodyName } from "./body";
 import { byId, make } from "./dom";
-import { DROPS, QUANTITIES, isInPlane, isUsed, setBody, type Choices, type Parameters, type Quantity } from "./parameters";
+import { DROPS, QUANTITIES, bodyOf, isInPlane, isUsed, setBody, type Choices, type Parameters, type Quantity } from "./parameters";
 import { SPECS, blamedQuantity, fieldText, fromSlider, sliderRange, toSlider } from "./quantities";
 import { dampingOf, firstSpeed, restitutionOf } from "./restitution";
 import { SCENES } from "./scenes";
@@ -16,6 +16,8 @@ interface Row {
   slider: HTMLInputElement | null;
   field: HTMLInputElement;
   error: HTMLElement;
+  /** Why it cannot be changed. */
+  reason: HTMLElement;
 }
 
 /** What everybody sees; the rest stands under "More". */
@@ -39,6 +41,7 @@ const DROP_NAMES = { speed: "at a speed", height: "from a height", velocity: "at
 /** A quantity's value, or that which follows from another's. */
 function shownValue(parameters: Parameters, quantity: Quantity): number {
   if (quantity === "damping") return dampingOf(parameters);
+  if (quantity === "angle") return seenAngle(bodyOf(parameters), parameters.angle);
   return quantity === "e" ? restitutionOf(parameters) : parameters[quantity];
 }
 
@@ -83,6 +86,7 @@ export class Controls {
       const disabled = lock.includes(quantity) || followed;
       if (row.slider) row.slider.disabled = disabled;
       row.field.disabled = disabled;
+      setText(row.reason, !followed ? "" : quantity === "e" ? "It follows from the ground’s damping, which the scene gives." : "It follows from the restitution.");
     }
     this.body.value = parameters.body;
     this.drop.value = parameters.drop;
@@ -200,16 +204,17 @@ export class Controls {
     const name = spec.symbol ? `${spec.label} ${spec.symbol}` : spec.label;
     const slider = make("input", { type: "range", id: `${quantity}-slider`, "aria-label": `${name}, slider`, ...sliderRange(spec) });
     const field = make("input", {
-      type: "number", id: quantity, step: "any", inputmode: "decimal", "aria-describedby": `${quantity}-error`,
+      type: "number", id: quantity, step: "any", inputmode: "decimal", "aria-describedby": `${quantity}-error ${quantity}-reason`,
     });
     const error = make("p", { class: "error", id: `${quantity}-error`, role: "alert", hidden: true });
     const label = make("label", { for: quantity }, name);
-    const box = make("div", { class: "row" }, label, field, make("span", { class: "unit" }, spec.unit), slider, error);
+    const reason = make("p", { class: "reason", id: `${quantity}-reason`, hidden: true });
+    const box = make("div", { class: "row" }, label, field, make("span", { class: "unit" }, spec.unit), slider, reason, error);
     if (spec.model) box.title = `Of the ${spec.model} model`;
     slider.addEventListener("input", () => this.set(quantity, fromSlider(spec, Number(slider.value))));
     slider.addEventListener("change", () => this.onRelease());
     this.listen(field, quantity);
-    this.rows.set(quantity, { box, slider, field, error });
+    this.rows.set(quantity, { box, slider, field, error, reason });
     return box;
   }
 
@@ -227,7 +232,7 @@ export class Controls {
       whole.append(error);
       this.listen(field, part);
       // Parts are shown together, with their title.
-      this.rows.set(part, { box: i === 0 ? whole : box, slider: null, field, error });
+      this.rows.set(part, { box: i === 0 ? whole : box, slider: null, field, error, reason: make("p") });
     });
     return whole;
   }
@@ -240,7 +245,8 @@ export class Controls {
   }
 
   private set(quantity: Quantity, value: number): void {
-    this.state.parameters[quantity] = value;
+    const { parameters } = this.state;
+    parameters[quantity] = quantity === "angle" ? seenAngle(bodyOf(parameters), value) : value;
     this.change();
   }
 

@@ -9,7 +9,7 @@ import { byId, make } from "./dom";
 import { significant } from "./format";
 import type { Motion } from "./motion";
 import { facesOf } from "./outline";
-import { Replay } from "./replay";
+import { Replay, apart } from "./replay";
 import { normalised, plus, product, slerp, type Rotation, type Vector } from "./rotation";
 import { LOOK, onPaper, svg } from "./sketch";
 
@@ -64,8 +64,7 @@ function put(path: SVGElement, { centre, rotation }: Place, middle: Vector): voi
 
 function apartInWords(one: Place, other: Place): string {
   const [w] = product(one.rotation, other.rotation.map((part, i) => (i === 0 ? part : -part)) as Rotation);
-  const turned = (2 * Math.acos(Math.min(1, Math.abs(w))) * 180) / Math.PI;
-  return `off by ${significant(1e3 * Math.hypot(...plus(one.centre, other.centre, -1)), 2)} mm, ${significant(turned, 2)}°`;
+  return apart(Math.hypot(...plus(one.centre, other.centre, -1)), 2 * Math.acos(Math.min(1, Math.abs(w))));
 }
 
 function middleOfTrack(drop: Drop): Vector {

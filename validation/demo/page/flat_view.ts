@@ -2,7 +2,7 @@
 // The picture from the side, for browsers that have no graphics card to draw with.
 import { middleOf, type Body } from "./body";
 import { COLOURS } from "./colours";
-import type { Arrow, Frame, ModelName } from "./frame";
+import { MODELS, type Arrow, type Frame, type ModelName } from "./frame";
 import type { Pose } from "./motion";
 import { facesOf } from "./outline";
 import type { Projection, View } from "./picture";
@@ -35,9 +35,9 @@ export class FlatView implements View {
     const { context } = this;
     this.frame = frame;
     context.clearRect(0, 0, this.size.width, this.size.height);
-    for (const model of frame.side ? (["discrete", "continuous"] as const) : (["discrete"] as const)) this.ground(model, frame.side);
+    for (const model of frame.side ? MODELS : MODELS.slice(0, 1)) this.ground(model, frame.side);
     for (const { model, body, pose, tone } of frame.ghosts) this.figure(model, body, pose, frame.side, tone ?? "blow");
-    for (const { model, body, pose } of frame.figures) this.figure(model, body, pose, frame.side);
+    for (const { model, body, pose, isOver } of frame.figures) this.figure(model, body, pose, frame.side, isOver ? "over" : null);
     if (frame.patch) this.patch(frame.patch.outline, frame.side);
     for (const arrow of frame.arrows) this.arrow(arrow, frame.side);
   }
@@ -69,7 +69,7 @@ export class FlatView implements View {
     this.context.fillRect(left, places[0]?.y ?? 0, Math.max(...places.map(({ x }) => x)) - left, 5);
   }
 
-  private figure(model: ModelName, body: Body, pose: Pose, side: boolean, ghost: "blow" | "fan" | "aside" | null = null): void {
+  private figure(model: ModelName, body: Body, pose: Pose, side: boolean, ghost: "blow" | "fan" | "aside" | "over" | null = null): void {
     const { context } = this;
     const middle = middleOf(body, pose.centre, pose.rotation);
     for (const face of facesOf(body, pose.rotation, LOOK)) {

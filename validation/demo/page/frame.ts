@@ -3,11 +3,12 @@
 import type { Impact } from "./answers";
 import { extentOf, isDisc, longHalf, lowestPlace, type Body } from "./body";
 import { significant } from "./format";
-import { pointMotion, type Motion, type Pose } from "./motion";
+import { hasEnded, pointMotion, shownTime, type Motion, type Pose } from "./motion";
 import { patchOf, type Patch } from "./patch";
 import { plus, rotate, type Rotation, type Vector } from "./rotation";
 
-export type ModelName = "discrete" | "continuous";
+export const MODELS = ["discrete", "continuous"] as const;
+export type ModelName = (typeof MODELS)[number];
 
 export interface Arrow {
   model: ModelName;
@@ -15,7 +16,7 @@ export interface Arrow {
   from: Vector;
   /** In metres of the picture. */
   vector: Vector;
-  /** Of a blow before the last one. */
+  /** Of a blow that is over. */
   isPast?: boolean;
 }
 
@@ -30,7 +31,7 @@ export interface Arc {
 
 export interface Label {
   model: ModelName;
-  kind: "blow" | "end" | "angle" | "held";
+  kind: "blow" | "end" | "angle" | "held" | "over";
   place: Vector;
   text: string;
   /** Beside its place, outwards, or below it, instead of above it. */
@@ -43,7 +44,7 @@ export interface Frame {
   bounds: Record<ModelName, Bounds>;
   /** Whether a body leaves the plane of x and z: then it is looked at from higher up. */
   inSpace: boolean;
-  figures: { model: ModelName; body: Body; pose: Pose }[];
+  figures: { model: ModelName; body: Body; pose: Pose; isOver?: boolean }[];
   /** Where the body was at the blows until now; or where a hand's tremor would have brought it, what stands out of that and what does not. */
   ghosts: { model: ModelName; body: Body; pose: Pose; tone?: "fan" | "aside" }[];
   arcs: Arc[];
@@ -75,6 +76,7 @@ export interface Scales {
   speed: number;
 }
 
+const STAYS = 0.02; // an impulse, of the whole motion; then it fades
 const BLOW_LENGTH = 0.3; // of the largest blow, in lengths of the body
 const SPEED_LENGTH = 0.22; // of the largest speed of an end
 
@@ -141,14 +143,19 @@ export function impactAt(impacts: readonly Impact[], time: number): Impact | nul
 
 export function frameAt(motions: Motions, time: number, scales: Scales, side: boolean, traces: boolean): Frame {
   const frame: Frame = { side, bounds: boundsOfParts([], side), inSpace: false, figures: [], ghosts: [], arcs: [], patch: null, arrows: [], labels: [] };
-  for (const model of ["continuous", "discrete"] as const) {
+  for (const model of [...MODELS].reverse()) {
     const motion = motions[model];
-    if (!motion || time > motion.end + 1e-12) continue;
-    const pose = motion.pose(time);
-    frame.figures.push({ model, body: motion.body, pose });
+    if (!motion) continue;
+    const pose = motion.pose(shownTime(motion, time));
+    frame.figures.push({ model, body: motion.body, pose, isOver: hasEnded(motion, time) });
+    if (hasEnded(motion, time)) {
+      const [x, y, z] = pose.centre;
+      frame.labels.push({ model, kind: "over", text: `${model} model ends here`, place: [x, y, z + 0.12 * extentOf(motion.body)] });
+      continue;
+    }
     if (model === "continuous" && pose.inContact) frame.patch = patchOf(motion.body, pose);
     // In the overlay two sets of speeds and names would lie on each other.
-    if (side || model === "discrete" || !motions.discrete) addEnds(frame, model, motion, pose, scales);
+    if (side || model === "discrete" || !motions.discrete) addEnds(frame, model, motion.body, pose, scales.speed);
     addBlow(frame, model, motion, pose, time, scales, side || !motions.discrete);
     if (traces && (model === "discrete" || side || !motions.discrete)) addTraces(frame, model, motion, time, scales);
   }
@@ -158,14 +165,14 @@ export function frameAt(motions: Motions, time: number, scales: Scales, side: bo
   return frame;
 }
 
-function addEnds(frame: Frame, model: ModelName, motion: Motion, pose: Pose, scales: Scales): void {
-  const half = longHalf(motion.body);
+function addEnds(frame: Frame, model: ModelName, body: Body, pose: Pose, scale: number): void {
+  const half = longHalf(body);
   for (const [end, side] of [["a", -1], ["b", 1]] as const) {
-    const { place, velocity } = pointMotion(motion.body, pose, half.map((part) => side * part) as Vector);
-    const vector = velocity.map((v) => v * scales.speed) as Vector;
+    const { place, velocity } = pointMotion(body, pose, half.map((part) => side * part) as Vector);
+    const vector = velocity.map((v) => v * scale) as Vector;
     frame.arrows.push({ model, kind: "speed", from: place, vector });
     // The ends of a disc are its faces; what moves up and down are its sides.
-    if (isDisc(motion.body)) continue;
+    if (isDisc(body)) continue;
     const [cx, cy, cz] = pose.centre;
     const out = 1.07;
     frame.labels.push({
@@ -191,7 +198,7 @@ function addBlow(frame: Frame, model: ModelName, motion: Motion, pose: Pose, tim
   // In the overlay the force stands beside the discrete model's impulse.
   const isSecond = model === "continuous" && !side;
   const from: Vector = [isSecond ? x + 0.03 * outwards * length : x, y, z];
-  frame.arrows.push({ model, kind: "blow", from, vector });
+  frame.arrows.push({ model, kind: "blow", from, vector, isPast: !pressing && time > impact.start + Math.max(impact.duration, STAYS * (motion.end - motion.begin)) });
   if (Math.hypot(...vector) < 0.02 * length) return;
   const label: Label = { model, kind: "blow", text, place: [from[0] + vector[0], from[1] + vector[1], from[2] + vector[2]] };
   frame.labels.push(isSecond ? { ...label, aside: outwards < 0 ? "left" : "right" } : label);
@@ -233,16 +240,19 @@ function addArc(frame: Frame, motion: Motion, time: number): void {
   }
 }
 
-/** The body in the hand: nothing moves, and the picture stays as it is. */
-export function heldFrame(body: Body, rotation: Rotation, height: number, text: string): Frame {
-  const pose: Pose = { centre: [0, 0, height], rotation, velocity: [0, 0, 0], spin: [0, 0, 0], inclination: 0, force: [0, 0, 0], inContact: false };
+/** The body in the hand, `over` a place of the ground: nothing moves, and the picture stays as it was when it was taken. */
+export function heldFrame(body: Body, rotation: Rotation, height: number, text: string, over: readonly [number, number] = [0, 0], taken?: Frame): Frame {
+  const [x, y] = over;
+  const pose: Pose = { centre: [x, y, height], rotation, velocity: [0, 0, 0], spin: [0, 0, 0], inclination: 0, force: [0, 0, 0], inContact: false };
   const figures: Frame["figures"] = [{ model: "discrete", body, pose }];
   const length = extentOf(body);
   const bounds = { left: -0.9 * length, right: 0.9 * length, top: Math.max(1.5 * length, height + 0.6 * length), depth: 0, deep: Math.max(body.width / 2, body.radius) };
-  return {
-    side: false, bounds: { discrete: bounds, continuous: bounds }, inSpace: leavesPlane({ model: "discrete", body, pose }), figures, ghosts: [], arcs: [], patch: null, arrows: [],
-    labels: [{ model: "discrete", kind: "held", place: [0, 0, height + 0.3 * length], text }],
+  const frame: Frame = {
+    side: false, bounds: taken?.bounds ?? { discrete: bounds, continuous: bounds }, inSpace: taken?.inSpace ?? leavesPlane({ model: "discrete", body, pose }), figures, ghosts: [], arcs: [], patch: null, arrows: [],
+    labels: [{ model: "discrete", kind: "held", place: [x, y, height + 0.3 * length], text }],
   };
+  addEnds(frame, "discrete", body, pose, 0);
+  return frame;
 }
 
 function struckPoint(motion: Motion, impact: Impact): Vector {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The body in the hand: taken in the picture with mouse, pen or finger, tilted by an end, lifted by its middle, let go. By keys, too:
 // on the picture ↑ and ↓ lift, [ and ] tilt, Enter lets go.
-import { centreHeight, extentOf, isDisc, longHalf, type Body } from "./body";
+import { centreHeight, extentOf, isDisc, longHalf, seenAngle, type Body } from "./body";
 import { significant } from "./format";
 import { heldFrame, type Frame } from "./frame";
 import type { OrbitControl } from "./orbit";
@@ -26,9 +26,17 @@ export interface Held {
   height: number;
 }
 
+export interface Taken {
+  body: Body;
+  held: Held;
+  tilt: number;
+  /** The place of the ground below its centre [m]. */
+  over: readonly [number, number];
+}
+
 export interface Hand {
   /** What may be taken now, and how it is held where it is; null: nothing. */
-  body(): { body: Body; held: Held; tilt: number } | null;
+  body(): Taken | null;
   project(place: Vector): Projection;
   hold(held: Held): void;
   letGo(held: Held): void;
@@ -48,8 +56,8 @@ export function awaitedFrame(parameters: Parameters): Frame {
   return { ...heldFrame(body, rotation, centreHeight(body, rotation) + 0.05 * extentOf(body), ""), labels: [] };
 }
 
-export function heldInWords({ angle, height }: Held): string {
-  return `${significant(angle, 3)}°, ${significant(height, 3)} m high`;
+export function heldInWords(body: Body, { angle, height }: Held): string {
+  return `${significant(seenAngle(body, angle), 3)}°, ${significant(height, 3)} m high`;
 }
 
 /** Within what a hand can do: not into the ground, not out of sight. */
@@ -91,9 +99,9 @@ export class Grab {
   private gripAt(place: Projection): Grip | null {
     const taken = this.hand.body();
     if (!taken) return null;
-    const { body, held, tilt } = taken;
+    const { body, held, tilt, over: [right, deep] } = taken;
     const along = rotate(heldRotation(held, tilt), longHalf(body));
-    const at = (part: number): Projection => this.hand.project([along[0] * part, 0, held.height + along[2] * part]);
+    const at = (part: number): Projection => this.hand.project([right + along[0] * part, deep, held.height + along[2] * part]);
     const [a, b] = [at(-1), at(1)];
     const [x, y] = [b.x - a.x, b.y - a.y];
     const size = Math.hypot(x, y) || 1;
@@ -104,7 +112,7 @@ export class Grab {
     const margin = REACH / size;
     if (off > Math.max(REACH, thick) || part < -margin || part > 1 + margin) return null;
     const name = Math.abs(part - 0.5) < MIDDLE ? "middle" : part < 0.5 ? "a" : "b";
-    const up = this.hand.project([0, 0, held.height + extentOf(body)]);
+    const up = this.hand.project([right, deep, held.height + extentOf(body)]);
     const centre = at(0);
     return { part: name, from: held, start: place, centre, scale: Math.hypot(up.x - centre.x, up.y - centre.y) / extentOf(body), isDisc: isDisc(body) };
   }

@@ -1,25 +1,27 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The page: from a change of the situation to the requests, and from their answers to the panels.
 import type { ExplainAnswer } from "./answers";
-import { Latest } from "./api";
+import { ApiError, Latest } from "./api";
 import { EnergyBars, ForceChart } from "./charts";
-import type { Body } from "./body";
 import { Capture } from "./capture";
 import { Controls } from "./controls";
 import { byId, say } from "./dom";
 import { Explanation } from "./explain";
 import { FanPanel } from "./fan_panel";
 import { download } from "./files";
-import { frameAt, heldFrame, impactAt, scalesOf, type ModelName, type Scales } from "./frame";
-import { Grab, awaitedFrame, heldInWords, heldRotation, type Held } from "./grab";
+import { MODELS, frameAt, impactAt, scalesOf, type ModelName, type Scales } from "./frame";
+import { Grab, awaitedFrame } from "./grab";
+import { InHand } from "./in_hand";
 import { setUpLecture } from "./lecture";
 import { AngleMap } from "./map";
 import { setUpMeasured } from "./measured";
 import { Models } from "./models";
+import { momentAt } from "./moment";
+import { hasEnded } from "./motion";
 import { Numbers } from "./numbers";
 import { OrbitControl } from "./orbit";
-import { hidePanels, setUpLayout, setUpPrinting } from "./panels";
-import { bodyOf, isInPlane, tiltOf } from "./parameters";
+import { Tabs, hidePanels, setUpLayout, setUpOpening, setUpPrinting } from "./panels";
+import { isInPlane, isThinRod } from "./parameters";
 import { showPatch } from "./patch_panel";
 import { Player, TimeWarp } from "./playback";
 import { Prediction } from "./prediction";
@@ -37,12 +39,12 @@ import { Story } from "./story";
 import { Strip } from "./strip";
 import { ImpactTable, csvOf } from "./table";
 import { Transport } from "./transport";
+import { Waiting } from "./waiting";
 import { impactInWords, outcomeInWords } from "./words";
 
 /** After a change, until the equations are asked for, and until the drop is played [ms]. */
 const EXPLAIN_DELAY = 80;
 const PLAY_DELAY = 350;
-const DEGREE = Math.PI / 180;
 
 class Page {
   private readonly state: State = readAddress();
@@ -53,13 +55,12 @@ class Page {
   /** Whether the time is that of the chosen impact, or one that was sought. */
   private followsImpact = false;
   private playTimer = 0;
-  /** While the body is in the hand. */
-  private held: Held | null = null;
-  private wasHeld = false;
+  private isBroken = false;
 
   private readonly stage = new Stage();
   private readonly orbit = new OrbitControl(byId("stage"), () => this.draw());
   private readonly traces = byId<HTMLInputElement>("traces");
+  private readonly speeds = byId<HTMLInputElement>("speeds");
   private readonly numbers = new Numbers();
   private readonly energy = new EnergyBars();
   private readonly force = new ForceChart();
@@ -68,6 +69,7 @@ class Page {
   private readonly fan = new FanPanel(this.state, () => { this.draw(); this.remember(); });
   private readonly strip = new Strip((model, n) => this.goToImpact(model, n));
   private readonly sound = new Sound(this.state.lock.includes("sound"));
+  private readonly tabs = new Tabs(this.state, () => this.remember());
   private readonly showLayout: () => void;
   /** Of the situation before. */
   private wasInPlane = isInPlane(this.state.parameters);
@@ -85,6 +87,25 @@ class Page {
     playReal: () => this.playReal(),
     setSlow: (slow) => { this.state.slow = slow; this.rewarp(); this.remember(); },
   });
+
+  private readonly hand = new InHand(this.state, {
+    stage: this.stage,
+    motion: () => this.models.motions.discrete,
+    time: () => (this.prediction.isOpen ? this.models.motions.discrete?.begin ?? 0 : this.player.time),
+    onHold: () => {
+      this.player.pause();
+      clearTimeout(this.playTimer);
+      this.draw();
+    },
+    onDrop: () => {
+      this.controls.refresh();
+      this.followsImpact = false;
+      this.update();
+      this.playSoon(0);
+    },
+  });
+
+  private readonly waiting = new Waiting(() => this.models.leaveContinuous(), () => this.models.askContinuous(this.state.parameters));
 
   private readonly capture = new Capture({
     redraw: () => this.stage.redraw(),
@@ -108,7 +129,7 @@ class Page {
   private readonly models = new Models({
     onAnswer: () => this.onAnswer(),
     onError: (model, error) => this.controls.setError(model, error),
-    onBusy: (busy) => { byId("spinner").textContent = busy ? "continuous model: computing…" : ""; },
+    onBusy: (busy) => this.waiting.show(busy),
   });
   private readonly explaining = new Latest<ExplainAnswer, null>(
     EXPLAIN_DELAY, (answer) => this.explanation.show(answer), (error) => this.explanation.say(error.message));
@@ -116,6 +137,7 @@ class Page {
   constructor() {
     const { state } = this;
     hidePanels(state);
+    setUpOpening();
     this.player.rate = state.rate;
     this.transport.setSettings(state.rate, state.slow, state.lock);
     this.showLayout = setUpLayout(state, () => this.onTime());
@@ -124,12 +146,12 @@ class Page {
     byId("csv").addEventListener("click", () => download("impacts.csv", csvOf(this.models.impacts), "text/csv"));
     if (state.predict) this.prediction.open();
     new Grab(byId("stage"), {
-      body: () => this.inReach(),
+      body: () => this.hand.body(),
       project: (place) => this.stage.project(place),
-      hold: (held) => this.hold(held),
-      letGo: (held) => this.letGo(held),
+      hold: (held) => this.hand.hold(held),
+      letGo: (held) => this.hand.letGo(held),
     }, this.orbit);
-    this.traces.addEventListener("change", () => this.draw());
+    for (const box of [this.traces, this.speeds]) box.addEventListener("change", () => this.draw());
     setUpPrinting(() => [state.impact, this.player.time], (n, time) => this.put(n, time));
     setUpLecture((on) => this.prediction.setVoting(on), () => this.onTime());
     // Another link to this page, opened where it stands.
@@ -148,7 +170,9 @@ class Page {
     this.models.ask(parameters);
     this.fan.update();
     const speed = firstSpeed(parameters);
-    if (speed > 0) void this.map.show(gravityNumber(parameters, speed), restitutionOf(parameters));
+    const hasMap = isThinRod(parameters) && speed > 0;
+    this.tabs.setUsable("map", hasMap);
+    if (hasMap) void this.map.show(gravityNumber(parameters, speed), restitutionOf(parameters));
     this.map.setAngle(parameters.angle);
     showNotes(parameters);
     this.remember();
@@ -225,29 +249,38 @@ class Page {
     this.playedTo = time;
   }
 
+  /** What goes wrong in it is told, and the rest of the page goes on. */
   private draw(): void {
+    try {
+      this.drawAll();
+      if (this.isBroken) this.controls.setError("picture", null);
+      this.isBroken = false;
+    } catch (error) {
+      this.isBroken = true;
+      this.controls.setError("picture", new ApiError(`this moment cannot be drawn: ${String(error)}`));
+    }
+  }
+
+  private drawAll(): void {
     const { player, state } = this;
     const { time } = player;
-    byId("grab-hint").hidden = this.wasHeld || !this.inReach();
     this.transport.show(time, player.progress, player.playing, player.slowness);
-    if (this.held) {
-      const { parameters } = state;
-      const rotation = heldRotation(this.held, tiltOf(parameters));
-      this.stage.draw(heldFrame(bodyOf(parameters), rotation, this.held.height, heldInWords(this.held)), this.orbit.orbit);
-      say("caption", `In your hand: ${heldInWords(this.held)}. Let go to drop it.`);
-      return;
-    }
+    if (this.hand.draw()) return;
     const impact = impactAt(this.models.steps, time);
     // Before the guess the picture shows the fall, not yet the blow.
     const shown = this.prediction.isOpen ? (this.models.motions.discrete?.begin ?? 0) : time;
     const frame = this.models.discrete ? frameAt(this.models.motions, shown, this.scales, state.layout === "side", this.traces.checked && !this.prediction.isOpen) : awaitedFrame(state.parameters);
+    if (!this.speeds.checked) frame.arrows = frame.arrows.filter(({ kind }) => kind !== "speed");
     if (!this.prediction.isOpen) frame.ghosts.push(...this.fan.ghosts(time, player.playing));
     this.stage.draw(frame, this.orbit.orbit);
-    this.numbers.show(this.models.motions, this.models.pairing, time);
-    for (const model of ["discrete", "continuous"] as const) {
-      this.energy.show(model, this.models.motions[model]?.energies(time) ?? null);
+    const { motions } = this.models;
+    const moment = momentAt(motions, this.models.pairing, time);
+    this.numbers.show(motions, moment);
+    for (const model of MODELS) {
+      const [motion, own] = [motions[model], moment.times[model]];
+      this.energy.show(model, motion && own !== null ? motion.energies(own) : null, motion !== null && hasEnded(motion, time));
     }
-    this.force.setTime(time);
+    this.force.setTime(time, motions.continuous?.end ?? Infinity);
     showPatch(this.models.motions.continuous, this.models.continuous?.history ?? null, time);
     say("caption", impact ? impactInWords(this.models.steps, impact.n) : "Falling");
   }
@@ -259,40 +292,6 @@ class Page {
     this.force.show(this.models.continuous, this.models.motions.discrete, n);
     showProfile(this.models.motions.discrete, this.state.impact);
     this.explain();
-  }
-
-  /** The body as it can be taken in the hand: where it is given by angles. */
-  private inReach(): { body: Body; held: Held; tilt: number } | null {
-    const { parameters, lock, layout } = this.state;
-    const motion = this.models.motions.discrete;
-    const isGiven = parameters.turn === "plane" || parameters.turn === "tilted";
-    if (!isGiven || layout === "side" || lock.includes("angle") || lock.includes("height") || !motion) return null;
-    const { body } = motion;
-    const tilt = tiltOf(parameters);
-    if (this.held) return { body, held: this.held, tilt };
-    const { centre, inclination } = motion.pose(this.prediction.isOpen ? motion.begin : this.player.time);
-    const angle = Math.abs(inclination) / DEGREE;
-    return { body, held: { angle: Math.min(angle, 180 - angle), height: centre[2] }, tilt };
-  }
-
-  private hold(held: Held): void {
-    this.player.pause();
-    clearTimeout(this.playTimer);
-    this.wasHeld = true;
-    this.held = held;
-    this.draw();
-  }
-
-  /** It falls from where it was let go; where nothing fell before, gravity is switched on. */
-  private letGo(held: Held): void {
-    const { parameters } = this.state;
-    this.held = null;
-    if (parameters.gravity === 0) parameters.gravity = 9.81;
-    Object.assign(parameters, { angle: held.angle, height: held.height, drop: "height", spinning: false });
-    this.controls.refresh();
-    this.followsImpact = false;
-    this.update();
-    this.playSoon(0);
   }
 
   /** To an impact; one step back from between two impacts is to the one before. */
@@ -369,6 +368,8 @@ class Page {
     byId<HTMLInputElement>("ask-first").checked = false;
     this.remember();
     this.onTime();
+    // Who wants no motion is shown the second blow, of which the guess was.
+    if (matchMedia("(prefers-reduced-motion: reduce)").matches && this.prediction.isWaiting) this.goTo(2);
     this.playSoon();
     byId("play").focus();
   }
@@ -385,8 +386,7 @@ class Page {
     if (this.state.hide.includes("explain") || !this.models.discrete) return;
     const { parameters, impact } = this.state;
     byId("explain-title").textContent = `How impact ${impact} came about`;
-    const request = explainRequest(parameters, impact);
-    this.explaining.ask(request, null);
+    this.explaining.ask(explainRequest(parameters, impact), null);
   }
 
   private remember(): void {

@@ -10,12 +10,14 @@ import { fixed } from "./format";
 import { anglesRequest, keyOf } from "./requests";
 
 type Curve = "beta_deg" | "gamma_deg";
+/** Where a curve ends or begins again. */
 interface Fold {
   curve: Curve;
+  /** The last angle before it [°], and how far the next one of the data is. */
   theta: number;
-  value: number;
-  /** Distance to the next angle of the data, at which there is no such impact any more. */
   resolution: number;
+  value: number;
+  ends: boolean;
 }
 
 const MAP_RANGE = { from: 0, to: 90, count: 91 } as const;
@@ -52,13 +54,12 @@ export class AngleMap {
       let { rows } = await ask<AnglesAnswer>(request);
       if (!isNewest()) return;
       this.draw(rows);
-      for (const curve of ["beta_deg", "gamma_deg"] as const) {
-        for (let fold = foldOf(rows, curve); fold && fold.resolution > RESOLVED; fold = foldOf(rows, curve)) {
-          const closer = anglesRequest(gravity, e, fold.theta, fold.theta + fold.resolution, REFINED);
-          const answer = await ask<AnglesAnswer>(closer);
-          if (!isNewest()) return;
-          rows = merge(rows, answer.rows);
-        }
+      const coarse = (): Fold | undefined => foldsOf(rows).find(({ resolution }) => resolution > RESOLVED);
+      for (let fold = coarse(); fold; fold = coarse()) {
+        const closer = anglesRequest(gravity, e, fold.theta, fold.theta + fold.resolution, REFINED);
+        const answer = await ask<AnglesAnswer>(closer);
+        if (!isNewest()) return;
+        rows = merge(rows, answer.rows);
       }
       this.draw(rows);
     } catch {
@@ -74,7 +75,7 @@ export class AngleMap {
 
   private draw(rows: AngleRow[]): void {
     this.rows = rows;
-    this.folds = (["beta_deg", "gamma_deg"] as const).flatMap((curve) => foldOf(rows, curve) ?? []);
+    this.folds = foldsOf(rows);
     const data = [rows.map((r) => r.theta_deg), rows.map((r) => r.beta_deg), rows.map((r) => r.gamma_deg)] as uPlot.AlignedData;
     if (this.plot) this.plot.setData(data);
     else this.plot = this.build(data);
@@ -122,16 +123,14 @@ function colourOf(curve: Curve): string {
   return curve === "beta_deg" ? COLOURS.beta : COLOURS.gamma;
 }
 
-/** Where a curve ends: its last angle with such an impact, if there are angles beyond it. */
-function foldOf(rows: AngleRow[], curve: Curve): Fold | null {
-  for (let i = rows.length - 2; i >= 0; i--) {
-    const row = rows[i];
-    const next = rows[i + 1];
-    if (!row || !next || row[curve] === null) continue;
-    if (next[curve] !== null) return null;
-    return { curve, theta: row.theta_deg, value: row[curve], resolution: next.theta_deg - row.theta_deg };
-  }
-  return null;
+/** All of them; at 0° both ends strike at once, and nothing begins. */
+function foldsOf(rows: AngleRow[]): Fold[] {
+  return (["beta_deg", "gamma_deg"] as const).flatMap((curve) => rows.slice(0, -1).flatMap((row, i) => {
+    const next = rows[i + 1] as AngleRow;
+    const ends = row[curve] !== null;
+    if (ends === (next[curve] !== null) || row.theta_deg === 0) return [];
+    return [{ curve, theta: row.theta_deg, resolution: next.theta_deg - row.theta_deg, value: row[curve] ?? next[curve] ?? 0, ends }];
+  }));
 }
 
 function decimalsOf({ resolution }: Fold): number {
@@ -139,7 +138,8 @@ function decimalsOf({ resolution }: Fold): number {
 }
 
 function foldInWords(fold: Fold): string {
-  const which = fold.curve === "beta_deg" ? "the other end does not strike second" : "the first end does not strike third";
+  const not = fold.ends ? "does not strike" : "strikes again as the";
+  const which = fold.curve === "beta_deg" ? `the other end ${not} second` : `the first end ${not} third`;
   return `Beyond ${fixed(fold.theta, decimalsOf(fold))}° ${which}.`;
 }
 

@@ -9,7 +9,7 @@ import { byId, make } from "./dom";
 import { significant } from "./format";
 import tracked from "./measured.json";
 import type { Motion } from "./motion";
-import { Replay } from "./replay";
+import { Replay, apart } from "./replay";
 import type { Vector } from "./rotation";
 import { svg } from "./sketch";
 
@@ -78,8 +78,7 @@ export function setUpMeasured(): void {
       const place: Place = [drop.place[0] ?? 0, 0, 0];
       const guess: Place = [place[0] + centre[0], centre[2], inclination];
       put(model, guess, middle);
-      const turned = ((own[2] - guess[2]) * 180) / Math.PI;
-      words.textContent = `off by ${significant(1e3 * Math.hypot(own[0] - guess[0], own[1] - guess[1]), 2)} mm, ${significant(Math.abs(turned - 360 * Math.round(turned / 360)), 2)}°`;
+      words.textContent = apart(Math.hypot(own[0] - guess[0], own[1] - guess[1]), own[2] - guess[2]);
     }
   });
   for (const cell of cells) void predicted(cell.drop).then((motion) => { cell.motion = motion; replay.show(); });

@@ -2,7 +2,7 @@
 // Both models' answers to the situation, and the motions that follow from them.
 import type { Impact, SequenceAnswer, SimulateAnswer } from "./answers";
 import { Latest, type ApiError } from "./api";
-import { CONTINUOUS_RADIUS, uniformBody, type Body } from "./body";
+import { CONTINUOUS_RADIUS, seenAngle, uniformBody, type Body } from "./body";
 import { ContinuousMotion } from "./continuous_motion";
 import { DiscreteMotion } from "./discrete_motion";
 import type { Motions } from "./frame";
@@ -51,6 +51,15 @@ export class Models {
 
   ask(parameters: Parameters): void {
     this.sequence.ask(sequenceRequest(parameters), { ...parameters });
+    this.askContinuous(parameters);
+  }
+
+  /** The continuous model takes too long for who waits; it can be asked for again. */
+  leaveContinuous(): void {
+    this.simulation.leave();
+  }
+
+  askContinuous(parameters: Parameters): void {
     this.simulation.ask(simulateRequest(parameters), { ...parameters });
   }
 
@@ -83,11 +92,11 @@ export class Models {
     const key = keyOf(simulateRequest(parameters));
     this.events.onError("discrete", null);
     if (this.refusedOf !== key) this.events.onError("continuous", null);
-    this.discrete = answer;
     const body = { ...bodyOf(parameters), ...answer.body };
+    this.discrete = { ...answer, impacts: answer.impacts.map((impact) => asSeen(body, impact)) };
     this.body = body;
     this.motions.discrete = answer.impacts.length
-      ? new DiscreteMotion(body, answer.impacts, parameters.gravity, spinOf(parameters)) : null;
+      ? new DiscreteMotion(body, this.discrete.impacts, parameters.gravity, spinOf(parameters)) : null;
     if (this.continuousOf !== key) {
       // What the other model said belongs to another situation.
       this.motions.continuous = null;
@@ -100,7 +109,7 @@ export class Models {
     this.continuousOf = keyOf(simulateRequest(parameters));
     this.events.onError("continuous", null);
     const given = bodyOf(parameters);
-    const impacts = answer.impacts.map((impact) => named(given, impact, isInPlane(parameters)));
+    const impacts = answer.impacts.map((impact) => asSeen(given, named(given, impact, isInPlane(parameters))));
     this.continuous = { ...answer, impacts };
     this.motions.continuous = answer.history.t.length > 1
       ? new ContinuousMotion(
@@ -113,6 +122,10 @@ export class Models {
 function named(body: Body, { corners: _both, ...impact }: Impact, inPlane: boolean): Impact {
   // In space an end is not enough to say what strikes.
   return inPlane ? { ...impact, end: endInPlane(body, impact) } : { ...impact, corners: struckNames(body, impact) };
+}
+
+function asSeen(body: Body, impact: Impact): Impact {
+  return { ...impact, program_angle_deg: impact.contact_angle_deg, contact_angle_deg: seenAngle(body, impact.contact_angle_deg) };
 }
 
 function continuousBody(body: Body): Body {

@@ -2,7 +2,8 @@
 // Which moments of the two models may stand beside each other: never one before its blow beside one after it.
 import type { Impact } from "./answers";
 import { fixed } from "./format";
-import type { ModelName, Motions } from "./frame";
+import { MODELS, type ModelName, type Motions } from "./frame";
+import { shownTime } from "./motion";
 import type { Pairing } from "./pairing";
 
 export interface Moment {
@@ -23,8 +24,9 @@ function counts(impacts: readonly Impact[], time: number): { begun: number; over
 
 export function momentAt({ discrete, continuous }: Motions, pairing: Pairing | null, time: number): Moment {
   const at = `${fixed(time * 1e3, 2)} ms`;
-  // Past the end of its history the continuous model has no numbers.
-  const times = { discrete: discrete && time, continuous: continuous && time <= continuous.end ? time : null };
+  const times = { discrete: discrete && shownTime(discrete, time), continuous: continuous && shownTime(continuous, time) };
+  const ended = MODELS.filter((model) => times[model] !== null && times[model] < time - 1e-12);
+  if (ended.length) return { title: `At ${at}: the ${ended.join(" and the ")} model ends here`, times, comparable: false };
   if (!discrete || !continuous || !pairing) return { title: `At ${at}`, times, comparable: false };
   const [a, b] = [counts(discrete.impacts, time), counts(continuous.impacts, time)];
   const n = Math.max(a.begun, b.begun);

@@ -38,6 +38,15 @@ export interface Motion {
   energies(time: number): Energies;
 }
 
+/** The time of a model that may be shown: it stops at its end. */
+export function shownTime({ end }: Motion, time: number): number {
+  return Math.min(time, end);
+}
+
+export function hasEnded({ end }: Motion, time: number): boolean {
+  return time > end + 1e-12;
+}
+
 /** Where the middle of an end is, and how fast it moves. */
 export function endMotion(body: Body, pose: Pose, end: "a" | "b"): { place: Vector; velocity: Vector } {
   return pointMotion(body, pose, [end === "a" ? -body.length / 2 : body.length / 2, 0, 0]);

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The numbers of the picture: both models at the moment that is shown, aligned by blow, and what lies between them.
+import { seenAngle } from "./body";
 import { byId, make } from "./dom";
 import { fixed } from "./format";
 import type { Motions } from "./frame";
-import { momentAt } from "./moment";
+import type { Moment } from "./moment";
 import { endMotion, type Motion } from "./motion";
-import type { Pairing } from "./pairing";
 
 interface Shown {
   title: string;
@@ -20,7 +20,7 @@ const DEGREES = 180 / Math.PI;
 
 const QUANTITIES: readonly Shown[] = [
   { title: "Centre’s height", unit: "mm", decimals: 2, of: (m, t) => m.pose(t).centre[2] * 1e3 },
-  { title: "Inclination", unit: "°", decimals: 3, of: (m, t) => m.pose(t).inclination * DEGREES, turn: 360 },
+  { title: "Inclination", unit: "°", decimals: 3, of: (m, t) => seenAngle(m.body, m.pose(t).inclination * DEGREES), turn: 360 },
   { title: "Velocity, up", unit: "m/s", decimals: 4, of: (m, t) => m.pose(t).velocity[2] },
   { title: "Spin", unit: "rad/s", decimals: 4, of: (m, t) => m.pose(t).spin[1] },
   { title: "Speed of end a", unit: "m/s", decimals: 4, of: (m, t) => Math.hypot(...endMotion(m.body, m.pose(t), "a").velocity) },
@@ -37,9 +37,7 @@ export class Numbers {
     byId("numbers-table").append(make("thead", {}, make("tr", {}, ...head)), make("tbody", {}, ...rows));
   }
 
-  show(motions: Motions, pairing: Pairing | null, time: number): void {
-    const { discrete, continuous } = motions;
-    const { title, times, comparable } = momentAt(motions, pairing, time);
+  show({ discrete, continuous }: Motions, { title, times, comparable }: Moment): void {
     byId("numbers-title").textContent = title;
     QUANTITIES.forEach(({ decimals, of: value, turn }, i) => {
       const of = (motion: Motion, at: number): number => within(value(motion, at), turn);

@@ -12,6 +12,50 @@ export function hidePanels(state: State): void {
   document.body.classList.toggle("no-controls", state.hide.includes("controls"));
 }
 
+/** One panel at a time, or all of them; on paper all. */
+export class Tabs {
+  private readonly buttons = [...document.querySelectorAll<HTMLButtonElement>("#tabs button")];
+
+  constructor(private readonly state: State, private readonly onChoose: () => void) {
+    for (const button of this.buttons) {
+      button.hidden = state.hide.includes(button.dataset["tab"] ?? "");
+      button.addEventListener("click", () => this.choose(button.dataset["tab"] ?? ""));
+    }
+    this.show();
+  }
+
+  /** A panel that says nothing of this situation is not offered. */
+  setUsable(panel: string, isUsable: boolean): void {
+    byId(`panel-${panel}`).classList.toggle("unused", !isUsable);
+    for (const button of this.buttons) if (button.dataset["tab"] === panel) button.hidden = !isUsable || this.state.hide.includes(panel);
+    if (!isUsable && this.state.tab === panel) this.choose("strip");
+  }
+
+  private choose(tab: string): void {
+    this.state.tab = tab;
+    this.show();
+    this.onChoose();
+  }
+
+  private show(): void {
+    const { tab } = this.state;
+    for (const button of this.buttons) button.setAttribute("aria-pressed", String(button.dataset["tab"] === tab));
+    for (const panel of document.querySelectorAll<HTMLElement>("#results > section")) {
+      panel.classList.toggle("aside", tab !== "all" && panel.dataset["tab"] !== tab);
+    }
+  }
+}
+
+/** On a narrow screen what is not always needed opens by a button. */
+export function setUpOpening(): void {
+  for (const button of document.querySelectorAll<HTMLButtonElement>("button[data-opens]")) {
+    button.addEventListener("click", () => {
+      const isOpen = byId(button.dataset["opens"] ?? "").classList.toggle("open");
+      button.setAttribute("aria-expanded", String(isOpen));
+    });
+  }
+}
+
 /** @return shows the layout of the state */
 export function setUpLayout(state: State, onChange: () => void): () => void {
   const buttons = [...document.querySelectorAll<HTMLButtonElement>("button[data-layout]")];
@@ -31,22 +75,28 @@ export function setUpLayout(state: State, onChange: () => void): () => void {
   return show;
 }
 
+const SHEETS = ["handout", "lesson", "exercises"];
+
 /**
- * All of it, or one page for a class: the drop, its blows and questions, with the picture before the drop.
+ * All of it; or a page for a class: the drop, its blows and questions, with the picture before the drop; or a sheet of words alone.
  * @param moment the chosen impact and the time of the picture
  * @param put shows them
  */
 export function setUpPrinting(moment: () => [number, number], put: (n: number, time: number) => void): void {
   let before: [number, number] | null = null;
   byId("print").addEventListener("click", () => print());
-  byId("handout-print").addEventListener("click", () => {
-    before = moment();
-    put(1, -Infinity);
-    document.body.classList.add("handout");
-    print();
-  });
+  for (const sheet of SHEETS) {
+    byId(`${sheet}-print`).addEventListener("click", () => {
+      document.body.classList.add(sheet);
+      if (sheet === "handout") {
+        before = moment();
+        put(1, -Infinity);
+      }
+      print();
+    });
+  }
   addEventListener("afterprint", () => {
-    document.body.classList.remove("handout");
+    document.body.classList.remove(...SHEETS);
     if (before) put(...before);
     before = null;
   });

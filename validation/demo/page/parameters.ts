@@ -77,6 +77,14 @@ export function isInPlane(parameters: Parameters): boolean {
   return turned && moved && !("centre" in extra) && !("inertia" in extra);
 }
 
+/** A thin rod without friction that comes straight down: its angles follow from G and e alone. */
+export function isThinRod(parameters: Parameters): boolean {
+  const { body, radius, friction, ofGround, drop, vx, spinning, turn, extra } = parameters;
+  const isThin = body === "rod" || (body === "own-rod" && radius === 0);
+  const comesDown = !spinning && !(drop === "velocity" && vx !== 0) && (turn === "plane" || turn === "tilted");
+  return isThin && friction === 0 && !ofGround && comesDown && isInPlane(parameters) && Object.keys(extra).length === 0;
+}
+
 /** Chooses a body; one's own starts with sizes that make sense for its shape. */
 export function setBody(parameters: Parameters, name: BodyName): void {
   parameters.body = name;

@@ -3,13 +3,13 @@
 import type { History } from "./answers";
 import { byId } from "./dom";
 import { significant } from "./format";
-import type { Motion } from "./motion";
+import { hasEnded, shownTime, type Motion } from "./motion";
 import { patchOf } from "./patch";
 import { svg } from "./sketch";
 
 /** The largest extent of all patches of a run, so that they are drawn in one scale. */
 function largestOf(motion: Motion, { t, in_contact: touches }: History): number {
-  return Math.max(0, ...t.map((time, i) => (touches[i] ? Math.max(...(patchOf(motion.body, motion.pose(time))?.size ?? [0])) : 0)));
+  return t.reduce((most, time, i) => (touches[i] ? Math.max(most, ...(patchOf(motion.body, motion.pose(time))?.size ?? [])) : most), 0);
 }
 
 const largest = new WeakMap<Motion, number>();
@@ -17,9 +17,9 @@ const SIDE = 120;
 
 /** The patch from above, and its size in words. */
 export function showPatch(motion: Motion | null, history: History | null, time: number): void {
-  const patch = motion && time >= 0 && time <= motion.end ? patchOf(motion.body, motion.pose(time)) : null;
-  byId("patch-words").textContent = patch
-    ? `${significant(patch.size[0] * 1e3, 3)} × ${significant(patch.size[1] * 1e3, 3)} mm, ${significant(patch.depth * 1e3, 3)} mm deep` : "nothing touches now";
+  const patch = motion && time >= 0 ? patchOf(motion.body, motion.pose(shownTime(motion, time))) : null;
+  byId("patch-words").textContent = (motion && hasEnded(motion, time) ? "the model ends here; " : "") + (patch
+    ? `${significant(patch.size[0] * 1e3, 3)} × ${significant(patch.size[1] * 1e3, 3)} mm, ${significant(patch.depth * 1e3, 3)} mm deep` : "nothing touches now");
   if (!motion || !history) return;
   const whole = largest.get(motion) ?? largestOf(motion, history);
   largest.set(motion, whole);

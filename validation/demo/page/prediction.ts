@@ -43,6 +43,11 @@ export class Prediction {
     });
   }
 
+  /** Whether a guess was made of a second blow that has not been seen. */
+  get isWaiting(): boolean {
+    return this.waits;
+  }
+
   get isOpen(): boolean {
     return !this.card.hidden;
   }

@@ -47,9 +47,9 @@ export function showProfile(motion: Motion | null, n: number): void {
     const other = lines[name === "after" ? "before" : "after"];
     picture.append(label(LEFT - 8, Number(y(a)) + shift(a, other[0]), "end", a, name), label(RIGHT + 8, Number(y(b)) + shift(b, other[1]), "start", b, name));
   }
-  for (const [x, end] of [[LEFT, names[0]], [RIGHT, names[1]]] as const) {
-    const text = svg("text", { x, y: HEIGHT - 6, "text-anchor": "middle", class: "end" });
-    text.textContent = end;
+  for (const [x, y0, words] of [[LEFT, HEIGHT - 6, names[0]], [RIGHT, HEIGHT - 6, names[1]], [WIDTH / 2, 14, "velocity upwards in m/s"]] as const) {
+    const text = svg("text", { x, y: y0, "text-anchor": "middle", class: "end" });
+    text.textContent = words;
     picture.append(text);
   }
   box.replaceChildren(picture);

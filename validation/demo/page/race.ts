@@ -5,10 +5,9 @@ import { ask } from "./api";
 import { BODIES, uniformBody } from "./body";
 import { DiscreteMotion } from "./discrete_motion";
 import { byId, make } from "./dom";
-import { significant } from "./format";
 import type { Motion } from "./motion";
 import recorded from "./race.json";
-import { Replay } from "./replay";
+import { Replay, apart } from "./replay";
 import { svg } from "./sketch";
 
 const { drop, step, runs } = recorded;
@@ -38,18 +37,21 @@ function put(line: SVGElement, [height, angle]: Place): void {
 
 export function setUpRace(): void {
   let motion: Motion | null = null;
-  const cells = runs.map((run) => ({ run, exact: svg("line", { class: "exact" }), own: svg("line", { class: "own" }) }));
-  byId("race-cells").append(...cells.map(({ run, exact, own }) => {
+  const cells = runs.map((run) => ({ run, words: make("span"), exact: svg("line", { class: "exact" }), own: svg("line", { class: "own" }) }));
+  byId("race-cells").append(...cells.map(({ run, words, exact, own }) => {
     const picture = svg("svg", { viewBox: `0 0 ${WIDTH} 66`, "aria-hidden": "true" });
     picture.append(svg("line", { x1: 4, x2: WIDTH - 4, y1: FLOOR, y2: FLOOR, class: "ground" }), exact, own);
-    return make("li", { title: `Version ${run.version}: ${run.settings}` }, make("b", {}, run.name), picture, make("span", {}, `keeps ${significant(100 * run.energy, 2)} % of its energy`));
+    return make("li", { title: `Version ${run.version}: ${run.settings}` }, make("b", {}, run.name), picture, words);
   }));
   const replay = new Replay("race", END, SLOWER, (time) => {
     // The recorded runs begin above the ground.
     const pose = motion?.pose(time - drop.gap / drop.speed);
-    for (const { run, exact, own } of cells) {
-      if (pose) put(exact, [pose.centre[2], pose.inclination]);
-      put(own, placeOf(run, time));
+    for (const { run, words, exact, own } of cells) {
+      const [height, angle] = placeOf(run, time);
+      put(own, [height, angle]);
+      if (!pose) continue;
+      put(exact, [pose.centre[2], pose.inclination]);
+      words.textContent = apart(height - pose.centre[2], angle - pose.inclination);
     }
   });
   void ask<SequenceAnswer>({ path: "sequence", body: { angle: drop.angle, speed: drop.speed } }).then(({ impacts }) => {

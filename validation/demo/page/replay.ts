@@ -1,7 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Small pictures side by side that a slider moves through time, by hand or by itself: `ID-time`, `ID-play`, `ID-now`.
 import { byId } from "./dom";
-import { fixed } from "./format";
+import { fixed, significant } from "./format";
+
+/** How far one place is from the other [m, rad]. */
+export function apart(distance: number, turn: number): string {
+  const turned = (turn * 180) / Math.PI;
+  return `off by ${significant(1e3 * Math.abs(distance), 2)} mm, ${significant(Math.abs(turned - 360 * Math.round(turned / 360)), 2)}°`;
+}
 
 export class Replay {
   private readonly slider: HTMLInputElement;

@@ -13,6 +13,9 @@ export interface Request {
 /** Digits asked of the continuous model: what the table shows, and a time history of moderate length. */
 export const CONTINUOUS_DIGITS = 4;
 
+/** Of contact forces, at most, about a second: a body that gravity keeps on a damped ground would be followed for minutes. */
+const EVALUATIONS = 100_000;
+
 /** A request as one text: the path, a blank, and the body with its keys sorted. */
 export function keyOf({ path, body }: Request): string {
   return `${path} ${canonical(body)}`;
@@ -40,7 +43,7 @@ export function explainRequest(parameters: Parameters, impact: number): Request 
 
 export function simulateRequest(parameters: Parameters): Request {
   const body = { ...drop(parameters), ...shape(parameters), ...ground(parameters) };
-  const run = { digits: CONTINUOUS_DIGITS, planar: parameters.planar && isInPlane(parameters), history: true };
+  const run = { digits: CONTINUOUS_DIGITS, planar: parameters.planar && isInPlane(parameters), history: true, evaluation_limit: EVALUATIONS };
   // A law that relates a coefficient goes with it, in the scene of either model.
   const law = "restitution_law" in parameters.extra ? { restitution: parameters.e } : {};
   return { path: "simulate", body: { ...body, ...run, ...law, ...parameters.extra } };

@@ -5,10 +5,13 @@ import { attitudeOf } from "./attitude";
 import { centreHeight } from "./body";
 import { bodyOf, type Parameters } from "./parameters";
 
+/** The least coefficient of restitution that the page gives the ground a damping for. */
+export const LEAST = 0.05;
+
 function dampingFor(e: number, stiffness: number, speed: number): number {
   if (!(e < 1) || !(speed > 0)) return 0;
   // The relation has its root below 1/e; at e = 0 damping would have to be infinite.
-  const wanted = Math.max(e, 0.05);
+  const wanted = Math.max(e, LEAST);
   let low = 1e-9;
   let high = (1 - 1e-12) / wanted;
   for (let i = 0; i < 100; i++) {

@@ -92,5 +92,6 @@ export class SceneFile {
     this.said.textContent = done;
     this.error.textContent = wrong;
     this.error.hidden = wrong === "";
+    if (wrong) this.error.scrollIntoView({ block: "center" });
   }
 }

@@ -27,7 +27,7 @@ export const SCENES: readonly Scene[] = [
   scene("phone-corner", "Phone on its corner", "phone", {
     ...PHONE, turn: "tilted", angle: 30, tilt: 40, friction: 0.075, damping: 1e7, impacts: 3,
   }),
-  scene("coin", "Coin, nearly flat", "coin", { ...FALL, height: 0.1, angle: 80, e: 0.6, stiffness: 1e12 }),
+  scene("coin", "Coin, nearly flat", "coin", { ...FALL, height: 0.1, angle: 87, e: 0.6, stiffness: 1e12 }),
   scene("tube", "Tube with lids", "tube", { ...FALL, height: 0.3, angle: 15, e: 0.6, stiffness: 1e9 }),
   scene("die", "Die on its corner", "die", { ...FALL, turn: "tilted", height: 0.2, angle: 35, tilt: 30, e: 0.5, friction: 0.25, stiffness: 1e12, impacts: 3 }),
   scene("plate", "Steel plate", "plate", { ...FALL, height: 0.2, angle: 6, e: 0.4, stiffness: 1e11 }),

@@ -20,8 +20,9 @@ export function setUpSharing(state: State, sync: () => void, onAskFirst: (asks: 
     const link = addressOf(state);
     // Where a browser does not let a page write to the clipboard, the link is shown instead.
     void copyText(link).then((copied) => {
-      done.textContent = copied ? "Link copied" : link;
-      setTimeout(() => { done.textContent = ""; }, copied ? 2500 : 20_000);
+      const isLocal = location.protocol === "file:";
+      done.textContent = !copied ? link : isLocal ? "Link copied: it opens this file on this computer. For others save the page" : "Link copied";
+      setTimeout(() => { done.textContent = ""; }, copied && !isLocal ? 2500 : 20_000);
     });
   });
   byId("save-page").addEventListener("click", () => {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A small picture of a body at a touch, drawn in lines: parallel projection, seen from the right, the front and above.
 import { middleOf, type Body } from "./body";
-import { COLOURS } from "./colours";
 import type { ModelName } from "./frame";
 import { facesOf } from "./outline";
 import { plus, type Rotation, type Vector } from "./rotation";
@@ -72,7 +71,7 @@ function shadeOf(face: readonly Vector[]): string {
 function blow({ impulse, strongest, model }: Touch, at: (place: Vector) => string, scale: number): SVGElement {
   const length = strongest > 0 ? (0.42 * SPAN) / scale / strongest : 0;
   const tip = plus([0, 0, 0], impulse, length);
-  return svg("path", { d: `M${at([0, 0, 0])}L${at(tip)}`, class: "blow", stroke: COLOURS.blow[model], "marker-end": `url(#tip-${model})` });
+  return svg("path", { d: `M${at([0, 0, 0])}L${at(tip)}`, class: "blow", "marker-end": `url(#tip-${model})` });
 }
 
 export function svg<Tag extends keyof SVGElementTagNameMap>(tag: Tag, attributes: Record<string, string | number>): SVGElementTagNameMap[Tag] {

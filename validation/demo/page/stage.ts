@@ -26,6 +26,10 @@ export class Stage {
     return this.view.project("discrete", place, this.frame?.side ?? false);
   }
 
+  get shown(): Frame | null {
+    return this.frame;
+  }
+
   redraw(): void {
     if (this.frame) this.view.draw(this.frame, this.orbit);
   }

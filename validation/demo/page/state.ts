@@ -25,6 +25,8 @@ export interface State {
   fan: boolean;
   lock: string[];
   hide: string[];
+  /** The panel below the picture, or "all". */
+  tab: string;
 }
 
 export const RATES = [0.25, 0.5, 1, 2] as const;
@@ -38,14 +40,14 @@ export function usualLayout(parameters: Parameters): State["layout"] {
 function defaultState(): State {
   return {
     parameters: { ...DEFAULT_PARAMETERS }, impact: 1, time: 0, layout: "overlay", rate: 1, slow: true, predict: true, tremor: 0.5, fan: false,
-    lock: [], hide: [],
+    lock: [], hide: [], tab: "strip",
   };
 }
 
 /** Of a scene's arguments without a control: their names in a link begin so. */
 const EXTRA = "with.";
 /** What a link says of the view, not of the situation. */
-const VIEW = ["impact", "t", "layout", "rate", "slow", "predict", "tremor", "fan", "lock", "hide", "given"];
+const VIEW = ["impact", "t", "layout", "rate", "slow", "predict", "tremor", "fan", "lock", "hide", "tab", "given"];
 
 /** The choice without which a quantity would not be the one that counts. */
 function choiceOf(quantity: Quantity): keyof Choices | null {
@@ -88,6 +90,7 @@ function toQuery(state: State): string {
   if (state.tremor !== 0.5) query.set("tremor", String(state.tremor));
   if (state.fan) query.set("fan", "1");
   if (state.lock.length) query.set("lock", state.lock.join(","));
+  if (state.tab !== "strip") query.set("tab", state.tab);
   if (state.hide.length) query.set("hide", state.hide.join(","));
   return query.toString().replace(/%2C/g, ",");
 }
@@ -134,6 +137,7 @@ export function stateOf(text: string): State {
   state.fan = query.get("fan") === "1";
   state.lock = list("lock");
   state.hide = list("hide");
+  state.tab = [...PANELS, "all"].find((tab) => tab === query.get("tab")) ?? "strip";
   return state;
 }
 

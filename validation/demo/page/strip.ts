@@ -2,17 +2,15 @@
 // The sequence of impacts as a strip of pictures: the discrete model's above, those of the continuous one below.
 import type { Impact } from "./answers";
 import { lowestPlace } from "./body";
-import { COLOURS } from "./colours";
 import { touchRotation } from "./discrete_motion";
 import { byId, make } from "./dom";
 import { significant } from "./format";
-import type { ModelName, Motions } from "./frame";
+import { MODELS, type ModelName, type Motions } from "./frame";
 import type { Motion } from "./motion";
 import type { Pairing } from "./pairing";
 import { sketch, svg } from "./sketch";
 import { cornersInWords } from "./words";
 
-const MODELS = ["discrete", "continuous"] as const;
 /** More pictures than these nobody looks at; they are as many as the page's own slider asks for. */
 const MOST = 20;
 
@@ -66,6 +64,6 @@ export class Strip {
 
 function arrowHead(model: ModelName): SVGElement {
   const marker = svg("marker", { id: `tip-${model}`, viewBox: "0 0 6 6", refX: 4, refY: 3, markerWidth: 4, markerHeight: 4, orient: "auto" });
-  marker.append(svg("path", { d: "M0,0L6,3L0,6Z", fill: COLOURS.blow[model] }));
+  marker.append(svg("path", { d: "M0,0L6,3L0,6Z" }));
   return marker;
 }

@@ -4,7 +4,7 @@ import type { Bars, Impact } from "./answers";
 import { cut, digitsLeft, withKinds } from "./digits";
 import { byId, make } from "./dom";
 import { significant } from "./format";
-import type { ModelName } from "./frame";
+import { MODELS, type ModelName } from "./frame";
 import type { Impacts } from "./models";
 import { growth, type Pairing } from "./pairing";
 import { CONTINUOUS_DIGITS } from "./requests";
@@ -32,8 +32,6 @@ const COLUMNS: readonly Column[] = [
 ];
 
 const DIGITS: Readonly<Record<ModelName, number>> = { discrete: 6, continuous: CONTINUOUS_DIGITS };
-
-const MODELS = ["discrete", "continuous"] as const;
 
 export class ImpactTable {
   private readonly table = byId("impact-table");
@@ -135,7 +133,7 @@ function lossWithoutRounding({ energy_loss, energy_before }: Impact): number {
 const CSV: readonly [string, (impact: Impact) => number | string | null][] = [
   ["n", (i) => i.n], ["end", (i) => i.end], ["corners", (i) => i.corners ?? ""],
   ["predictable", (i) => String(i.predictable !== false)], ["start_s", (i) => i.start], ["duration_s", (i) => i.duration],
-  ["inclination_deg", (i) => i.inclination_deg], ["contact_angle_deg", (i) => i.contact_angle_deg],
+  ["inclination_deg", (i) => i.inclination_deg], ["contact_angle_deg", (i) => i.program_angle_deg ?? i.contact_angle_deg],
   ["approach_speed_m_s", (i) => i.approach_speed], ["restitution", (i) => i.restitution],
   ["impulse_normal_N_s", (i) => i.impulse_normal], ["impulse_tangential_N_s", (i) => i.impulse_tangential],
   ["peak_force_N", (i) => i.peak_force], ["velocity_x_m_s", (i) => i.velocity_after[0]], ["velocity_y_m_s", (i) => i.velocity_after[1]],
@@ -146,7 +144,7 @@ const CSV: readonly [string, (impact: Impact) => number | string | null][] = [
 
 /** All digits that the program gave; a number that a model does not have is empty. */
 export function csvOf(impacts: Impacts): string {
-  const rows = (["discrete", "continuous"] as const).flatMap((model) =>
+  const rows = MODELS.flatMap((model) =>
     (impacts[model] ?? []).map((impact) => [model, ...CSV.map(([, value]) => value(impact) ?? "")].join(",")));
   return [["model", ...CSV.map(([name]) => name)].join(","), ...rows].join("\n") + "\n";
 }

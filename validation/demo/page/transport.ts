@@ -25,7 +25,7 @@ export class Transport {
   private readonly pace = byId("pace");
 
   constructor(private readonly actions: TransportActions) {
-    this.rate.append(...RATES.map((rate) => make("option", { value: rate }, rate === 1 ? "as it is" : `${rate === 0.25 ? "¼" : rate === 0.5 ? "½" : rate} times`)));
+    this.rate.append(...RATES.map((rate) => make("option", { value: rate }, rate === 1 ? "usual" : `${rate === 0.25 ? "¼" : rate === 0.5 ? "½" : rate} times`)));
     this.play.addEventListener("click", () => actions.toggle());
     byId("real").addEventListener("click", () => actions.playReal());
     byId("previous").addEventListener("click", () => actions.step(-1));

@@ -1,23 +1,22 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The picture in space, drawn by the graphics card.
 import {
-  AmbientLight, BufferGeometry, Color, DirectionalLight, DoubleSide, Float32BufferAttribute, Group, LineBasicMaterial, LineSegments, Mesh,
-  MeshBasicMaterial, PerspectiveCamera, Scene, Vector3, WebGLRenderer,
+  AmbientLight, BufferGeometry, Color, DirectionalLight, DoubleSide, Float32BufferAttribute, Group, LineBasicMaterial, LineSegments, Material,
+  Mesh, MeshBasicMaterial, PerspectiveCamera, Scene, Vector3, WebGLRenderer,
 } from "three";
 import { ArrowMesh } from "./arrow_mesh";
 import { extentOf, middleOf, type Body } from "./body";
 import { COLOURS } from "./colours";
-import type { Arc, Arrow, Bounds, Frame, ModelName } from "./frame";
-import type { Pose } from "./motion";
+import { MODELS, type Arc, type Arrow, type Bounds, type Frame, type ModelName } from "./frame";
 import { STRAIGHT, type Orbit } from "./orbit";
 import type { Projection, View } from "./picture";
 import { figureOf, geometryOf, silhouetteOf } from "./shapes";
 import type { Vector } from "./rotation";
 
-const MODELS: readonly ModelName[] = ["discrete", "continuous"];
 const FIELD_OF_VIEW = 24; // degrees, upright
-/** Of the camera over the ground, and around the picture [rad]: in space from where three faces of a box are seen. */
-const PLANE = { elevation: 0.16, azimuth: -0.14 };
+const PALE = 0.35; // a model past its end
+/** Of the camera over the ground, and around the picture [rad]: straight from the side, in space from where three faces of a box are seen. */
+const PLANE = { elevation: 0, azimuth: 0 };
 const SPACE = { elevation: 0.34, azimuth: -0.3 };
 
 /** Made once: a new one for each body would be compiled anew. */
@@ -81,7 +80,7 @@ export class SpaceView implements View {
     for (const model of MODELS) {
       const figure = frame.figures.find((f) => f.model === model);
       this.layers[model].visible = figure !== undefined;
-      if (figure) this.place(model, figure.body, figure.pose);
+      if (figure) this.place(model, figure);
       this.placeGhosts(model, frame.ghosts.filter((ghost) => ghost.model === model));
       this.placeArrows(model, frame.arrows.filter((arrow) => arrow.model === model));
     }
@@ -140,12 +139,15 @@ export class SpaceView implements View {
     this.camera.updateMatrixWorld();
   }
 
-  private place(model: ModelName, body: Body, pose: Pose): void {
+  private place(model: ModelName, { body, pose, isOver = false }: Frame["figures"][number]): void {
     const figure = this.figures[model];
     if (figure.of === null || JSON.stringify(figure.of) !== JSON.stringify(body)) {
       figure.of = body;
       rebuild(figure, model, body);
     }
+    figure.group.traverse((part) => {
+      if (part instanceof Mesh) Object.assign(part.material as Material, { transparent: isOver || model === "continuous", opacity: isOver ? PALE : 1 });
+    });
     const [w, x, y, z] = pose.rotation;
     const middle = middleOf(body, pose.centre, pose.rotation);
     figure.group.position.set(...middle);

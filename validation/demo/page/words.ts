@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Impacts in words: the line below the picture, which a screen reader reads aloud.
 import type { Impact } from "./answers";
-import { BODIES, type BodyName } from "./body";
+import { BODIES, seenAngle, type BodyName } from "./body";
 import { significant } from "./format";
 import type { Parameters } from "./parameters";
+import { LEAST } from "./restitution";
 
 /** What a body is to the models, if that is not what one sees. */
 const BODY_NOTES: Readonly<Partial<Record<BodyName, string>>> = {
   rod: "The rod of the continuous model has a radius of 1 cm.",
   phone: "The phone is a box to both models; its round corners are drawn alone.",
-  coin: "The angle is that of the coin’s axis: at 90° it lies flat. Ends a and b are its faces.",
+  coin: "At 0° the coin lies flat; files and commands count the angle of its axis, which is then 90°. Ends a and b are its faces.",
   tube: "The tube has a thin wall; its lids have no mass.",
 };
 
@@ -19,16 +20,17 @@ export function bodyInWords(body: BodyName): string {
 
 /** What is dropped, in one sentence. */
 export function dropInWords({ body, angle, tilt, turn, drop, height, speed, gravity, e, friction }: Parameters): string {
-  const leans = turn === "plane" || turn === "tilted" ? `, inclined by ${significant(angle, 4)}°${turn === "tilted" ? ` and turned by ${significant(tilt, 4)}° before` : ""}` : "";
+  const leans = turn === "plane" || turn === "tilted" ? `, inclined by ${significant(seenAngle(BODIES[body].size, angle), 4)}°${turn === "tilted" ? ` and turned by ${significant(tilt, 4)}° before` : ""}` : "";
   const falls = drop === "height" ? `, let go ${significant(height, 4)} m above the floor` : drop === "speed" ? `, comes down at ${significant(speed, 4)} m/s` : "";
   const floor = friction > 0 ? `, friction μ = ${significant(friction, 4)}` : "";
   return `${BODIES[body].title}${leans}${falls}. Gravity ${significant(gravity, 4)} m/s², restitution e = ${significant(e, 4)}${floor}.`;
 }
 
 /** On what the continuous model runs, of which the discrete one knows nothing; whether nobody else chose it. */
-export function groundInWords({ stiffness, damping }: Parameters, isOfPage: boolean): string {
+export function groundInWords({ stiffness, damping, follow, e }: Parameters, isOfPage: boolean): string {
   const numbers = `k = ${significant(stiffness, 4)} N/m³, c = ${significant(damping, 4)} N·s/m⁴`;
-  const choice = isOfPage ? ", chosen by the page; c is such that it gives e" : "";
+  const given = follow && e < LEAST ? `e = ${LEAST}, the least that the page gives it` : "e";
+  const choice = isOfPage || given !== "e" ? `${isOfPage ? ", chosen by the page" : ""}; c is such that it gives ${given}` : "";
   return `The continuous model’s ground: ${numbers}${choice}.`;
 }
 
@@ -83,6 +85,7 @@ const OUTCOMES: Readonly<Record<string, string>> = {
   "no-further-impact": "Nothing reaches the ground any more.",
   "impact-limit": "More impacts may follow.",
   "at-rest": "Then it comes to rest.",
+  "evaluation-limit": "The last contact goes on beyond what is computed.",
   "sustained-contact": "Then one end stays down while the body still turns.",
 };
 
