@@ -74,8 +74,6 @@ std::vector<const Key*> flag_keys(Model model) {
   return keys;
 }
 
-const char* const scene_group = "Scene (alone, or each in place of its key in SCENE)";
-
 void add_flag_of(const Key& key, Command& command, SceneFlags& given) {
   if (key.is_truth()) command.add_flag(key.flag, given.truths[key.flag], key.help, scene_group);
   else command.add_text(key.flag, given.texts[key.flag], key.value_type(), key.help, scene_group);

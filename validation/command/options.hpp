@@ -66,6 +66,9 @@ struct SceneFlags {
   std::map<std::string, bool> truths;
 };
 
+/// Heading of their flags in help.
+inline constexpr const char* scene_group = "Scene (alone, or each in place of its key in SCENE)";
+
 /// Adds the argument SCENE.
 void add_scene_argument(Command& command, std::string& source, bool required);
 /// Adds SCENE and the flags of the keys that the model has, but for those of times.

@@ -9,6 +9,7 @@
 #include <set>
 #include <sstream>
 
+#include "validation/command/options.hpp"
 #include "validation/output/bad_input.hpp"
 #include "validation/output/report.hpp"
 #include "validation/output/version.hpp"
@@ -16,6 +17,8 @@
 
 namespace clatter::validation {
 namespace {
+
+constexpr const char* scene_help = "scene";
 
 /// What stands before a command: the program's own options.
 const Command& program_options() {
@@ -55,6 +58,9 @@ const Argument* find_option(const Command& command, const std::string& name) {
   for (const Argument& argument : command.arguments) {
     if (argument.name == name && argument.is_option()) return &argument;
   }
+  const auto is_flag_of_scenes = [&](const Key& key) { return key.flag == name; };
+  if (command.name.empty() && std::any_of(all_keys().begin(), all_keys().end(), is_flag_of_scenes))
+    throw BadInput(fmt::format("{}: a command comes first; did you mean clatter sequence {}?", name, name));
   static const std::set<std::string> of_simulator{"--tolerance", "--step", "--history", "--planar"};
   if (command.name == "sequence" && of_simulator.contains(name))
     throw BadInput(fmt::format("{}: is the simulator's; the discrete model has no such option", name));
@@ -180,16 +186,50 @@ CLI::Option* add_value(CLI::App& app, const Argument& argument, Waiting& waiting
   return option;
 }
 
+bool is_of_scene(const Argument& argument) { return argument.group == scene_group; }
+
+/// Of the flags of scenes, which `clatter help scene` explains, a command's own help has the names.
+std::string scene_words(const Command& command) {
+  std::string names;
+  for (const Argument& argument : command.arguments) {
+    if (is_of_scene(argument)) names += (names.empty() ? "" : ", ") + argument.name;
+  }
+  if (names.empty()) return "";
+  return fmt::format(
+      "Flags of the scene, alone or each in place of its key in SCENE; clatter help scene explains them: {}\n\n",
+      names);
+}
+
 /// CLI11 compares each option with all before it, so that only the command that is called gets its own.
 void add_command(CLI::App& app, const Command& command, bool is_called, Waiting& waiting) {
   CLI::App* part = app.add_subcommand(command.name, command.help);
   if (!is_called) return;
-  part->footer(command.footer);
+  const bool explains_scene = command.name == scene_help;
+  part->footer((explains_scene ? "" : scene_words(command)) + command.footer);
   for (const Argument& argument : command.arguments) {
     CLI::Option* option = add_value(*part, argument, waiting);
-    if (!argument.group.empty()) option->group(argument.group);
+    if (is_of_scene(argument) && !explains_scene) option->group("");
+    else if (!argument.group.empty()) option->group(argument.group);
     if (argument.repeats) option->expected(1)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   }
+}
+
+/// What `clatter help scene` explains, as a command of its own that nobody runs.
+Command explained_scene() {
+  static SceneFlags flags;
+  Command command{.name = scene_help, .help = "the scene of a command: a file, a case, or these flags"};
+  add_scene_flags(command, flags);
+  add_time_flags(command, flags);
+  Command discrete;
+  add_scene_flags(discrete, flags, Model::discrete);
+  for (Argument& argument : discrete.arguments) {
+    const auto is_same = [&](const Argument& other) { return other.name == argument.name; };
+    if (std::none_of(command.arguments.begin(), command.arguments.end(), is_same)) command.add(std::move(argument));
+  }
+  command.footer =
+      "Times are those of sequence and simulate.  clatter keys has each flag's key in a file, its unit and what is "
+      "allowed.";
+  return command;
 }
 
 /// `help NAME` is NAME --help.
@@ -261,6 +301,8 @@ std::string short_help(const std::vector<Command>& commands) {
 
 ParsedLine parse_line(const std::vector<Command>& commands, const std::vector<std::string>& given) {
   if (given.empty()) return {.text = short_help(commands)};
+  if (given == std::vector<std::string>{"help", scene_help})
+    return parse_line({explained_scene()}, {scene_help, "--help"});
   CLI::App app(program_summary, "clatter");
   app.footer(program_notes);
   app.set_help_flag("--help", "print this help and exit");

@@ -19,7 +19,7 @@ inline constexpr const char* program_summary = "impact sequences of falling rigi
 /// What --help says of the program as a whole.
 inline constexpr const char* program_notes = R"(Example: clatter sequence --angle 10
 
-clatter help COMMAND, or clatter COMMAND --help, tells more.
+clatter help COMMAND, or clatter COMMAND --help, tells more; clatter help scene explains the flags of scenes.
 
 Exit status:
   0                    done

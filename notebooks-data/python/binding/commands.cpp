@@ -46,7 +46,7 @@ py::list command_arguments(const std::string& name) {
   py::list rows;
   const Command command = made(name);
   for (const Argument& argument : command.arguments) {
-    if (!argument.is_option() || argument.group.starts_with("Scene")) continue;
+    if (!argument.is_option() || argument.group == validation::scene_group) continue;
     py::dict row;
     row["flag"] = argument.name;
     row["type"] = argument.type;

@@ -91,14 +91,26 @@ class Sources(Folder):
 
     def test_every_flag_of_simulate_that_is_a_key_s_is_in_its_help(self):
         for command in ("sequence", "simulate", "compare"):
-            text = self.run_program(command, "--help").stdout
+            flags = set(re.findall(r"--[a-z][a-z-]*", self.run_program(command, "--help").stdout))
             for key in self.keys():
                 if key["key"] == "run.until_rest":  # of the discrete model alone
-                    self.assertEqual(key["flag"] + " " in text, command == "sequence")
+                    self.assertEqual(key["flag"] in flags, command == "sequence")
                 elif key["key"] in ("run.until", "run.at", "run.rate"):  # of the commands that tell where the body is
-                    self.assertEqual(key["flag"] + " " in text, command != "compare")
-                elif key["flag"] and not (command == "sequence" and key["flag"] not in text):
-                    self.assertIn(key["flag"] + " ", text + " ", command)
+                    self.assertEqual(key["flag"] in flags, command != "compare")
+                elif key["flag"] and command != "sequence":
+                    self.assertIn(key["flag"], flags, command)
+
+    def test_the_help_on_scenes_explains_every_flag_once_and_a_command_its_own_first(self):
+        text = self.run_program("help", "scene").stdout
+        explained = re.findall(r"^  (--[a-z][a-z-]*)", text, re.M)
+        self.assertEqual(len(explained), len(set(explained)))
+        self.assertEqual({key["flag"] for key in self.keys() if key["flag"]} - set(explained), set())
+        shock = self.run_program("shock", "--help").stdout
+        self.assertLess(shock.index("--probe NAME"), shock.index("clatter help scene"))
+        self.assertNotIn("--angle DEG", shock)
+        done = self.run_program("--angle", "10")
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("did you mean clatter sequence --angle", done.stderr)
 
     def test_the_text_has_a_default_or_says_required(self):
         text = self.run_program("keys").stdout
