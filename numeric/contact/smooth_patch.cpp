@@ -182,6 +182,7 @@ void Slices::begin(double low, double high) {
 void Slices::mind(const SpaceLinear& one, const SpaceLinear& other) {
   add_touches(one);
   add_corners(one, other);
+  add_near_miss(one, other);
   for (int i = 0; i < half_spaces_.count(); ++i) add_corners(one, half_spaces_[i]);
   sort_few(breaks_.begin(), breaks_.begin() + count_);
 }
@@ -227,6 +228,23 @@ void Slices::add_corners(const SpaceLinear& one, const SpaceLinear& other) {
   const double discriminant = b * b - a * c;
   if (!(discriminant > 0) || !(a > 0)) return;
   for (const double sign : {1.0, -1.0}) add_break(foot.x() + (-b + sign * std::sqrt(discriminant)) / a * line.x());
+}
+
+/// Where the line of two planes misses the sphere or cylinder, its complex points foot ± i w line: sums over slices
+/// turn at their real part, within the imaginary one.
+void Slices::add_near_miss(const SpaceLinear& one, const SpaceLinear& other) {
+  constexpr double wider = 8;
+  const Vector3 line = one.slope.cross(other.slope);
+  const double square = line.squaredNorm();
+  if (!(square > 0)) return;
+  const Vector3 foot =
+      -(one.value * other.slope.cross(line) + other.value * line.cross(one.slope)) / square - Vector3::UnitZ();
+  Vector3 round = line, from = foot;  // what of them counts for the distance to the axis or the centre
+  if (!is_sphere_) round.x() = from.x() = 0;
+  const double a = round.squaredNorm(), b = from.dot(round), c = from.squaredNorm() - 1, discriminant = b * b - a * c;
+  if (!(a > 0) || !(discriminant < 0)) return;
+  const double x = along(foot - b / a * line), width = std::fabs(std::sqrt(-discriminant) / a * along(line));
+  for (const double off : {-wider * width, -width, 0.0, width, wider * width}) add_break(x + off);
 }
 
 Vector3 Slices::place(const Slice& slice, double angle) const {

@@ -237,7 +237,7 @@ class Slices {
   /// Cap of the sphere, the axis along the ground at this angle from x.
   Slices(const HalfSpaces& half_spaces, double axis);
 
-  /// Makes intervals end where these planes meet one another and where they touch a circle.
+  /// Makes intervals end where these planes meet one another, or nearly do, and where they touch a circle.
   void mind(const SpaceLinear& one, const SpaceLinear& other);
   [[nodiscard]] int intervals() const { return count_ - 1; }
   /// Within an interval, by a parameter from 0 to 1 in which roots at both of its ends become smooth.
@@ -276,6 +276,7 @@ class Slices {
   void add_break(double x);
   void add_touches(const SpaceLinear& plane);
   void add_corners(const SpaceLinear& one, const SpaceLinear& other);
+  void add_near_miss(const SpaceLinear& one, const SpaceLinear& other);
   [[nodiscard]] double along(const Vector3& v) const { return along_.dot(v); }
 
   bool is_sphere_;

@@ -27,6 +27,8 @@ constexpr double error_per_distance_of_coarser = 4;
 constexpr double another_way = 0.1;  ///< relative distance of impulses: what follows such impacts differs altogether
 constexpr double of_a_graze = 0.01;  ///< the same, below which a touch that one run alone has changes nothing else
 constexpr double step_part = 0.5;
+/// What SmoothContact::slip_load leaves of the friction at most where a body rolls and hardly spins, as seen.
+constexpr double local_rule = 2e-8;
 constexpr double error_per_distance_of_steps = 3;  ///< 8/7 where the step is short enough for the order to show
 
 /// Single numbers agree by chance in two runs that differ: of a vector's distance, at least, for each component, and of
@@ -103,6 +105,15 @@ void add_rounding(const Body& body, const ImpactRecord& row, ImpactNumbers& erro
     error.impulse[i] += 4 * epsilon * body.mass() * n.velocity_after.norm();
     add(error.velocity_after[i], n.velocity_after.norm());
     add(error.angular_velocity_after[i], n.angular_velocity_after.norm() + n.approach_speed / body.radius());
+  }
+  if (row.mode == FrictionMode::local && body.smooth()) {
+    // Both runs take the same rules around places where a round face does not slip.
+    const double friction = local_rule * (1 + growth) * n.impulse.head<2>().norm();
+    error.impulse.array() += friction;
+    error.velocity_after.array() += friction / body.mass();
+    error.angular_velocity_after.array() += friction * body.radius() * body.inverse_inertia().norm();
+    for (double* energy : {&error.energy_after, &error.energy_loss, &error.work_friction})
+      *energy += local_rule * (1 + growth) * std::fabs(n.work_friction);
   }
   if (!(row.left_speed > 0)) return;
   // What a closed form at the end leaves out is no smaller where steps are.
