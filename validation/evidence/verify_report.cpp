@@ -85,6 +85,16 @@ code { font: .82rem ui-monospace, monospace; background: #f3f5f8; padding: .1rem
 .plots svg:only-child { max-width: 38rem; }
 .plots svg { width: 100%; height: auto; border: 1px solid var(--line); border-radius: 6px; }
 nav a { margin-right: 1rem; white-space: nowrap; display: inline-block; }
+@media screen and (prefers-color-scheme: dark) {
+  :root { --ink: #e6ebf0; --pale: #a3afbb; --line: #39434d; --good: #4cc38a; --bad: #ff8f85; --open: #e8a33d; color-scheme: dark; }
+  body, th { background: #14181c; } code { background: #222b34; } a { color: #7fc4ee; } .plots svg { background: #fff; }
+}
+@media print {
+  @page { margin: 12mm; }
+  body { max-width: none; padding: 0; } .scroll { overflow: visible; } th { position: static; } tr, .plots svg { break-inside: avoid; }
+  table { font-size: 7pt; table-layout: auto; } td:nth-child(2) { min-width: 0; } th, td { padding: 2pt 3pt; }
+  td.number { white-space: normal; } code { font-size: 6.5pt; padding: 0; background: none; }
+}
 )css";
 
 /// Headings of the groups, by the first letter of the checks' names.

@@ -287,7 +287,7 @@ std::string style_text(Style style, const std::string& colour, const Used& used)
     case Style::segments: return "with vectors nohead lw 2 lc palette";
     case Style::area:
       return fmt::format("with filledcurves fs solid noborder lc rgb '{}'",
-                         area_colours[used.areas % area_colours.size()]);
+                         colour.empty() ? area_colours[used.areas % area_colours.size()] : colour);
   }
   return "";
 }

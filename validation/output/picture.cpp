@@ -23,8 +23,11 @@ constexpr double png_scale = 1.4;       // 1120 pixels wide
 constexpr double png_font_scale = 0.7;  // its font sizes are points, those of SVG pixels
 
 std::vector<std::string> title_of(const Picture& picture) {
-  std::vector<std::string> lines{picture.what};
-  std::string joined;
+  // A title that is too long for its line goes on below.
+  const std::size_t cut =
+      display_width(picture.what) > title_columns * 3 / 4 ? picture.what.find("; ") : std::string::npos;
+  std::vector<std::string> lines{picture.what.substr(0, cut)};
+  std::string joined = cut == std::string::npos ? "" : picture.what.substr(cut + 2);
   const auto finish = [&] {
     std::istringstream stream(wrapped(joined, title_columns));
     for (std::string line; std::getline(stream, line);) lines.push_back(line);

@@ -54,7 +54,7 @@ struct FigureCurve {
   RowFilter where = {};
   std::string y_low = {};              ///< name of a column; of areas only
   std::string x_end = {}, y_end = {};  ///< names of columns; of segments only
-  std::string colour = {};             ///< empty: the next of the palette; no area has one
+  std::string colour = {};             ///< empty: the next of the palette
   int every = 1;                       ///< of points: one for each that many rows
 };
 

@@ -241,8 +241,15 @@ std::vector<double> row_of(const Regimes& one, bool of_table) {
           90,        of_table ? 1. : 0.};
 }
 
-FigureCurve area(const FoundRegimes& axis, const char* low, const char* high, const char* legend) {
-  return {.x = axis.name, .y = high, .legend = legend, .style = Style::area, .where = {{"of_table", 0}}, .y_low = low};
+/// @param colour as in figures/regimes.svg
+FigureCurve area(const FoundRegimes& axis, const char* low, const char* high, const char* legend, const char* colour) {
+  return {.x = axis.name,
+          .y = high,
+          .legend = legend,
+          .style = Style::area,
+          .where = {{"of_table", 0}},
+          .y_low = low,
+          .colour = colour};
 }
 
 Range2 range_of(const FoundRegimes& axis) {
@@ -294,9 +301,9 @@ Picture regimes_picture(const FoundRegimes& found) {
   for (const Regimes& one : curve) panel.rows.push_back(row_of(one, false));
   for (const Regimes& one : found.all) panel.rows.push_back(row_of(one, true));
   if (!curve.empty()) {
-    panel.plot.curves = {area(found, "zero", "below_3", "three impacts"),
-                         area(found, "below_3", "below_2", "at least two"),
-                         area(found, "below_2", "upright", "at least one")};
+    panel.plot.curves = {area(found, "zero", "below_3", "three impacts", "#fbd9bd"),
+                         area(found, "below_3", "below_2", "at least two", "#bfdcee"),
+                         area(found, "below_2", "upright", "at least one", "#eeeeee")};
   }
   add_boundaries(found, !curve.empty(), panel.plot.curves);
   return {.what = "How many impacts, and where that changes", .scene = {found.rod_words}, .panels = {panel}};

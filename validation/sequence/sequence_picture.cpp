@@ -409,8 +409,11 @@ PicturePanel space_height_panel(const analytic::space::Drop& drop, const SpaceSe
 std::vector<std::string> striking_corners(const Run& run) {
   constexpr std::size_t most = 8;
   std::vector<std::string> names;
-  for (const Impact& impact : run.impacts)
-    names.push_back(impact.touches > 1 ? "several corners" : "corner " + impact.corners);
+  for (const Impact& impact : run.impacts) {
+    const bool is_end = impact.corners.find_first_not_of("ab ") == std::string::npos;  // of a rod or a disc
+    const std::string one = (is_end ? "end " : "corner ") + impact.corners;
+    names.push_back(impact.touches == 1 ? one : is_end ? "both ends" : "several corners");
+  }
   if (std::set<std::string>(names.begin(), names.end()).size() > most) names.assign(names.size(), "a corner");
   return names;
 }

@@ -11,6 +11,7 @@
 #include <cstdlib>
 #include <limits>
 #include <map>
+#include <sstream>
 #include <unordered_map>
 
 #include "analytic/plane/contact_angles.hpp"
@@ -157,19 +158,10 @@ std::string number_bytes(const MapPlan& plan, const MapImage& image, const Span&
 /// A number's place on an axis of the picture.
 double placed(const SweepAxis& axis, double value) { return axis.logarithmic ? std::log10(value) : value; }
 
-std::string axis_name(const SweepAxis& axis) {
-  const Key* found = nullptr;
-  for (const Key& key : all_keys()) {
-    if (key.name == axis.key) found = &key;
-  }
-  const std::string unit = found ? found->unit : axis.key.starts_with("body.size") ? "m" : "";
-  return unit.empty() ? axis.key : fmt::format("{} [{}]", axis.key, unit);
-}
-
 /// Range, and on a logarithmic axis its decades.
 std::string axis_text(const SweepAxis& axis, char name) {
   std::string text = fmt::format("set {}range [{}:{}]\nset {}label {} noenhanced\n", name, placed(axis, axis.first),
-                                 placed(axis, axis.last), name, gnuplot_quoted(axis_name(axis)));
+                                 placed(axis, axis.last), name, gnuplot_quoted(axis_words(axis.key)));
   if (!axis.logarithmic) return text;
   std::string tics;
   const int first = static_cast<int>(std::ceil(placed(axis, axis.first) - 1e-9));
@@ -219,6 +211,8 @@ std::string curve_commands(const std::vector<FoldCurve>& curves, double scale) {
   return text;
 }
 
+constexpr int most_subtitles = 4;  // lines
+
 /// The picture's parts in pixels.  A small map's pixels are squares, so that there is room for the words beside it;
 /// those of a narrow one are only as wide and as high as that takes.
 struct Sheet {
@@ -228,7 +222,7 @@ struct Sheet {
   explicit Sheet(const MapPlan& plan)
       : across(side(plan.columns, plan.rows)), upward(side(plan.rows, plan.columns)),
         scale(std::clamp(static_cast<double>(plan.rows * upward) / 600, 0.75, 3.0)), left(115 * scale),
-        right(250 * scale), top(64 * scale), bottom(72 * scale),
+        right(250 * scale), top((40 + 17 * most_subtitles) * scale), bottom(72 * scale),
         width(left + static_cast<double>(plan.columns * across) + right),
         height(top + static_cast<double>(plan.rows * upward) + bottom) {}
 
@@ -259,10 +253,13 @@ std::string title_text(const MapPlan& plan, const MapImage& image, const Sheet& 
   for (const std::string& line : head) words += (words.empty() ? "" : "; ") + line;
   const long long open = image.open();
   if (open > 0) words = fmt::format("{} pixels left open by rounding or a fold; {}", open, words);
-  const auto most = static_cast<std::size_t>((sheet.width - sheet.left) / (8.2 * sheet.scale));
-  if (words.size() > most) words = words.substr(0, words.rfind(' ', most - 2)) + " …";
-  return label(1, plan.counts() ? heading(plan) : plan.quantity->words, 20, "sans-serif Bold") +
-         label(2, words, 44, "sans-serif");
+  std::string text = label(1, plan.counts() ? heading(plan) : plan.quantity->words, 20, "sans-serif Bold");
+  std::istringstream lines(
+      wrapped(words, static_cast<std::size_t>((sheet.width - sheet.left) / (8.2 * sheet.scale)), ""));
+  int n = 2;
+  for (std::string line; n <= 1 + most_subtitles && std::getline(lines, line); ++n)
+    text += label(n, line, 26 + 17 * (n - 1), "sans-serif");
+  return text;
 }
 
 const char* impact_word(const std::string& text) { return text == "1" ? " impact" : " impacts"; }

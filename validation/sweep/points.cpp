@@ -16,6 +16,17 @@
 #include "validation/sweep/counter_random.hpp"
 
 namespace clatter::validation {
+
+std::string axis_words(const std::string& key) {
+  std::string words = key.substr(key.find('.') + 1);
+  if (words.ends_with("_deg")) words.resize(words.size() - 4);
+  std::replace_if(
+      words.begin(), words.end(), [](char c) { return c == '_' || c == '.'; }, ' ');
+  const auto found = std::ranges::find(all_keys(), key, &Key::name);
+  const std::string unit = found != all_keys().end() ? found->unit : key.starts_with("body.size") ? "m" : "";
+  return unit.empty() ? words : fmt::format("{} [{}]", words, unit);
+}
+
 namespace {
 
 constexpr double largest_whole = 0x1p53;

@@ -21,6 +21,9 @@ using SweptAttitude = std::array<double, 4>;
 /// An attitude turned by a vector [rad] in the world frame: (cos ½|v|, sin ½|v| v/|v|) q.
 [[nodiscard]] SweptAttitude turned(const SweptAttitude& attitude, const std::array<double, 3>& vector);
 
+/// A swept key as an axis of a picture is called: its last word, and its unit, as in "angle [°]" for drop.angle_deg.
+[[nodiscard]] std::string axis_words(const std::string& key);
+
 /// The values that one key takes: numbers or attitudes.
 struct SweepAxis {
   std::string key;

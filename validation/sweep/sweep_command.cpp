@@ -57,15 +57,6 @@ std::string named(const Column& column) {
   return with_blanks(column.name) + (column.unit.empty() ? "" : fmt::format(" [{}]", column.unit));
 }
 
-/// A swept key by its name, whose underlines gnuplot must not take for subscripts, with the key's unit.
-std::string key_label(const std::string& name) {
-  std::string label;
-  for (const char c : name) label += c == '_' ? "\\_" : std::string(1, c);
-  const auto& keys = all_keys();
-  const auto key = std::find_if(keys.begin(), keys.end(), [&](const Key& one) { return one.name == name; });
-  return key == keys.end() || *key->unit == '\0' ? label : fmt::format("{} [{}]", label, key->unit);
-}
-
 std::vector<double> numbers_of(const Grid& grid, std::size_t column) {
   std::vector<double> numbers;
   for (const Row& row : grid.rows) {
@@ -158,7 +149,7 @@ PicturePanel curves(const Grid& grid, const SweptAxes& keys, std::size_t quantit
     panel.plot.curves.push_back(
         {.x = "x",
          .y = "y",
-         .legend = has_many ? grid.columns[keys.of].name + " = " + shortest(value) : "",
+         .legend = has_many ? axis_words(grid.columns[keys.of].name) + " = " + shortest(value) : "",
          .style = x.size() > most_marked_scenes ? FigureCurve::Style::line : FigureCurve::Style::line_points,
          .where = {{"of", value}}});
   }
@@ -300,7 +291,7 @@ Picture sweep_rows_picture(const Report& report, const SweepRowsView& view) {
     picture.panels.push_back(swept ? curves(report.grid, *swept, quantity)
                                    : histogram(report.grid.columns[quantity], numbers_of(report.grid, quantity)));
   }
-  if (swept) picture.panels.back().plot.x_label = key_label(report.grid.columns[swept->over].name);
+  if (swept) picture.panels.back().plot.x_label = axis_words(report.grid.columns[swept->over].name);
   return picture;
 }
 

@@ -8,7 +8,7 @@ import path from "node:path";
 import { after } from "node:test";
 import { pathToFileURL } from "node:url";
 
-import { onOnePage, program } from "../demo/page_browser.mjs";
+import { axeSource, onOnePage, program } from "../demo/page_browser.mjs";
 
 const folder = mkdtempSync(path.join(os.tmpdir(), "clatter-"));
 after(() => rmSync(folder, { recursive: true }));
@@ -34,6 +34,24 @@ onOnePage("the page of the verification", "", {
     }));
     assert.ok(pictures.length >= 35);
     for (const { width, height, paths } of pictures) assert.ok(width > 200 && height > 100 && paths > 5);
+  },
+  "on paper the column of verdicts is there, and light": async (page) => {
+    await page.emulateMedia({ media: "print", colorScheme: "dark" });
+    await page.setViewportSize({ width: 690, height: 1000 });
+    for (const box of await page.locator(".scroll").all()) assert.ok(await box.evaluate(({ scrollWidth, clientWidth }) => scrollWidth <= clientWidth + 1));
+    assert.equal(await page.evaluate(() => getComputedStyle(document.body).backgroundColor), "rgb(255, 255, 255)");
+    await page.emulateMedia({ media: "screen" });
+    assert.equal(await page.evaluate(() => getComputedStyle(document.body).backgroundColor), "rgb(20, 24, 28)");
+    await page.emulateMedia({ colorScheme: "light" });
+    await page.setViewportSize({ width: 1200, height: 900 });
+  },
+  "axe finds nothing serious, in the light and in the dark": async (page) => {
+    await page.evaluate(axeSource);
+    for (const colorScheme of ["light", "dark"]) {
+      await page.emulateMedia({ colorScheme });
+      const { violations } = await page.evaluate(() => globalThis.axe.run());
+      assert.deepEqual(violations.filter(({ impact }) => /serious|critical/.test(impact)).map(({ id, nodes }) => [id, nodes[0].target]), []);
+    }
   },
   "it fits its window": async (page) => {
     assert.ok(await page.evaluate(() => document.documentElement.scrollWidth <= window.innerWidth));

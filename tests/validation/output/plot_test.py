@@ -12,7 +12,7 @@ import struct
 import subprocess
 import xml.etree.ElementTree as ElementTree
 
-from run_folder import PROGRAM, EmptyFolder, case, records, run
+from run_folder import PROGRAM, ROOT, EmptyFolder, case, records, run
 from waiting import until
 
 # A level face whose small tilts have four outcomes.
@@ -67,6 +67,10 @@ def blocks(script):
 
 
 class InFolder(EmptyFolder):
+    def source(self, path):
+        with open(os.path.join(ROOT, path), encoding="utf-8") as file:
+            return file.read()
+
     def plotted(self, *arguments, status=0):
         """What a run prints, and the data that its script draws."""
         done = run(*arguments, "--plot", self.path("p.svg"), "--plot-script")
@@ -231,6 +235,10 @@ class Data(InFolder):
         self.assertEqual((drawn["panel1_4"], drawn["panel1_6"]), (second, third))
         # Between them the curve is that of many values, which is no straight line.
         self.assertGreater(len(drawn["panel1_3"]), 200)
+        # The colours are those of the reference's figure.
+        areas = re.findall(r"filledcurves fs solid noborder lc rgb '(#\w+)'", self.read("p.gnuplot"))
+        figure = re.search(r"for low, high, colour, name in (.*?):$", self.source("notebooks-data/pictures.py"), re.M | re.S)[1]
+        self.assertEqual(areas, re.findall(r"#\w{6}", figure))
         for value, angle in drawn["panel1_3"][::40]:
             row = json.loads(run("regimes", "--over", "restitution", "--from", repr(value), "--to", repr(value), "--count", "1",
                                          "--format", "json").stdout)["rows"][0]
@@ -279,7 +287,8 @@ class Data(InFolder):
             for i, value in enumerate(("0.5", "0.9")):
                 self.assertEqual(drawn[f"panel2_{i}"], [[float(row["drop.angle_deg"]), float(row["total_normal_impulse"])]
                                                         for row in records(out) if row["impact.restitution"] == value])
-            self.assertIn("impact.restitution = 0.5", self.read("p.gnuplot"))
+            self.assertIn("'restitution = 0.5'", self.read("p.gnuplot"))
+            self.assertIn("set xlabel 'angle [°]'", self.read("p.gnuplot"))
 
     def test_columns_of_texts_are_not_drawn(self):
         _, drawn = self.plotted("sweep", case("phone-corner"), "--set", "drop.attitude=uniform", "--random", "9", "--model", "discrete",
@@ -397,6 +406,19 @@ class Data(InFolder):
         for time in (i["start"] for i in impacts):
             self.assertLess(min(height for t, height in lowest if t == time), 1e-9 * size)
         self.assertTrue(all(0 <= low <= high for (_, low), (_, high) in zip(lowest, centre)))
+
+    def test_a_disc_strikes_with_its_ends_not_with_corners(self):
+        self.plotted("sequence", "--body", "rod", "--length", "0.00233", "--radius", "0.0116", "--mass", "0.0075", "--angle", "80", "--tilt", "20",
+                     "--angular-velocity", "1,2,3", "--height", "0.1", "--gravity", "9.81", "--restitution", "0.5")
+        self.assertIn("'end a'", self.read("p.gnuplot"))
+        self.assertNotIn("corner", self.read("p.gnuplot"))
+
+    def test_a_title_that_is_too_long_goes_on_below(self):
+        self.plotted("compare", case("phone-damped"))
+        titles = re.findall(r"set label \d+ '([^']*)' at screen", self.read("p.gnuplot"))
+        self.assertEqual(titles[0], "Discrete and continuous model, impact by impact")
+        self.assertTrue(titles[1].startswith("from impact 3 on they strike other blows"), titles)
+        self.assertTrue(all(len(title) <= 112 for title in titles), titles)
 
     def limited(self, name, evaluations):
         with open(case(name), encoding="utf-8") as file:

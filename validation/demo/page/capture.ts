@@ -112,7 +112,7 @@ export class Capture {
 }
 
 /** The shorthand is empty where its digits are all of one width. */
-export function fontOf(element: HTMLElement): string {
+function fontOf(element: HTMLElement): string {
   const { fontWeight, fontSize, fontFamily } = getComputedStyle(element);
   return `${fontWeight} ${fontSize} ${fontFamily}`;
 }

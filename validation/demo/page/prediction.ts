@@ -100,11 +100,6 @@ export class Prediction {
     return this.votes?.filter((vote) => vote === guess).length ?? 0;
   }
 
-  /** Without an answer and without what follows one. */
-  dismiss(): void {
-    if (this.isOpen) this.close();
-  }
-
   private give(guess: Guess | null): void {
     this.guess = guess;
     this.reveal.textContent = "";
