@@ -301,8 +301,11 @@ std::string short_help(const std::vector<Command>& commands) {
 
 ParsedLine parse_line(const std::vector<Command>& commands, const std::vector<std::string>& given) {
   if (given.empty()) return {.text = short_help(commands)};
-  if (given == std::vector<std::string>{"help", scene_help})
-    return parse_line({explained_scene()}, {scene_help, "--help"});
+  if (given == std::vector<std::string>{"help", scene_help}) {
+    ParsedLine help = parse_line({explained_scene()}, {scene_help, "--help"});
+    const std::string name = std::string("clatter ") + scene_help + " ";
+    return {.text = help.text.replace(help.text.find(name), name.size(), "clatter COMMAND ")};
+  }
   CLI::App app(program_summary, "clatter");
   app.footer(program_notes);
   app.set_help_flag("--help", "print this help and exit");
