@@ -412,7 +412,7 @@ test("without a graphics card the picture is drawn from the side", async () => {
   });
   try {
     const page = await plain.newPage({ viewport: LARGE, reducedMotion: "reduce" });
-    await page.goto(`${address}#predict=0`);
+    await page.goto(`${address}#predict=0&tab=table`);
     await page.waitForSelector("#impact-table tbody tr");
     assert.equal(await page.getAttribute("#stage", "data-view"), "flat");
     const painted = await page.locator("#stage canvas").evaluate((canvas) =>
