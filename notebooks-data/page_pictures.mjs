@@ -19,7 +19,7 @@ const browser = await chromium.launch({
 const page = await browser.newPage({ viewport: { width: 1280, height: 900 }, reducedMotion: "reduce" });
 const [, scene] = /name="clatter-scene" content="([^"]*)"/.exec(readFileSync(process.env.DEMO_SCENE, "utf8"));
 await page.goto(`${pathToFileURL(path.resolve(process.env.DEMO_PAGE, "page.html")).href}#predict=0&${scene.replace(/&amp;/g, "&")}&impact=2`);
-await page.waitForSelector('#impact-table tr[data-model="continuous"]');
+await page.waitForSelector('#impact-table tr[data-model="continuous"]', { state: "attached" });
 await page.screenshot({ path: path.join(here, "figures", "demo.png") });
 await page.setViewportSize({ width: 960, height: 600 });
 await page.goto(pathToFileURL(path.resolve(process.env.REPORT_PAGE)).href);

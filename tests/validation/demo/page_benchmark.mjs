@@ -94,7 +94,7 @@ await page.addInitScript(() => {
     measured.frames.push(performance.now() - start);
   });
 });
-await page.goto(`${address}#predict=0&fan=1`);
+await page.goto(`${address}#predict=0&fan=1&tab=all`);
 await page.waitForSelector("#impact-table tbody tr");
 console.log(await page.evaluate(() => [...performance.getEntriesByType("paint").map(({ name, startTime }) => `${name} ${startTime.toFixed(0)} ms`), `first picture ${measured.first.toFixed(0)} ms`].join(", ")));
 await page.waitForSelector('tr[data-model="continuous"]');
