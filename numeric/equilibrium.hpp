@@ -15,9 +15,9 @@ namespace clatter::numeric {
 /// gravity, or on a slope that friction cannot hold the body on.
 [[nodiscard]] Equilibrium equilibrium(const Body& body, const World& world, const MotionState& near);
 
-/// The same of a body that slides along the ground with `near`'s velocity and does not spin: friction, μ_k of the weight
-/// against the slide, presses its front deeper, so that it slides on without rocking.  Where friction tips it over, or
-/// the law is `regularised`, equilibrium's.
+/// The same of a body that slides along the ground with `near`'s velocity and does not spin: friction, μ_k of the
+/// weight against the slide, presses its front deeper, so that it slides on without rocking.  Where friction tips it
+/// over, or the law is `regularised`, equilibrium's.
 [[nodiscard]] Equilibrium sliding_equilibrium(const Body& body, const World& world, const MotionState& near);
 
 }  // namespace clatter::numeric

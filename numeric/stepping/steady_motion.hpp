@@ -29,7 +29,7 @@ namespace clatter::numeric {
 /// proportion to the depth) that to follow it would never end.
 class RockingWatch {
  public:
-  /// Of a contact that begins at this count of evaluations.
+  /// Begins with a contact, at this count of evaluations.
   void begin(long evaluations);
   /// The rest or slide of the body about which it rocks, told after each step.  Two windows of 10,000 evaluations must
   /// show that the body heaves by less than a fall into its contact and turns no faster than that allows, neither more

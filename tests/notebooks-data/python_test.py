@@ -113,7 +113,7 @@ class TheSameBits(unittest.TestCase):
 
     def test_every_flag_of_the_program_is_an_argument(self):
         flags = {word.strip(",") for word in printed("simulate", "--help").split() if word.startswith("--")}
-        others = {"--help", "--format", "--output", "--ascii", "--bare", "--history", "--no-contact-gravity", "--plot", "--plot-script",
+        others = {"--help", "--format", "--output", "--ascii", "--bare", "--history", "--mesh", "--no-contact-gravity", "--plot", "--plot-script",
                   "--rows", "--window"}
         for flag in flags - others:
             name = flag[2:].replace("-", "_")

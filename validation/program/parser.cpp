@@ -188,7 +188,7 @@ CLI::Option* add_value(CLI::App& app, const Argument& argument, Waiting& waiting
 
 bool is_of_scene(const Argument& argument) { return argument.group == scene_group; }
 
-/// Of the flags of scenes, which `clatter help scene` explains, a command's own help has the names.
+/// The names of the flags of scenes, all that a command's own help has of them.
 std::string scene_words(const Command& command) {
   std::string names;
   for (const Argument& argument : command.arguments) {

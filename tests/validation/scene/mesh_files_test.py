@@ -282,9 +282,9 @@ class MeshFiles(EmptyFolder):
                  "nan.off": (off(box()).replace(b"0.47", b"nan", 1), "not finite"), "no.3mf": (b"PK\3\4", "no.3mf")}
         for name, (contents, words) in files.items():
             self.put(name, contents)
-            self.refused(words, "sequence", name, *DROP, timeout=300)
+            self.refused(words, "sequence", name, *DROP, timeout=600)
         for name, words in (("folder.stl", "folder"), ("pipe.obj", "pipe"), ("none.glb", "cannot be opened")):
-            self.refused(words, "sequence", name, *DROP, timeout=300)
+            self.refused(words, "sequence", name, *DROP, timeout=600)
 
     def test_damaged_files_of_every_form_end_in_a_line_or_a_body(self):
         chance = random.Random(2)
@@ -296,7 +296,7 @@ class MeshFiles(EmptyFolder):
                     if damaged:
                         damaged[chance.randrange(len(damaged))] = chance.choice((0, 45, 49, 57, 255, chance.randrange(256)))
                 self.put(name, bytes(damaged))
-                done = subprocess.run([PROGRAM, "sequence", name, *DROP], capture_output=True, cwd=self.folder, timeout=300, check=False)
+                done = subprocess.run([PROGRAM, "sequence", name, *DROP], capture_output=True, cwd=self.folder, timeout=600, check=False)
                 self.assertIn(done.returncode, (0, 2, 3, 4), (name, bytes(damaged)))
                 self.assertLess(done.stderr.count(b"\n"), 4)
 

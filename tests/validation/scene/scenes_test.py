@@ -106,7 +106,7 @@ class Sources(Folder):
         self.assertEqual(len(explained), len(set(explained)))
         self.assertEqual({key["flag"] for key in self.keys() if key["flag"]} - set(explained), set())
         shock = self.run_program("shock", "--help").stdout
-        self.assertLess(shock.index("--probe NAME"), shock.index("clatter help scene"))
+        self.assertLess(shock.index("--probe NAME"), shock.index("scene explains them"))
         self.assertNotIn("--angle DEG", shock)
         done = self.run_program("--angle", "10")
         self.assertEqual(done.returncode, 2)
