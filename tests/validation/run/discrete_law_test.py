@@ -2,11 +2,9 @@
 """What a scene means: the law, the body and the defaults that the discrete model takes, the same in every command."""
 
 import math
-import os
 import random
-import threading
 
-from run_folder import TETRAHEDRON, EmptyFolder, json_of, rows_of, run
+from run_folder import EmptyFolder, json_of, rows_of, run
 
 GROUND = ["--stiffness", "1e8", "--damping", "1e7"]
 
@@ -110,16 +108,3 @@ class Law(EmptyFolder):
         self.assertAlmostEqual(thin["limit"] / thick, 1, delta=1e-9)
         same = answer("compare", "rod-10", "--impacts", "1")["impacts"][0]["numbers"]["impulse_normal"]
         self.assertIsNone(same["mesh_corners"])
-
-    def test_a_mesh_is_read_once(self):
-        """Its file is a pipe, which gives its bytes to the first reader alone."""
-        pipe = self.path("body.stl")
-        for command in ("sequence", "simulate", "compare"):
-            os.mkfifo(pipe)
-            writer = threading.Thread(target=self.write, args=("body.stl", TETRAHEDRON))
-            writer.start()
-            scene = self.write("scene.toml", "[drop]\nangle_deg = 20\ntilt_deg = 10\n[body]\nshape = 'mesh'\nmass = 1\nmesh = { file = 'body.stl' }\n"
-                               "[ground]\nstiffness = 1e8\n[run]\nimpacts = 1\n")
-            self.assertGreater(answer(command, scene)["body"]["mass"], 0)
-            writer.join()
-            os.unlink(pipe)
