@@ -196,6 +196,7 @@ Vector3 least_solution(const Matrix3& N, const Vector3& right) {
 /// as the middle over the poses on each face, then least squares over the faces.
 void calibrate_axes(const MeasuredFile& file, const TrackPart& part, CalibrationResult& result) {
   const TrackedBody body(file.file.description, {});
+  if (body.faces().empty()) return;
   std::vector<std::vector<Vector3>> down(body.faces().size());
   for (const std::size_t index : part) {
     if (!file.tracks[index].rest) continue;
@@ -312,7 +313,7 @@ double middle_of_points(const Eigen::VectorXd& misses) {
   return median(points);
 }
 
-/// Inertia alone, then rounding, too: each is kept if it lowers the loss clearly.
+/// Inertia alone, then of a box rounding, too: each is kept if it lowers the loss clearly.
 void calibrate_inertia(const MeasuredFile& file, const TrackPart& part, CalibrationResult& result) {
   const TurningLosses turning(file, part, result);
   if ((turning.losses(1, 0).array() < 1).count() < enough_points) return;
@@ -330,9 +331,11 @@ void calibrate_inertia(const MeasuredFile& file, const TrackPart& part, Calibrat
     result.rounding_half_width = rounding < 0 ? 0 : half * fit.half_width(rounding);
   };
   keep(fit_robustly([&](const Eigen::VectorXd& p) { return turning.losses(p[0], 0); }, {{1}, {0.1}}), 0, -1);
-  keep(fit_robustly([&](const Eigen::VectorXd& p) { return turning.losses(p[0], half * p[1]); },
-                    {{result.calibration.inertia_factor, 0.05}, {0.1, 0.05}}),
-       0, 1);
+  if (file.file.description.is_box()) {
+    keep(fit_robustly([&](const Eigen::VectorXd& p) { return turning.losses(p[0], half * p[1]); },
+                      {{result.calibration.inertia_factor, 0.05}, {0.1, 0.05}}),
+         0, 1);
+  }
   result.lever_after = middle_of_points(turning.misses(result.calibration.inertia_factor, result.calibration.rounding));
 }
 

@@ -69,7 +69,7 @@ struct CalibrationResult {
 /// The parts of a calibration that are fitted; the ground's height always is.
 struct CalibrationParts {
   bool axes = true;     ///< of the body, from resting poses: a face lies flat
-  bool inertia = true;  ///< and rounding, from the momentum about the touching point of first impacts
+  bool inertia = true;  ///< and of a box rounding, from the momentum about the touching point of first impacts
 };
 
 /// Calibrates on a part of a file.  Losses are capped, so that impacts on more than a point do not count.
