@@ -275,6 +275,9 @@ Report measured_fit_report(const MeasuredRun& run) {
   report.grid.rows.push_back(law_row(best + ", described", fit.described, {std::nan(""), std::nan("")}));
   report.notes = {preference_words(fit), calibration_note(run), contact_words(fit)};
   for (const std::string& note : track_notes(run)) report.notes.push_back(note);
+  if (!std::isfinite(fit.laws[fit.best].fit.half_width(1)))
+    report.notes.emplace_back(
+        "μ is not settled: a larger one fits as well, as where all impacts stick before they end");
   const TrackDescription& d = run.file.file.description;
   report.notes.push_back(fmt::format("{}described: body uniform{}, its axes as tracked",
                                      fit.dependent ? "e(ν) = e + e₁ ν, ν = 1/(m W_nn); " : "",

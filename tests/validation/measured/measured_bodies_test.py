@@ -232,6 +232,15 @@ class MeasuredBodies(Folder):
             self.assertNotIn(word, report)
         self.json_of("measured", "predict", "hollow.csv", status=(0,))
 
+    def test_friction_that_no_impact_settles_has_no_bar(self):
+        # Every impact ends without slip: friction beyond what that needs changes nothing.
+        self.write("a.csv", table(tracks(24, ball(0.03, 1.0), 0.7, 0.5, seed=5, spin_size=5.0, slip=(0.3, 1.5))))
+        self.write("a.toml", "[body]\nradius = 0.03\n[track]\nmotion = 'space'\nrate = 240\n")
+        for row in self.json_of("measured", "fit", "a.csv", status=(0,))["fits"]:
+            self.assertIsNone(row["friction_half_width"])
+            self.assertLess(abs(row["restitution"] - 0.7), 0.005)
+        self.assertIn("μ is not settled", self.run_program("measured", "fit", "a.csv").stdout)
+
     def test_what_cannot_be_is_said_in_one_line(self):
         self.write("part.obj", OBJ)
         self.write("open.obj", OBJ.rsplit("f ", 1)[0])
