@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "analytic/space/flight/flight_derivatives.hpp"
+
 namespace clatter::validation {
 namespace {
 
@@ -53,8 +55,13 @@ Vector3 first_angular_velocity(std::span<const Frame> frames) {
 
 }  // namespace
 
+std::optional<UnlikeMoments> unlike_moments(const TrackedBody& body) {
+  if (body.turns_steadily()) return std::nullopt;
+  return UnlikeMoments(body.core().inertia / body.core().mass);
+}
+
 FlightFit::FlightFit(std::span<const Frame> frames, const FlightModel& model)
-    : noise_(model.noise), frames_(static_cast<int>(frames.size())), planar_(model.planar) {
+    : noise_(model.noise), frames_(static_cast<int>(frames.size())), planar_(model.planar), moments_(model.moments) {
   first_ = frames.front().time;
   last_ = frames.back().time;
   middle_ = (first_ + last_) / 2;
@@ -104,17 +111,16 @@ void FlightFit::fit_rotation(std::span<const Frame> frames, const FlightModel& m
   const Frame& central = frames[frames.size() / 2];
   state_.attitude = rotation_of((middle_ - central.time) * state_.angular_velocity) * central.attitude;
   const double per_noise = 1 / (model.noise.rotation * model.noise.rotation);
+  start_rotation();
   for (int step = 0; step < gauss_newton_steps; ++step) {
     Matrix6 normal = Matrix6::Zero();
     Vector6 right = Vector6::Zero();
     for (const Frame& frame : frames) {
-      const double t = frame.time - middle_;
-      const Vector3 turned = t * state_.angular_velocity;
-      const Quaternion turn = rotation_of(turned);
-      const Vector3 off = rotation_vector(frame.attitude * (turn * state_.attitude).conjugate());
+      const Turned now = turned(frame.time - middle_);
+      const Vector3 off = rotation_vector(frame.attitude * now.attitude.conjugate());
       Eigen::Matrix<double, 3, 6> row;
-      row.leftCols<3>() = turn.toRotationMatrix();
-      row.rightCols<3>() = t * left_jacobian(turned);
+      row.leftCols<3>() = now.attitude_by_attitude;
+      row.rightCols<3>() = now.attitude_by_velocity;
       const double w = weight_of(off.cwiseAbs().maxCoeff() / noise_.rotation) * per_noise;
       normal += w * row.transpose() * row;
       right += w * row.transpose() * off;
@@ -123,8 +129,45 @@ void FlightFit::fit_rotation(std::span<const Frame> frames, const FlightModel& m
     const Vector6 change = rotation_covariance_ * right;
     state_.attitude = (rotation_of(change.head<3>()) * state_.attitude).normalized();
     state_.angular_velocity += change.tail<3>();
+    start_rotation();
     if (change.head<3>().norm() + change.tail<3>().norm() * (last_ - first_) < settled) break;
   }
+}
+
+void FlightFit::start_rotation() {
+  if (!moments_) return;
+  analytic::space::State start = state_;
+  ahead_.emplace(moments_->principal, start, 0);
+  start.angular_velocity *= -1;
+  back_.emplace(moments_->principal, start, 0);
+}
+
+FlightFit::Turned FlightFit::turned(double t) const {
+  if (!moments_) {
+    const Vector3 vector = t * state_.angular_velocity;
+    const Quaternion turn = rotation_of(vector);
+    return {.attitude = turn * state_.attitude,
+            .angular_velocity = state_.angular_velocity,
+            .attitude_by_attitude = turn.toRotationMatrix(),
+            .attitude_by_velocity = t * left_jacobian(vector)};
+  }
+  // A motion backwards in time is one with the opposite angular velocity.
+  const double sense = t < 0 ? -1 : 1;
+  const analytic::space::FreeFlight& flight = t < 0 ? *back_ : *ahead_;
+  const auto& rotation = flight.rotation();
+  const auto [of_attitude, of_velocity] =
+      analytic::space::rotation_derivatives(flight, moments_->gyration, std::fabs(t));
+  Turned now{.attitude = rotation.attitude(std::fabs(t)),
+             .angular_velocity = {},
+             .attitude_by_attitude = {},
+             .attitude_by_velocity = sense * of_attitude};
+  now.angular_velocity = sense * (now.attitude * rotation.angular_velocity(std::fabs(t)));
+  // A turn of attitude and angular velocity together turns the whole motion.
+  const Matrix3 spin = cross_matrix(state_.angular_velocity);
+  now.attitude_by_attitude = Matrix3::Identity() + now.attitude_by_velocity * spin;
+  now.velocity_by_attitude = of_velocity * spin - cross_matrix(now.angular_velocity);
+  now.velocity_by_velocity = of_velocity;
+  return now;
 }
 
 void FlightFit::settle_misfit(std::span<const Frame> frames) {
@@ -148,7 +191,13 @@ analytic::space::State FlightFit::state_at(double time) const {
   analytic::space::State state = state_;
   state.position += t * state_.velocity - gravity_ * t * t / 2 * Vector3::UnitZ();
   state.velocity.z() -= gravity_ * t;
-  state.attitude = (rotation_of(t * state_.angular_velocity) * state_.attitude).normalized();
+  if (!moments_) {
+    state.attitude = (rotation_of(t * state_.angular_velocity) * state_.attitude).normalized();
+    return state;
+  }
+  const auto& rotation = (t < 0 ? *back_ : *ahead_).rotation();
+  state.attitude = rotation.attitude(std::fabs(t));
+  state.angular_velocity = (t < 0 ? -1 : 1) * (state.attitude * rotation.angular_velocity(std::fabs(t)));
   return state;
 }
 
@@ -164,10 +213,11 @@ MeasuredState FlightFit::at(double time) const {
   }
   whole(2, 6) = -t * t / 2;
   whole(8, 6) = -t;
-  const Vector3 turned = t * state_.angular_velocity;
-  whole.block<3, 3>(3, 7) = rotation_of(turned).toRotationMatrix();
-  whole.block<3, 3>(3, 10) = t * left_jacobian(turned);
-  whole.block<3, 3>(9, 10) = Matrix3d::Identity();
+  const Turned now = turned(t);
+  whole.block<3, 3>(3, 7) = now.attitude_by_attitude;
+  whole.block<3, 3>(3, 10) = now.attitude_by_velocity;
+  whole.block<3, 3>(9, 7) = now.velocity_by_attitude;
+  whole.block<3, 3>(9, 10) = now.velocity_by_velocity;
   Eigen::Matrix<double, 13, 13> parameters = Eigen::Matrix<double, 13, 13>::Zero();
   parameters.block<2, 2>(0, 0) = parameters.block<2, 2>(2, 2) = position_covariance_.topLeftCorner<2, 2>();
   parameters.block<3, 3>(4, 4) = position_covariance_.bottomRightCorner<3, 3>();
@@ -326,10 +376,11 @@ PoseNoise flight_noise(const TrackFile& file, const std::vector<TrackFlights>& f
 FallGravity fall_gravity(const TrackFile& file, const PoseNoise& noise) {
   const double stated = file.description.gravity;
   const FallGravity known{stated, unknown_gravity * stated};
-  const FlightModel wide{noise, {stated, stated}, file.description.is_planar()};
+  const FlightModel wide{
+      noise, {stated, stated}, file.description.is_planar(), unlike_moments(TrackedBody(file.description, {}))};
   std::vector<double> falls, own;
   for (const Track& track : file.tracks) {
-    const TrackFlights found = find_flights(track, {noise, {stated, 2 * known.spread}, wide.planar});
+    const TrackFlights found = find_flights(track, {noise, {stated, 2 * known.spread}, wide.planar, wide.moments});
     if (found.flights.empty() || found.flights[0].size() < gravity_frames) continue;
     const FlightFit fall = fit_flight(track, found.flights[0], wide, FlightSide::first, track.frames.size());
     falls.push_back(fall.gravity());

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A free flight fitted to tracked poses: a parabola and a rotation with constant angular velocity, robust, with
-// covariance.
+// A free flight fitted to tracked poses: a parabola and a free rotation, robust, with covariance.
 //
 // Position   x(t) = x₀ + v t − g t²/2 z,                                                           (1)
 // attitude   A(t) = exp(ω t) A₀,   t from the middle of the flight.                                (2)
-// (2) holds for bodies whose moments of inertia are alike, and for a rotation about a principal axis.  Errors of the
-// pose are independent from frame to frame.  Frames far off count less (Huber's weights); gravity g comes with what
-// other flights say of it, since walls may slow the fall.
+// (2) holds for bodies whose moments of inertia are alike; those of others go through Euler's equations, in closed form
+// (free_flight.hpp), with the principal axes as they are described.  Errors of the pose are independent from frame to
+// frame.  Frames far off count less (Huber's weights); gravity g comes with what other flights say of it, since walls
+// may slow the fall.
 #pragma once
 
 #include <Eigen/Core>
@@ -14,6 +14,7 @@
 #include <span>
 #include <vector>
 
+#include "analytic/space/flight/free_flight.hpp"
 #include "validation/measured/track.hpp"
 
 namespace clatter::validation {
@@ -34,11 +35,21 @@ struct MeasuredState {
   StateCovariance covariance = StateCovariance::Zero();
 };
 
+/// Inertia over mass of a body whose moments differ [m²].
+struct UnlikeMoments {
+  explicit UnlikeMoments(const Matrix3& per_mass) : gyration(per_mass), principal(per_mass) {}
+  Matrix3 gyration;
+  analytic::space::PrincipalAxes principal;
+};
+/// Nothing for a body whose moments are alike.
+[[nodiscard]] std::optional<UnlikeMoments> unlike_moments(const TrackedBody& body);
+
 /// What a flight is fitted with.
 struct FlightModel {
   PoseNoise noise;
   FallGravity gravity;
   bool planar = false;
+  std::optional<UnlikeMoments> moments = {};
 };
 
 class FlightFit {
@@ -64,6 +75,17 @@ class FlightFit {
   [[nodiscard]] double residual(const Frame& frame) const;
 
  private:
+  /// Attitude and angular velocity at a time, and what they change by with those at the middle, world frame.
+  struct Turned {
+    Quaternion attitude;
+    Vector3 angular_velocity;
+    Matrix3 attitude_by_attitude, attitude_by_velocity;
+    Matrix3 velocity_by_attitude = Matrix3::Zero(), velocity_by_velocity = Matrix3::Identity();
+  };
+  /// @param t  since the middle [s]
+  [[nodiscard]] Turned turned(double t) const;
+  /// Makes the rotation that starts with `state_`.
+  void start_rotation();
   void fit_position(std::span<const Frame> frames, const FlightModel& model);
   void fit_rotation(std::span<const Frame> frames, const FlightModel& model);
   void settle_misfit(std::span<const Frame> frames);
@@ -77,6 +99,9 @@ class FlightFit {
   Eigen::Matrix<double, 5, 5> position_covariance_ = Eigen::Matrix<double, 5, 5>::Zero();
   Eigen::Matrix<double, 6, 6> rotation_covariance_ = Eigen::Matrix<double, 6, 6>::Zero();
   bool planar_ = false;
+  std::optional<UnlikeMoments> moments_;
+  /// From the middle on and, with the angular velocity turned round, back: of a body whose moments differ.
+  std::optional<analytic::space::FreeFlight> ahead_, back_;
 };
 
 // A track taken apart: the flights between its impacts, and the frames that belong to none.

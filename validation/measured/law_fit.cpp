@@ -19,7 +19,7 @@ namespace clatter::validation {
 namespace {
 
 constexpr double missing = std::numeric_limits<double>::quiet_NaN();
-constexpr int most_steps = 2000;
+constexpr int most_steps = 2000, most_idle = 200;
 constexpr double shrunk = 1e-6, derivative_step = 0.05;
 
 using Vector = Eigen::VectorXd;
@@ -58,9 +58,13 @@ Vector least_point(const Losses& losses, const FitStart& start) {
   const std::unique_ptr<gsl_multimin_fminimizer, void (*)(gsl_multimin_fminimizer*)> simplex(
       gsl_multimin_fminimizer_alloc(gsl_multimin_fminimizer_nmsimplex2, count), gsl_multimin_fminimizer_free);
   gsl_multimin_fminimizer_set(simplex.get(), &function, origin.get(), size.get());
+  int idle = 0;  // steps that did not lower the loss
   for (int step = 0; step < most_steps; ++step) {
+    const double before = simplex->fval;
     if (gsl_multimin_fminimizer_iterate(simplex.get()) != 0) break;
-    if (gsl_multimin_fminimizer_size(simplex.get()) < shrunk) {
+    idle = simplex->fval < before ? 0 : idle + 1;
+    // On a plain, where a parameter does not matter, the simplex turns on the spot among losses that are equal.
+    if (gsl_multimin_fminimizer_size(simplex.get()) < shrunk || idle == most_idle) {
       Vector value = eigen_copy(simplex->x);
       for (Eigen::Index i = 0; i < value.size(); ++i) {
         const auto k = static_cast<std::size_t>(i);
@@ -196,6 +200,7 @@ Vector3 least_solution(const Matrix3& N, const Vector3& right) {
 /// as the middle over the poses on each face, then least squares over the faces.
 void calibrate_axes(const MeasuredFile& file, const TrackPart& part, CalibrationResult& result) {
   const TrackedBody body(file.file.description, {});
+  if (body.faces().empty()) return;
   std::vector<std::vector<Vector3>> down(body.faces().size());
   for (const std::size_t index : part) {
     if (!file.tracks[index].rest) continue;
@@ -230,20 +235,23 @@ void calibrate_axes(const MeasuredFile& file, const TrackPart& part, Calibration
 }
 
 /// Height of the ground: the middle of the lowest points where two flights meet, of that half of the impacts whose
-/// flights meet best.
+/// flights meet best.  Of a ball first impacts alone count: pieces of its rolling look like weak ones.
 void calibrate_ground(const MeasuredFile& file, const TrackPart& part, CalibrationResult& result) {
   const double stated = file.file.description.ground;
   Calibration calibration = result.calibration;
   calibration.ground = stated;
   const TrackedBody body(file.file.description, calibration);
   std::vector<double> heights, distances, own;
+  const auto counts = [&](const Meeting& meeting) { return !body.is_ball() || meeting.number == 1; };
   for (const std::size_t index : part) {
-    for (const Meeting& meeting : file.tracks[index].meetings) distances.push_back(meeting.distance);
+    for (const Meeting& meeting : file.tracks[index].meetings) {
+      if (counts(meeting)) distances.push_back(meeting.distance);
+    }
   }
   const double clean = median(distances);
   for (const std::size_t index : part) {
     for (const Meeting& meeting : file.tracks[index].meetings) {
-      if (meeting.distance > clean) continue;
+      if (!counts(meeting) || meeting.distance > clean) continue;
       const analytic::space::State met = meeting.before.state_at(meeting.time);
       const Quaternion attitude = body.attitude(met.attitude);
       own.push_back(meeting.low_error);
@@ -312,7 +320,7 @@ double middle_of_points(const Eigen::VectorXd& misses) {
   return median(points);
 }
 
-/// Inertia alone, then rounding, too: each is kept if it lowers the loss clearly.
+/// Inertia alone, then of a box rounding, too: each is kept if it lowers the loss clearly.
 void calibrate_inertia(const MeasuredFile& file, const TrackPart& part, CalibrationResult& result) {
   const TurningLosses turning(file, part, result);
   if ((turning.losses(1, 0).array() < 1).count() < enough_points) return;
@@ -330,9 +338,11 @@ void calibrate_inertia(const MeasuredFile& file, const TrackPart& part, Calibrat
     result.rounding_half_width = rounding < 0 ? 0 : half * fit.half_width(rounding);
   };
   keep(fit_robustly([&](const Eigen::VectorXd& p) { return turning.losses(p[0], 0); }, {{1}, {0.1}}), 0, -1);
-  keep(fit_robustly([&](const Eigen::VectorXd& p) { return turning.losses(p[0], half * p[1]); },
-                    {{result.calibration.inertia_factor, 0.05}, {0.1, 0.05}}),
-       0, 1);
+  if (file.file.description.is_box()) {
+    keep(fit_robustly([&](const Eigen::VectorXd& p) { return turning.losses(p[0], half * p[1]); },
+                      {{result.calibration.inertia_factor, 0.05}, {0.1, 0.05}}),
+         0, 1);
+  }
   result.lever_after = middle_of_points(turning.misses(result.calibration.inertia_factor, result.calibration.rounding));
 }
 
@@ -367,6 +377,7 @@ using analytic::RestitutionLaw;
 using analytic::space::State;
 
 constexpr double quadratic_below = 0.05;  // relative error
+constexpr double larger_friction = 1.5;   // over the fitted one: what must fit worse
 constexpr int floor_iterations = 2000;
 constexpr double floor_settled = 1e-12;
 constexpr std::size_t least_points = 5;
@@ -449,6 +460,14 @@ LawFit fit_law(const TrackedBody& body, const std::vector<PartImpact>& impacts, 
   FitStart start{{0.4, 0.15}, {0.1, 0.05}};
   if (slope) start = {{0.4, 0.15, 0.0}, {0.1, 0.05, 0.1}};
   result.fit = fit_robustly(losses, start);
+  // Where all impacts stick before they end, a larger friction fits as well, and μ is not settled.
+  Eigen::VectorXd larger = result.fit.value;
+  larger[1] = larger_friction * larger[1] + derivative_step;
+  const PairedDifference worse = paired_difference(losses(larger), result.fit.losses);
+  if (!(worse.mean > 0 && worse.is_clear())) {
+    result.fit.covariance.row(1).setConstant(missing);
+    result.fit.covariance.col(1).setConstant(missing);
+  }
   result.law = law_of(result.fit.value);
   return result;
 }

@@ -35,7 +35,9 @@ struct RobustFit {
 };
 
 /// Least mean loss by the simplex of Nelder and Mead (GSL).  Losses need no derivatives: friction's have kinks.
-/// @throws NumericalError if the simplex does not shrink to 1e-6 of its first size in 2000 steps.
+/// @throws NumericalError if the simplex does not shrink to 1e-6 of its first size in 2000 steps, but where 200 steps
+/// do
+///         not lower the loss, as on a plain.
 [[nodiscard]] RobustFit fit_robustly(const Losses& losses, const FitStart& start);
 
 /// s² (√(1 + (r/s)²) − 1): r²/2 for small r, s |r| for large ones.
@@ -69,7 +71,7 @@ struct CalibrationResult {
 /// The parts of a calibration that are fitted; the ground's height always is.
 struct CalibrationParts {
   bool axes = true;     ///< of the body, from resting poses: a face lies flat
-  bool inertia = true;  ///< and rounding, from the momentum about the touching point of first impacts
+  bool inertia = true;  ///< and of a box rounding, from the momentum about the touching point of first impacts
 };
 
 /// Calibrates on a part of a file.  Losses are capped, so that impacts on more than a point do not count.
@@ -123,7 +125,8 @@ struct LawFit {
 };
 
 /// Fits e and μ (and e₁) to the point impacts among these by least pseudo-Huber loss of relative_error(), quadratic
-/// below 5 %.
+/// below 5 %.  Where a friction half as large again does not fit clearly worse, μ is not settled, and its covariance
+/// NaN.
 /// @throws NumericalError if there are fewer than 5 point impacts.
 [[nodiscard]] LawFit fit_law(const TrackedBody& body, const std::vector<PartImpact>& impacts,
                              analytic::RestitutionLaw law, bool slope);

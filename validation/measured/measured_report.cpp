@@ -16,15 +16,29 @@ namespace {
 
 std::string mm(double metres) { return significant(1e3 * metres, 3); }
 
+std::vector<std::string> body_head(const TrackDescription& d) {
+  if (d.is_ball()) return {fmt::format("body: ball of radius {} m, {} kg", shortest(d.radius), shortest(d.mass))};
+  const auto three = [](const Vector3& v, auto number) {
+    return fmt::format("{} × {} × {} m", number(v.x()), number(v.y()), number(v.z()));
+  };
+  if (!d.mesh) return {fmt::format("body: box {}, {} kg", three(d.size, shortest), shortest(d.mass))};
+  const std::size_t corners = d.mesh->body.vertices.size(), faces = d.mesh->faces.size();
+  std::vector<std::string> head{fmt::format("body: {}, extents {}, {} kg; {} corners touch, {} {} to lie on",
+                                            d.mesh->name, three(d.size, [](double x) { return significant(x, 4); }),
+                                            shortest(d.mass), corners, faces, faces == 1 ? "face" : "faces")};
+  if (!d.mesh->words.empty()) head.push_back(d.mesh->words);
+  return head;
+}
+
 std::vector<std::string> tracks_head(const MeasuredRun& run) {
   const TrackDescription& d = run.file.file.description;
-  std::vector<std::string> head{
-      fmt::format("{}: {} drops, {} frames at {} Hz, motion in {}", run.file.file.path, run.file.file.tracks.size(),
-                  run.file.file.frames, d.time.empty() ? shortest(d.rate) : significant(d.rate, 6),
-                  d.is_planar() ? "a plane" : "space"),
-      fmt::format("body: box {} × {} × {} m, {} kg", shortest(d.size.x()), shortest(d.size.y()), shortest(d.size.z()),
-                  shortest(d.mass)),
-      "poses: " + d.frame_words(), run.split_words};
+  std::vector<std::string> head{fmt::format("{}: {} drops, {} frames at {} Hz, motion in {}", run.file.file.path,
+                                            run.file.file.tracks.size(), run.file.file.frames,
+                                            d.time.empty() ? shortest(d.rate) : significant(d.rate, 6),
+                                            d.is_planar() ? "a plane" : "space")};
+  for (const std::string& line : body_head(d)) head.push_back(line);
+  head.push_back("poses: " + d.frame_words());
+  head.push_back(run.split_words);
   if (!d.source.empty()) head.push_back(fmt::format("data: {} ({})", d.source, d.licence));
   return head;
 }
@@ -47,19 +61,26 @@ TrackCounts count_tracks(const MeasuredFile& file) {
   return counts;
 }
 
-Value calibration_value(const CalibrationResult& c) {
-  const Vector3& turn = c.calibration.turn;
-  return Value::Fields{{"turn", std::vector<double>{turn.x(), turn.y(), turn.z()}},
-                       {"turn_error", rounded_up(c.turn_error)},
-                       {"resting", c.resting},
-                       {"ground", c.calibration.ground},
-                       {"ground_spread", c.ground_spread},
-                       {"inertia_factor", c.calibration.inertia_factor},
-                       {"inertia_half_width", c.inertia_half_width},
-                       {"rounding", c.calibration.rounding},
-                       {"rounding_half_width", c.rounding_half_width},
-                       {"turning_unexplained_before", c.lever_before},
-                       {"turning_unexplained", c.lever_after}};
+/// Without what a body of this kind has not: a ball's axes, the rounding of corners but of a box.
+Value calibration_value(const CalibrationResult& c, const TrackDescription& d) {
+  Value value = Value::Fields{};
+  if (!d.is_ball()) {
+    const Vector3& turn = c.calibration.turn;
+    value["turn"] = std::vector<double>{turn.x(), turn.y(), turn.z()};
+    value["turn_error"] = rounded_up(c.turn_error);
+    value["resting"] = c.resting;
+  }
+  value["ground"] = c.calibration.ground;
+  value["ground_spread"] = c.ground_spread;
+  value["inertia_factor"] = c.calibration.inertia_factor;
+  value["inertia_half_width"] = c.inertia_half_width;
+  if (d.is_box()) {
+    value["rounding"] = c.calibration.rounding;
+    value["rounding_half_width"] = c.rounding_half_width;
+  }
+  value["turning_unexplained_before"] = c.lever_before;
+  value["turning_unexplained"] = c.lever_after;
+  return value;
 }
 
 /// What the frames and flights say of themselves.
@@ -77,18 +98,24 @@ std::vector<std::string> track_notes(const MeasuredRun& run) {
                   significant(model.gravity.spread, 2))};
 }
 
-/// The calibration in words.
+/// The calibration in words: what a body of this kind has of it.
 std::string calibration_note(const MeasuredRun& run) {
   const CalibrationResult& c = run.fit.calibration;
-  return fmt::format(
-      "calibration on the fitted drops: body axes turned by ({}, {}, {}) mrad ± {} ({} resting poses); ground at {} ± "
-      "{} "
-      "mm; inertia {} ± {} of the uniform body's; corners rounded by {} ± {} mm; turning unexplained {} → {}",
-      significant(1e3 * c.calibration.turn.x(), 3), significant(1e3 * c.calibration.turn.y(), 3),
-      significant(1e3 * c.calibration.turn.z(), 3), significant(1e3 * c.turn_error, 2), c.resting,
-      mm(c.calibration.ground), mm(c.ground_spread), significant(c.calibration.inertia_factor, 3),
-      significant(c.inertia_half_width, 2), mm(c.calibration.rounding), mm(c.rounding_half_width),
-      significant(c.lever_before, 2), significant(c.lever_after, 2));
+  const TrackDescription& d = run.file.file.description;
+  std::string words = "calibration on the fitted drops: ";
+  if (!d.is_ball()) {
+    words += fmt::format("body axes turned by ({}, {}, {}) mrad ± {} ({} resting poses); ",
+                         significant(1e3 * c.calibration.turn.x(), 3), significant(1e3 * c.calibration.turn.y(), 3),
+                         significant(1e3 * c.calibration.turn.z(), 3), significant(1e3 * c.turn_error, 2), c.resting);
+  }
+  words += fmt::format("ground at {} ± {} mm; inertia {} ± {} of the uniform body's; ", mm(c.calibration.ground),
+                       mm(c.ground_spread), significant(c.calibration.inertia_factor, 3),
+                       significant(c.inertia_half_width, 2));
+  if (d.is_box())
+    words += fmt::format("corners rounded by {} ± {} mm; ", mm(c.calibration.rounding), mm(c.rounding_half_width));
+  if (d.mesh) words += "corners as the mesh has them; ";
+  return words +
+         fmt::format("turning unexplained {} → {}", significant(c.lever_before, 2), significant(c.lever_after, 2));
 }
 
 /// A report with what every one of a run carries: its head, the data, the split, the calibration.
@@ -116,7 +143,7 @@ Report begun(const MeasuredRun& run, const std::string& action, const std::strin
   report.fields["split"] = run.split_words;
   report.fields["fitted"] = run.split.fitted.size();
   report.fields["scored"] = run.split.scored.size();
-  report.fields["calibration"] = calibration_value(run.fit.calibration);
+  report.fields["calibration"] = calibration_value(run.fit.calibration, d);
   return report;
 }
 
@@ -126,8 +153,12 @@ std::string law_words(const FittedLaw& law) {
                      significant(law.friction, 3));
 }
 
-/// "+-+": the signs of a corner's coordinates in the body's axes.
-std::string corner_name(const TrackedBody& body, int corner) {
+/// "+-+": the signs of a corner's coordinates in the axes of a box; the number of a mesh's corner, as `sequence` has
+/// it.
+std::string corner_name(const MeasuredRun& run, const TrackedBody& body, int corner) {
+  const TrackDescription& d = run.file.file.description;
+  if (d.is_ball()) return "ball";
+  if (d.mesh) return std::to_string(corner + 1);
   std::string name;
   for (const double part : body.sharp().vertices[static_cast<std::size_t>(corner)]) {
     if (part != 0) name += part > 0 ? '+' : '-';
@@ -135,9 +166,13 @@ std::string corner_name(const TrackedBody& body, int corner) {
   return name;
 }
 
-/// "+x": the face's outward normal.
-std::string face_name(const TrackedBody& body, std::size_t face) {
+/// The face's outward normal: "+x" of a box, "(0.58, -0.58, 0.58)" of a mesh.
+std::string face_name(const MeasuredRun& run, const TrackedBody& body, std::size_t face) {
   const Vector3& normal = body.faces()[face];
+  if (run.file.file.description.mesh) {
+    const Vector3 shown = (normal.array().abs() < 0.005).select(0, normal);  // no "-0.00"
+    return fmt::format("({:.2f}, {:.2f}, {:.2f})", shown.x(), shown.y(), shown.z());
+  }
   for (int axis = 0; axis < 3; ++axis) {
     if (normal[axis] != 0) return std::string(normal[axis] > 0 ? "+" : "-") + "xyz"[axis];
   }
@@ -166,6 +201,7 @@ std::string preference_words(const MeasuredFit& fit) {
     words += fmt::format("; {} is {}", law_name(fit.laws[i].law.law),
                          fit.against_best[i].is_clear() ? "clearly worse" : "not told apart from it");
   }
+  if (!fit.dependent) return words;
   return words + (fit.dependent_gain.is_clear() ? "; restitution depends on the corner's effective mass"
                                                 : "; no dependence on the corner's effective mass can be told");
 }
@@ -232,12 +268,20 @@ Report measured_fit_report(const MeasuredRun& run) {
   for (std::size_t i = 0; i < fit.laws.size(); ++i)
     report.grid.rows.push_back(law_row(law_name(fit.laws[i].law.law), fit.laws[i], fit.against_best[i]));
   const std::string best = law_name(fit.laws[fit.best].law.law);
-  report.grid.rows.push_back(
-      law_row(best + ", e(ν)", fit.dependent, {-fit.dependent_gain.mean, fit.dependent_gain.error}));
+  if (fit.dependent) {
+    report.grid.rows.push_back(
+        law_row(best + ", e(ν)", *fit.dependent, {-fit.dependent_gain.mean, fit.dependent_gain.error}));
+  }
   report.grid.rows.push_back(law_row(best + ", described", fit.described, {std::nan(""), std::nan("")}));
   report.notes = {preference_words(fit), calibration_note(run), contact_words(fit)};
   for (const std::string& note : track_notes(run)) report.notes.push_back(note);
-  report.notes.emplace_back("e(ν) = e + e₁ ν, ν = 1/(m W_nn); described: body uniform, sharp, its axes as tracked");
+  if (!std::isfinite(fit.laws[fit.best].fit.half_width(1)))
+    report.notes.emplace_back(
+        "μ is not settled: a larger one fits as well, as where all impacts stick before they end");
+  const TrackDescription& d = run.file.file.description;
+  report.notes.push_back(fmt::format("{}described: body uniform{}, its axes as tracked",
+                                     fit.dependent ? "e(ν) = e + e₁ ν, ν = 1/(m W_nn); " : "",
+                                     d.is_box() ? ", sharp" : ""));
   report.fields["fits"] = row_objects(report.grid);
   report.fields["best"] = best;
   report.fields["contact_time"] = fit.contact_time;
@@ -255,8 +299,8 @@ Report measured_predict_report(const MeasuredRun& run, const Scores& scores) {
     const Forecast& p = drop.predicted;
     Row row{Cell(drop.name),
             Cell(drop.measured.is_point),
-            Cell(corner_name(body, p.corner)),
-            Cell(corner_name(body, drop.measured.momentum_corner)),
+            Cell(corner_name(run, body, p.corner)),
+            Cell(corner_name(run, body, drop.measured.momentum_corner)),
             Cell(100 * p.certainty, 3),
             Cell(drop.measured.angle_degrees(), 3)};
     const MotionParts predicted = motion_parts(body, p.after), measured = motion_parts(body, drop.measured.after.state);
@@ -265,16 +309,16 @@ Report measured_predict_report(const MeasuredRun& run, const Scores& scores) {
     }
     const Cell nothing{Value()};
     row.emplace_back(100 * drop.error, 3);
-    row.push_back(p.next ? Cell(corner_name(body, p.next->corner)) : nothing);
-    row.push_back(drop.second ? Cell(corner_name(body, drop.second->corner)) : nothing);
+    row.push_back(p.next ? Cell(corner_name(run, body, p.next->corner)) : nothing);
+    row.push_back(drop.second ? Cell(corner_name(run, body, drop.second->corner)) : nothing);
     row.push_back(p.next ? Cell(1e3 * p.next->time, 3) : nothing);
     row.push_back(p.next ? Cell(1e3 * p.next->time_half_width, 2) : nothing);
     row.push_back(drop.second ? Cell(1e3 * (drop.second->time - drop.measured.time), 3) : nothing);
     row.push_back(p.next ? Cell(p.next->impulse_ratio) : nothing);
     row.push_back(p.end ? Cell(p.end->impacts) : nothing);
     row.emplace_back(drop.measured_impacts);
-    row.push_back(p.end ? Cell(face_name(body, p.end->face)) : nothing);
-    row.push_back(drop.face ? Cell(face_name(body, *drop.face)) : nothing);
+    row.push_back(p.end && !body.is_ball() ? Cell(face_name(run, body, p.end->face)) : nothing);
+    row.push_back(drop.face ? Cell(face_name(run, body, *drop.face)) : nothing);
     row.push_back(p.end ? Cell(p.end->outcome) : nothing);
     report.grid.rows.push_back(std::move(row));
   }
@@ -377,7 +421,8 @@ Report measured_score_report(const MeasuredRun& run, const Scores& scores) {
       "law as fitted: " + law_words(run.fit.laws[run.fit.best].law),
       "velocity: error of (V, k Ω) after impact 1 over its size before, k² = I/m of the uniform body; point "
       "impacts alone; floor: the best impulse inside the friction cone",
-      bin_words(scores), calibration_note(run)};
+      calibration_note(run)};
+  if (!run.file.file.description.is_ball()) report.notes.insert(report.notes.end() - 1, bin_words(scores));
   for (const std::string& note : track_notes(run)) report.notes.push_back(note);
   report.fields["scores"] = row_objects(report.grid);
   report.fields["residuals"] = bins_value(scores);

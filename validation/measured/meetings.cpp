@@ -105,7 +105,7 @@ double low_error(const Meeting& meeting, const TrackedBody& body, const PoseNois
   const PoseVector by_time = fall / weighted.dot(parting) * weighted;
   PoseVector by_before = by_time;
   by_before.head<3>() += Vector3::UnitZ();
-  by_before.tail<3>() += arm.cross(Vector3::UnitZ());
+  by_before.tail<3>() += arm.cross(Vector3::UnitZ());  // 0 of a ball
   const double variance = by_before.dot(before.covariance.topLeftCorner<6, 6>() * by_before) +
                           by_time.dot(after.covariance.topLeftCorner<6, 6>() * by_time);
   return std::sqrt(variance);
@@ -187,9 +187,12 @@ void sort_changes(MeasuredTrack& track, double ground, const MeasuredFile& measu
 MeasuredFile measure_tracks(TrackFile file) {
   MeasuredFile measured{.file = std::move(file), .model = {}, .tracks = {}};
   const TrackDescription& description = measured.file.description;
-  measured.model = {.noise = pose_noise(measured.file), .gravity = {}, .planar = description.is_planar()};
-  measured.model.gravity = fall_gravity(measured.file, measured.model.noise);
   const TrackedBody body(description, {});
+  measured.model = {.noise = pose_noise(measured.file),
+                    .gravity = {},
+                    .planar = description.is_planar(),
+                    .moments = unlike_moments(body)};
+  measured.model.gravity = fall_gravity(measured.file, measured.model.noise);
   std::vector<TrackFlights> flights;
   for (const Track& track : measured.file.tracks) flights.push_back(find_flights(track, measured.model));
   measured.model.noise = flight_noise(measured.file, flights, measured.model);
@@ -224,9 +227,10 @@ Matrix3 gyration(const TrackedBody& body, const Quaternion& attitude) {
 }
 
 /// Rows: derivative of the touching point's velocity by position, attitude, velocity and angular velocity.
-Eigen::Matrix<double, 3, 12> point_velocity_map(const State& state, const Vector3& arm) {
+/// @param turning  the part of the arm that turns with the body
+Eigen::Matrix<double, 3, 12> point_velocity_map(const State& state, const Vector3& arm, const Vector3& turning) {
   Eigen::Matrix<double, 3, 12> map = Eigen::Matrix<double, 3, 12>::Zero();
-  map.block<3, 3>(0, 3) = -cross_matrix(state.angular_velocity) * cross_matrix(arm);
+  map.block<3, 3>(0, 3) = -cross_matrix(state.angular_velocity) * cross_matrix(turning);
   map.block<3, 3>(0, 6) = Matrix3::Identity();
   map.block<3, 3>(0, 9) = -cross_matrix(arm);
   return map;
@@ -237,7 +241,7 @@ void add_lever(const TrackedBody& body, TrackImpact& impact, double tolerance) {
   const Vector3 jump = impact.after.state.velocity - impact.before.state.velocity;
   const StateCovariance both = impact.before.covariance + impact.after.covariance;
   Eigen::Matrix<double, 3, 12> map = Eigen::Matrix<double, 3, 12>::Zero();
-  map.block<3, 3>(0, 3) = cross_matrix(jump) * cross_matrix(impact.arm);
+  map.block<3, 3>(0, 3) = cross_matrix(jump) * cross_matrix(body.turning_part(impact.arm));
   map.block<3, 3>(0, 6) = cross_matrix(impact.arm);
   map.block<3, 3>(0, 9) = -gyration(body, impact.before.state.attitude);
   const double spread = std::sqrt((map * both * map.transpose()).trace());
@@ -262,22 +266,23 @@ Eigen::Matrix<double, 1, 12> height_map(const Vector3& arm) {
   return map;
 }
 
-void add_ratios(TrackImpact& impact, double ground_error) {
+void add_ratios(const TrackedBody& body, TrackImpact& impact, double ground_error) {
   const State &before = impact.before.state, &after = impact.after.state;
   const Vector3 u = before.velocity + before.angular_velocity.cross(impact.arm);
   const Vector3 w = after.velocity + after.angular_velocity.cross(impact.arm);
   impact.approach = -u.z();
   impact.slip = u.head<2>().norm();
   impact.restitution = w.z() / impact.approach;
-  const Eigen::Matrix<double, 3, 12> start = point_velocity_map(before, impact.arm),
-                                     end = point_velocity_map(after, impact.arm);
+  const Vector3 turning = body.turning_part(impact.arm);
+  const Eigen::Matrix<double, 3, 12> start = point_velocity_map(before, impact.arm, turning),
+                                     end = point_velocity_map(after, impact.arm, turning);
   // The arm is common to both: its error, that of the attitude before, enters through both velocities.
   Eigen::Matrix<double, 1, 12> by_before = impact.restitution * start.row(2);
   by_before.segment<3>(3) += end.row(2).segment<3>(3);
   Eigen::Matrix<double, 1, 12> by_after = end.row(2);
   by_after.segment<3>(3).setZero();
   // A touch dt later: the arm turns with the body, and both velocities are those of another time.
-  const Vector3 turned = before.angular_velocity.cross(impact.arm);
+  const Vector3 turned = before.angular_velocity.cross(turning);
   const double by_time = after.angular_velocity.cross(turned).z() +
                          impact.restitution * before.angular_velocity.cross(turned).z() -
                          (1 + impact.restitution) * impact.gravity;
@@ -318,9 +323,7 @@ std::optional<double> contact_time(const TrackedBody& body, const FlightFit& fli
   state.position.z() -= body.calibration().ground + body.calibration().rounding;
   try {
     const FreeFlight free(PrincipalAxes(body.core().inertia), state, std::max(0.0, flight.gravity()));
-    const double lowest =
-        state.position.z() +
-        (state.attitude * body.core().vertices[static_cast<std::size_t>(body.lowest(state.attitude))]).z();
+    const double lowest = state.position.z() + body.core_arm(state.attitude, body.lowest(state.attitude)).z();
     if (!(lowest > 0)) return std::nullopt;
     const FirstContact contact = analytic::space::first_contact(body.core(), free, {});
     if (contact.end != analytic::FlightEnd::contact || !(start + contact.time <= until)) return std::nullopt;
@@ -354,7 +357,7 @@ TrackImpact measured_impact(const Meeting& meeting, const TrackedBody& body, dou
   const auto height = height_map(impact.arm);
   const double low_error = std::sqrt((height * impact.before.covariance * height.transpose())(0));
   impact.time_error = std::hypot(ground_error, low_error) / std::max(fall, 1e-3);
-  add_ratios(impact, ground_error);
+  add_ratios(body, impact, ground_error);
   add_lever(body, impact, lever_tolerance);
   return impact;
 }

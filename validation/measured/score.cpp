@@ -32,6 +32,17 @@ constexpr double one_in_two_to_54 = 0x1p-54;  // uniform_at() may be 0
 constexpr int most_impacts = 200, most_touches = 20;
 constexpr double frames_of_a_flight = 3;
 
+/// A body's attitude and angular velocity a time later in flight.
+void turn_freely(const TrackedBody& body, State& state, double time) {
+  if (body.turns_steadily()) {
+    state.attitude = (rotation_of(time * state.angular_velocity) * state.attitude).normalized();
+    return;
+  }
+  const State later = FreeFlight(PrincipalAxes(body.core().inertia), state, 0).at(time);
+  state.attitude = later.attitude;
+  state.angular_velocity = later.angular_velocity;
+}
+
 double point_speed(const TrackedBody& body, const State& state, int corner) {
   return (state.velocity + state.angular_velocity.cross(body.arm(state.attitude, corner))).z();
 }
@@ -114,7 +125,7 @@ ForecastEnd sequence_end(const ForecastModel& model, const TrackImpact& start) {
   for (std::size_t i = 1; i < sequence.rows.size(); ++i) {
     if ((sequence.rows[i].start - sequence.rows[i - 1].start) * model.rate >= frames_of_a_flight) ++end.impacts;
   }
-  end.face = model.body.down_face(sequence.rows.back().before.attitude);
+  if (!model.body.faces().empty()) end.face = model.body.down_face(sequence.rows.back().before.attitude);
   return end;
 }
 
@@ -144,11 +155,11 @@ MotionParts motion_parts(const TrackedBody& body, const State& state) {
 }
 
 std::optional<NextImpact> next_contact(const TrackedBody& body, State after, int corner, double gravity) {
-  const Vector3 place = body.core().vertices[static_cast<std::size_t>(corner)];
-  after.position = {0, 0, -(after.attitude * place).z()};
+  const Vector3 arm = body.core_arm(after.attitude, corner);
+  after.position = {0, 0, -arm.z()};
   try {
     const FreeFlight flight(PrincipalAxes(body.core().inertia), after, std::max(0.0, gravity));
-    const double leaving = (after.velocity + after.angular_velocity.cross(after.attitude * place)).z();
+    const double leaving = (after.velocity + after.angular_velocity.cross(arm)).z();
     const std::vector<analytic::space::Touch> touch{{corner, leaving}};
     const FirstContact contact = analytic::space::first_contact(body.core(), flight, touch);
     if (contact.end != analytic::FlightEnd::contact) return std::nullopt;
@@ -170,7 +181,7 @@ State after_touches(const ForecastModel& model, const TrackImpact& start, double
     if (!next || !(time + next->time < duration)) break;
     time += next->time;
     corner = next->corner;
-    state.attitude = (rotation_of(next->time * state.angular_velocity) * state.attitude).normalized();
+    turn_freely(model.body, state, next->time);
     state.velocity.z() -= start.gravity * next->time;
     state = struck(model.body, state, corner, model.law);
   }
@@ -252,6 +263,19 @@ void add_intervals(const MeasuredFile& file, const std::vector<PartImpact>& impa
   fit.width_factor = quantile(standard, 0.9);
 }
 
+/// Whether the point impacts' effective masses differ enough for restitution to depend on them.
+bool has_effective_masses(const TrackedBody& body, const std::vector<PartImpact>& impacts) {
+  constexpr double least_range = 0.01;
+  double least = 1, largest = 0;
+  for (const PartImpact& item : impacts) {
+    if (!item.impact.is_point) continue;
+    const double mass = effective_mass(body, item.impact.before.state, item.impact.corner);
+    least = std::min(least, mass);
+    largest = std::max(largest, mass);
+  }
+  return largest - least > least_range;
+}
+
 /// Contacts shorter than a frame are caught by a frame with the probability T × rate.
 void add_contact_time(const MeasuredFile& file, const std::vector<PartImpact>& impacts, MeasuredFit& fit) {
   double points = 0, caught = 0;
@@ -323,8 +347,10 @@ MeasuredFit fit_measured(const MeasuredFile& file, const TrackPart& part) {
   }
   const LawFit& best = fit.laws[fit.best];
   for (const LawFit& law : fit.laws) fit.against_best.push_back(paired_difference(law.fit.losses, best.fit.losses));
-  fit.dependent = fit_law(body, impacts, best.law.law, true);
-  fit.dependent_gain = paired_difference(best.fit.losses, fit.dependent.fit.losses);
+  if (has_effective_masses(body, impacts)) {
+    fit.dependent = fit_law(body, impacts, best.law.law, true);
+    fit.dependent_gain = paired_difference(best.fit.losses, fit.dependent->fit.losses);
+  }
   const TrackedBody plain(description, fit.as_described.calibration);
   fit.described = fit_law(plain, impacts_of(file, part, plain, fit.as_described.ground_spread, 1), best.law.law, false);
   add_contact_time(file, impacts, fit);
@@ -345,7 +371,9 @@ class Scorer {
       : file_(file), fit_(fit), model_(forecast_model(file, fit)), request_{.sequence = sequences} {
     if (const auto& stated = file.file.description.published)
       published_ = FittedLaw{analytic::RestitutionLaw::newton, stated->restitution, 0, stated->friction};
-    for (const char* name : {"as fitted", "restitution by effective mass", "body as described"}) add_row(name);
+    add_row("as fitted");
+    if (fit.dependent) add_row("restitution by effective mass");
+    add_row("body as described");
     for (const LawFit& law : fit.laws) add_row(law_name(law.law.law));
     if (published_) add_row("published parameters");
     for (const char* name : {"flat rebound", "no change", "floor: any impulse there", "no point impact: one impact",
@@ -363,7 +391,7 @@ class Scorer {
     drop.error = relative_error(model_.body, drop.measured, drop.predicted.after);
     drop.measured_impacts = static_cast<int>(track.meetings.size());
     if (track.meetings.size() > 1) drop.second = impact(track, 1);
-    if (track.rest) drop.face = model_.body.down_face(model_.body.attitude(*track.rest));
+    if (track.rest && !model_.body.is_ball()) drop.face = model_.body.down_face(model_.body.attitude(*track.rest));
     ++scores_.points.of;
     if (drop.measured.is_point) take_point(track, drop);
     else take_several(track, drop);
@@ -396,7 +424,9 @@ class Scorer {
     const State& before = m.before.state;
     ++scores_.points.right;
     put("as fitted", drop.error);
-    put("restitution by effective mass", relative_error(body, m, struck(body, before, m.corner, fit_.dependent.law)));
+    if (fit_.dependent)
+      put("restitution by effective mass",
+          relative_error(body, m, struck(body, before, m.corner, fit_.dependent->law)));
     for (const LawFit& law : fit_.laws)
       put(law_name(law.law.law), relative_error(body, m, struck(body, before, m.corner, law.law)));
     State flat = before;
@@ -405,8 +435,8 @@ class Scorer {
     put("no change", relative_error(body, m, before));
     put("floor: any impulse there", floor_error(body, m, fit_.laws[fit_.best].law.friction));
     take_described(track);
-    ++scores_.first_corner.of;
-    if (m.momentum_corner == drop.predicted.corner) ++scores_.first_corner.right;
+    if (!body.is_ball()) ++scores_.first_corner.of;
+    if (!body.is_ball() && m.momentum_corner == drop.predicted.corner) ++scores_.first_corner.right;
     take_second(track, drop);
     take_intervals(drop);
   }
@@ -435,6 +465,16 @@ class Scorer {
     if (std::any_of(track.other_changes.begin(), track.other_changes.end(), between)) return;
     const NextImpact& next = *drop.predicted.next;
     const bool right = next.corner == drop.second->corner;
+    if (!model_.body.is_ball()) take_second_corner(drop, next, right);
+    if (!right) return;
+    const double flown = drop.second->time - drop.measured.time;
+    scores_.time_errors.push_back(std::fabs(next.time / flown - 1));
+    const auto jump = [](const TrackImpact& i) { return i.after.state.velocity.z() - i.before.state.velocity.z(); };
+    const double ratio = jump(*drop.second) / jump(drop.measured);
+    scores_.ratio_errors.push_back(std::fabs(next.impulse_ratio / ratio - 1));
+  }
+
+  void take_second_corner(const ScoredDrop& drop, const NextImpact& next, bool right) {
     const auto flown_to =
         next_contact(model_.body, drop.measured.after.state, drop.measured.corner, drop.measured.gravity);
     ++scores_.second_corner_flown.of;
@@ -449,12 +489,6 @@ class Scorer {
       ++scores_.second_corner_clear.of;
       if (right) ++scores_.second_corner_clear.right;
     }
-    if (!right) return;
-    const double flown = drop.second->time - drop.measured.time;
-    scores_.time_errors.push_back(std::fabs(next.time / flown - 1));
-    const auto jump = [](const TrackImpact& i) { return i.after.state.velocity.z() - i.before.state.velocity.z(); };
-    const double ratio = jump(*drop.second) / jump(drop.measured);
-    scores_.ratio_errors.push_back(std::fabs(next.impulse_ratio / ratio - 1));
   }
 
   void take_intervals(const ScoredDrop& drop) {
@@ -551,6 +585,8 @@ Scores score_measured(const MeasuredFile& file, const MeasuredFit& fit, const Tr
   for (const std::size_t index : part) scorer.take(index);
   Scores scores = scorer.finish();
   scores.bins = residual_bins(scores.drops);
+  if (file.file.description.is_ball())
+    std::erase_if(scores.bins, [](const ResidualBin& bin) { return bin.quantity == "angle"; });
   return scores;
 }
 

@@ -29,7 +29,7 @@ struct NextImpact {
 /// The whole sequence, with the sharp body.
 struct ForecastEnd {
   int impacts = 0;       ///< that flights of three frames or more follow
-  std::size_t face = 0;  ///< that lies down at the end
+  std::size_t face = 0;  ///< that lies down at the end; of a ball none, 0
   std::string outcome;   ///< "at-rest", "sustained-contact", …
 };
 
@@ -103,9 +103,11 @@ struct MeasuredFit {
   CalibrationResult calibration;   ///< of the body
   CalibrationResult as_described;  ///< the ground alone
   std::vector<LawFit> laws;        ///< newton, poisson, stronge, with the calibrated body
-  LawFit dependent;                ///< the best of them, with restitution that depends on the effective mass
-  LawFit described;                ///< the best law with the body as it is described
-  std::size_t best = 0;            ///< index in laws: least loss
+  /// The best of them, with restitution that depends on the effective mass; none where that differs by less than a
+  /// hundredth between the point impacts, as of a ball.
+  std::optional<LawFit> dependent;
+  LawFit described;                            ///< the best law with the body as it is described
+  std::size_t best = 0;                        ///< index in laws: least loss
   std::vector<PairedDifference> against_best;  ///< loss of each law less the best's
   PairedDifference dependent_gain;             ///< loss of the best pure law less that of `dependent`
   double law_scatter = 0;   ///< of the motion's parts with the best pure law, over the motion's size before

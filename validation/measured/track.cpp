@@ -13,6 +13,7 @@
 #include "validation/output/bad_input.hpp"
 #include "validation/output/number.hpp"
 #include "validation/output/numeric_table.hpp"
+#include "validation/scene/body_properties.hpp"
 #include "validation/scene/scene_values.hpp"
 
 namespace clatter::validation {
@@ -29,7 +30,11 @@ const std::string folder = "validation/measured/", ending = ".toml";
 
 const std::vector<std::string>& description_keys() {
   static const std::vector<std::string> keys{"body.size",
+                                             "body.radius",
+                                             "body.mesh.file",
+                                             "body.mesh.unit",
                                              "body.mass",
+                                             "track.point",
                                              "track.motion",
                                              "track.rate",
                                              "track.drop",
@@ -85,16 +90,69 @@ void put_columns(const SceneValues& values, TrackDescription& d) {
   for (const char* name : {"q0", "q1", "q2", "q3"}) d.quaternion.push_back(column_name(values, name, name));
 }
 
-TrackDescription described(const SceneValues& values) {
+/// The body of a mesh's file, as scenes have it.
+std::shared_ptr<const TrackedMesh> read_mesh(SceneValues& values, double mass) {
+  constexpr Range units{0, 1e100, true, "mm, cm, m, in, or a length in m greater than 0 and at most 1e100"};
+  values.name_numbers("body.mesh.unit", {{"mm", 0.001}, {"cm", 0.01}, {"m", 1}, {"in", 0.0254}});
+  Scene scene;
+  scene.body.shape = BodyScene::Shape::mesh;
+  scene.body.mass = mass;
+  scene.body.file = values.file("body.mesh.file");
+  scene.body.mesh_file = unread_mesh();
+  scene.body.has_unit = values.has("body.mesh.unit");
+  scene.body.unit = values.number("body.mesh.unit", 1, units);
+  const SolidBody solid = solid_body(scene);
+  const BodyProperties properties = body_properties(scene, Model::discrete);
+  constexpr double least = 1e-5, largest = 20;  // [m]
+  if (const double across = properties.extents.maxCoeff(); !(across >= least && across <= largest)) {
+    values.require("body.mesh.unit",
+                   fmt::format("mm, cm, m or in: without it the mesh is {} m across", shortest(across)));
+  }
+  TrackedMesh mesh;
+  mesh.centre = solid.properties.centre;
+  mesh.extents = properties.extents;
+  std::vector<Vector3> corners = solid.surface.nodes;
+  for (Vector3& corner : corners) corner -= mesh.centre;
+  // Only velocities are measured, which a common factor of mass and inertia leaves alone.
+  mesh.body = analytic::space::polyhedron(
+      hull_corners(corners, properties.extents.norm()),
+      {.mass = mass, .centre = Vector3::Zero(), .inertia = mass / solid.properties.mass * solid.properties.inertia});
+  mesh.faces = resting_faces(mesh.body.vertices);
+  mesh.name = std::filesystem::path(scene.body.file).filename().string();
+  mesh.words = mesh_words(scene);
+  return std::make_shared<const TrackedMesh>(std::move(mesh));
+}
+
+void put_body(SceneValues& values, TrackDescription& d) {
+  d.mass = values.number("body.mass", 1, positive);
+  for (const auto& [one, other] : {std::pair("body.size", "body.radius"), std::pair("body.size", "body.mesh.file"),
+                                   std::pair("body.radius", "body.mesh.file")})
+    values.exclude(one, other);
+  const bool has_file = values.has("body.mesh.file");
+  if (values.has("body.mesh.unit") && !has_file) values.refuse("body.mesh.unit", "left out: it is only for a mesh");
+  if (values.has("track.point") && !has_file) values.refuse("track.point", "left out: it is only for a mesh");
+  if (has_file) {
+    if (d.is_planar()) values.refuse("track.motion", "\"space\": the body is a mesh");
+    d.mesh = read_mesh(values, d.mass);
+    d.size = d.mesh->extents;
+    d.of_origin = values.name("track.point", 0, {"centre-of-mass", "origin"}) == 1;
+  } else if (values.has("body.radius")) {
+    d.radius = values.number("body.radius", 0, positive);
+    d.size = 2 * d.radius * Vector3::Ones();
+  } else {
+    values.require("body.size", "the box's [L, W, T] in m, or body.radius of a ball, or body.mesh.file");
+    const std::vector<double> size = values.numbers("body.size", {3}, positive, "three lengths in m");
+    d.size = {size[0], size[1], size[2]};
+  }
+}
+
+TrackDescription described(SceneValues values) {
   TrackDescription d;
   d.path = values.path();
-  values.require("body.size", "the box's [L, W, T] in m");
   if (!values.has("track.time")) values.require("track.rate", "frames per second, or track.time, a column of times");
   values.require("track.motion", "\"plane\" or \"space\"");
-  const std::vector<double> size = values.numbers("body.size", {3}, positive, "three lengths in m");
-  d.size = {size[0], size[1], size[2]};
   d.motion = static_cast<TrackDescription::Motion>(values.name("track.motion", 1, {"plane", "space"}));
-  d.mass = values.number("body.mass", 1, positive);
+  put_body(values, d);
   d.rate = values.number("track.rate", 0, positive);
   d.unit = values.number("track.unit", 1, positive);
   d.angle_unit = values.number("track.angle_unit", 1, positive);
@@ -138,13 +196,22 @@ Body box_with(const TrackDescription& d, double rounding, double inertia_factor)
   return body;
 }
 
+Body body_with(const TrackDescription& d, double rounding, double inertia_factor) {
+  if (d.is_box()) return box_with(d, rounding, inertia_factor);
+  Body body = d.is_ball() ? analytic::space::ellipsoid(d.mass, d.radius * Vector3::Ones()) : d.mesh->body;
+  body.inertia *= inertia_factor;
+  return body;
+}
+
 }  // namespace
 
 std::string TrackDescription::frame_words() const {
   if (is_planar())
     return fmt::format("x to the right and z up, angles {}", clockwise ? "clockwise" : "counter-clockwise");
-  return fmt::format("z up; quaternions with the scalar part {}, {}", scalar_last ? "last" : "first",
-                     to_body ? "world to body" : "body to world");
+  const std::string words = fmt::format("z up; quaternions with the scalar part {}, {}", scalar_last ? "last" : "first",
+                                        to_body ? "world to body" : "body to world");
+  if (!mesh) return words;
+  return fmt::format("of the {}, axes of {}; {}", of_origin ? "file's origin" : "centre of mass", mesh->name, words);
 }
 
 std::vector<std::string> carried_descriptions() {
@@ -185,27 +252,37 @@ TrackDescription description_of(const std::string& csv, const std::string& given
 }
 
 TrackedBody::TrackedBody(const TrackDescription& d, const Calibration& calibration)
-    : calibration_(calibration), core_(box_with(d, calibration.rounding, calibration.inertia_factor)),
-      sharp_(box_with(d, 0, calibration.inertia_factor)),
+    : calibration_(calibration), core_(body_with(d, calibration.rounding, calibration.inertia_factor)),
+      sharp_(body_with(d, 0, calibration.inertia_factor)),
       turn_(Eigen::AngleAxisd(calibration.turn.norm(), calibration.turn.norm() > 0
                                                            ? Vector3(calibration.turn.normalized())
                                                            : Vector3::UnitX())) {
-  for (int axis = 0; axis < 3; ++axis) {
+  for (int axis = 0; axis < 3 && d.is_box(); ++axis) {
     if (d.is_planar() && axis == 1) continue;
-    for (const double side : {-1.0, 1.0}) {
-      faces_.push_back(side * Vector3::Unit(axis));
-      distances_.push_back(d.size[axis] / 2);
-    }
+    for (const double side : {-1.0, 1.0}) faces_.push_back(side * Vector3::Unit(axis));
+  }
+  if (d.mesh) {
+    for (const HullFace& face : d.mesh->faces) faces_.push_back(face.normal);
   }
   gyration_square_ = sharp_.inertia.trace() / (3 * d.mass * calibration.inertia_factor);
-  reach_ = sharp_.vertices.front().norm();
+  reach_ = d.is_ball() ? d.radius : 0;
+  for (const Vector3& corner : sharp_.vertices) reach_ = std::max(reach_, corner.norm());
+  constexpr double alike = 1e-6;  // so small a difference bends no flight between two impacts
+  const analytic::space::PrincipalAxes principal(core_.inertia);
+  turns_steadily_ = !(principal.moments[2] - principal.moments[0] > alike * principal.moments[2]);
+}
+
+Vector3 TrackedBody::core_arm(const Quaternion& attitude, int corner) const {
+  if (is_ball()) return -reach_ * Vector3::UnitZ();
+  return attitude * core_.vertices[static_cast<std::size_t>(corner)];
 }
 
 Vector3 TrackedBody::arm(const Quaternion& attitude, int corner) const {
-  return attitude * core_.vertices[static_cast<std::size_t>(corner)] - calibration_.rounding * Vector3::UnitZ();
+  return core_arm(attitude, corner) - calibration_.rounding * Vector3::UnitZ();
 }
 
 int TrackedBody::lowest(const Quaternion& attitude) const {
+  if (is_ball()) return 0;
   const auto height = [&](const Vector3& corner) { return (attitude * corner).z(); };
   const auto place = std::min_element(core_.vertices.begin(), core_.vertices.end(),
                                       [&](const Vector3& a, const Vector3& b) { return height(a) < height(b); });
@@ -268,6 +345,7 @@ class FrameReader {
     const Quaternion q(p[0], p[1], p[2], p[3]);
     if (!(std::fabs(q.norm() - 1) <= worst_length)) table_.refuse(row, "q0", "part of a quaternion of length 1");
     frame.attitude = d.to_body ? q.normalized().conjugate() : q.normalized();
+    if (d.of_origin) frame.position += frame.attitude * d.mesh->centre;
     return frame;
   }
 

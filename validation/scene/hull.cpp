@@ -115,9 +115,11 @@ struct Extent {
   Vector3 low, high;
 };
 
-/// For each point those that share an edge of a triangulation of the hull with it, none for a point within it, by Qhull
-/// (Barber, Dobkin and Huhdanpaa, 1996).  Nothing at all for points that lie in a plane to rounding.
-std::vector<std::vector<Vector3>> hull_neighbours(const std::vector<Vector3>& points, const Extent& extent) {
+using Triangle = std::array<std::size_t, 3>;
+
+/// A triangulation of the hull by Qhull (Barber, Dobkin and Huhdanpaa, 1996), corners in no order; nothing for points
+/// that lie in a plane to rounding.
+std::vector<Triangle> hull_triangles(const std::vector<Vector3>& points, const Extent& extent) {
   if (!((extent.high - extent.low).minCoeff() > 0)) return {};
   std::vector<double> scaled;  // to a cube: what a corner and what an edge is does not change
   scaled.reserve(3 * points.size());
@@ -132,16 +134,12 @@ std::vector<std::vector<Vector3>> hull_neighbours(const std::vector<Vector3>& po
   qh_zero(qh, unread);
   const int status =
       qh_new_qhull(qh, 3, static_cast<int>(points.size()), scaled.data(), False, command, nullptr, unread);
-  std::vector<std::vector<Vector3>> neighbours(status == 0 ? points.size() : 0);
+  std::vector<Triangle> triangles;
   for (const facetT* facet = status == 0 ? qh->facet_list : nullptr; facet && facet->next; facet = facet->next) {
-    std::array<std::size_t, 3> corners{};
+    Triangle& corners = triangles.emplace_back();
     for (std::size_t k = 0; k < 3; ++k) {
       const auto* const vertex = static_cast<const vertexT*>(facet->vertices->e[k].p);
       corners[k] = static_cast<std::size_t>(vertex->point - scaled.data()) / 3;
-    }
-    for (std::size_t k = 0; k < 3; ++k) {  // each edge is one of two triangles that run about it opposite ways
-      const std::size_t from = corners[k];
-      neighbours[from].insert(neighbours[from].end(), {points[corners[(k + 1) % 3]], points[corners[(k + 2) % 3]]});
     }
   }
   qh_freeqhull(qh, qh_ALL);
@@ -149,6 +147,20 @@ std::vector<std::vector<Vector3>> hull_neighbours(const std::vector<Vector3>& po
   qh_memfreeshort(qh, &long_left, &total_left);
   std::fclose(unread);
   std::free(messages);
+  return triangles;
+}
+
+/// For each point those that share an edge of a triangulation of the hull with it, none for a point within it.
+/// Nothing at all for points that lie in a plane to rounding.
+std::vector<std::vector<Vector3>> hull_neighbours(const std::vector<Vector3>& points, const Extent& extent) {
+  const std::vector<Triangle> triangles = hull_triangles(points, extent);
+  std::vector<std::vector<Vector3>> neighbours(triangles.empty() ? 0 : points.size());
+  for (const Triangle& corners : triangles) {
+    for (std::size_t k = 0; k < 3; ++k) {  // each edge is one of two triangles that run about it opposite ways
+      const std::size_t from = corners[k];
+      neighbours[from].insert(neighbours[from].end(), {points[corners[(k + 1) % 3]], points[corners[(k + 2) % 3]]});
+    }
+  }
   return neighbours;
 }
 
@@ -168,6 +180,31 @@ std::vector<Vector3> hull_corners(const std::vector<Vector3>& points, double siz
     if (is_separate(distinct[i], neighbours[i], extent.reach(distinct[i]))) corners.push_back(distinct[i]);
   }
   return corners;
+}
+
+std::vector<HullFace> resting_faces(const std::vector<Vector3>& corners) {
+  constexpr double same_normal = 1e-6, sliver = 1e-12;  // of 1, of the square of the reach
+  if (corners.empty()) return {};
+  const Extent extent(corners);
+  Vector3 middle = Vector3::Zero();  // within the hull
+  for (const Vector3& corner : corners) middle += corner / static_cast<double>(corners.size());
+  const double reach = extent.reach(Vector3::Zero());
+  std::vector<HullFace> faces;
+  for (const Triangle& triangle : hull_triangles(corners, extent)) {
+    const Vector3& a = corners[triangle[0]];
+    const Vector3 area = (corners[triangle[1]] - a).cross(corners[triangle[2]] - a);
+    if (!(area.norm() > sliver * reach * reach)) continue;
+    const Vector3 normal = area.dot(a - middle) > 0 ? area.normalized() : -area.normalized();
+    const auto is_same = [&](const HullFace& face) { return (face.normal - normal).norm() <= same_normal; };
+    if (std::ranges::none_of(faces, is_same)) faces.push_back({normal, normal.dot(a)});
+  }
+  std::vector<HullFace> resting;
+  for (const HullFace& face : faces) {
+    const Vector3 foot = face.distance * face.normal;
+    const auto holds = [&](const HullFace& f) { return f.normal.dot(foot) <= f.distance + on_surface * reach; };
+    if (std::ranges::all_of(faces, holds)) resting.push_back(face);
+  }
+  return resting;
 }
 
 }  // namespace clatter::validation

@@ -18,4 +18,15 @@ namespace clatter::validation {
 /// Cost: n log n, for bodies without faces of thousands of corners.
 [[nodiscard]] std::vector<numeric::Vector3> hull_corners(const std::vector<numeric::Vector3>& points, double size);
 
+/// A plane face of a hull, seen from a point within it.
+struct HullFace {
+  numeric::Vector3 normal = numeric::Vector3::UnitZ();  ///< outward, unit
+  double distance = 0;                                  ///< of the plane from the point [m]
+};
+
+/// The faces of the convex hull of `corners` on which a body whose centre of mass is their origin can lie: the foot of
+/// the centre's perpendicular is in the face, to 1e-9 of the hull's reach.  Normals within 1e-6 of each other are of
+/// one face.  None for corners that lie in a plane.
+[[nodiscard]] std::vector<HullFace> resting_faces(const std::vector<numeric::Vector3>& corners);
+
 }  // namespace clatter::validation

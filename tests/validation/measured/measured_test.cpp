@@ -337,6 +337,29 @@ BOOST_AUTO_TEST_CASE(inertia_and_axes_of_a_body_that_is_not_as_described_are_fou
   BOOST_TEST((rest.calibration.turn - turn).norm() < 2e-3);  // of the second order in the turn
 }
 
+BOOST_AUTO_TEST_CASE(axes_of_a_mesh_are_found_from_poses_at_rest_on_its_faces) {
+  TrackedMesh mesh;
+  mesh.body = analytic::space::polyhedron(
+      {{0.04, 0.04, 0.04}, {0.04, -0.04, -0.04}, {-0.04, 0.04, -0.04}, {-0.04, -0.04, 0.04}},
+      {.mass = 0.3, .centre = Vector3::Zero(), .inertia = 1e-4 * Matrix3::Identity()});
+  mesh.faces = resting_faces(mesh.body.vertices);
+  BOOST_TEST_REQUIRE(mesh.faces.size() == 4u);
+  MeasuredFile file;
+  file.file.description = description_of({.planar = false, .body = {}});
+  file.file.description.mesh = std::make_shared<const TrackedMesh>(mesh);
+  const Vector3 turn(0.01, -0.02, 0.015);
+  for (int i = 0; i < 40; ++i) {
+    const Quaternion flat =
+        analytic::space::turn_between(mesh.faces[static_cast<std::size_t>(i % 4)].normal, {0, 0, -1});
+    MeasuredTrack track;
+    track.rest = rotation_of(0.7 * i * Vector3::UnitZ()) * flat * rotation_of(-turn);
+    file.tracks.push_back(track);
+  }
+  const CalibrationResult rest = calibrate(file, all_of(file), {.axes = true, .inertia = false});
+  BOOST_TEST(rest.resting == 40u);
+  BOOST_TEST((rest.calibration.turn - turn).norm() < 2e-3);  // of the second order in the turn
+}
+
 BOOST_AUTO_TEST_CASE(an_impact_on_two_corners_at_once_is_no_point_impact) {
   // A square lands on its face: no impulse at one corner explains a rebound without turning.
   const Recipe recipe{.planar = true, .tracks = 30, .body = {}, .tilt_low = 0.78, .tilt_high = 0.785, .seed = 3};

@@ -117,3 +117,39 @@ BOOST_AUTO_TEST_CASE(points_in_a_plane_are_all_kept) {
   const std::vector<Vector3> square{{0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}};
   BOOST_TEST((hull_corners(square, 1) == square));
 }
+
+BOOST_AUTO_TEST_CASE(a_body_lies_on_the_faces_that_the_foot_of_its_centre_is_in) {
+  std::vector<Vector3> box = lattice({0.3, 0.2, 0.1}, {0.4, -0.7, 0.2});
+  Vector3 middle = Vector3::Zero();
+  for (const Vector3& point : box) middle += point / static_cast<double>(box.size());
+  for (Vector3& point : box) point -= middle;
+  std::vector<double> distances;
+  for (const auto& face : clatter::validation::resting_faces(box)) distances.push_back(face.distance);
+  std::ranges::sort(distances);
+  BOOST_TEST_REQUIRE(distances.size() == 6u);
+  for (std::size_t i = 0; i < 6; ++i)
+    BOOST_TEST(std::fabs(distances[i] - 0.05 * static_cast<double>(i / 2 + 1)) < 1e-12);
+  // Tetrahedra: the foot's barycentric coordinates in the face are positive.
+  Random random(5);
+  std::size_t feet = 0, found = 0;
+  for (int i = 0; i < 200; ++i) {
+    std::vector<Vector3> corners = points_within(random, 4, Vector3::Ones());
+    const Vector3 centre = (corners[0] + corners[1] + corners[2] + corners[3]) / 4;
+    for (Vector3& corner : corners) corner -= centre;
+    const auto faces = clatter::validation::resting_faces(corners);
+    found += faces.size();
+    for (std::size_t top = 0; top < 4; ++top) {
+      const Vector3 &a = corners[(top + 1) % 4], &b = corners[(top + 2) % 4], &c = corners[(top + 3) % 4];
+      const Vector3 area = (b - a).cross(c - a), foot = area.dot(a) / area.squaredNorm() * area;
+      const auto share = [&](const Vector3& p, const Vector3& q) { return (q - p).cross(foot - p).dot(area); };
+      if (!(share(a, b) > 0 && share(b, c) > 0 && share(c, a) > 0)) continue;
+      ++feet;
+      BOOST_TEST(std::ranges::any_of(faces, [&](const auto& face) {
+        return (face.distance * face.normal - foot).norm() < 1e-9 * face.distance + 1e-12;
+      }));
+    }
+  }
+  BOOST_TEST(found == feet);
+  BOOST_TEST(feet > 300u);
+  BOOST_TEST(clatter::validation::resting_faces({}).empty());
+}
