@@ -378,6 +378,7 @@ using analytic::space::State;
 
 constexpr double quadratic_below = 0.05;  // relative error
 constexpr double larger_friction = 1.5;   // over the fitted one: what must fit worse
+constexpr double level_loss = 1e-3;       // rise over the loss below which it is level
 constexpr int floor_iterations = 2000;
 constexpr double floor_settled = 1e-12;
 constexpr std::size_t least_points = 5;
@@ -463,8 +464,7 @@ LawFit fit_law(const TrackedBody& body, const std::vector<PartImpact>& impacts, 
   // Where all impacts stick before they end, a larger friction fits as well, and μ is not settled.
   Eigen::VectorXd larger = result.fit.value;
   larger[1] = larger_friction * larger[1] + derivative_step;
-  const PairedDifference worse = paired_difference(losses(larger), result.fit.losses);
-  if (!(worse.mean > 0 && worse.is_clear())) {
+  if (!(losses(larger).mean() > (1 + level_loss) * result.fit.loss())) {
     result.fit.covariance.row(1).setConstant(missing);
     result.fit.covariance.col(1).setConstant(missing);
   }

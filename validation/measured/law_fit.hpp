@@ -125,8 +125,8 @@ struct LawFit {
 };
 
 /// Fits e and μ (and e₁) to the point impacts among these by least pseudo-Huber loss of relative_error(), quadratic
-/// below 5 %.  Where a friction half as large again does not fit clearly worse, μ is not settled, and its covariance
-/// NaN.
+/// below 5 %.  Where a friction half as large again does not raise the loss by a thousandth, μ is not settled, and its
+/// covariance NaN.
 /// @throws NumericalError if there are fewer than 5 point impacts.
 [[nodiscard]] LawFit fit_law(const TrackedBody& body, const std::vector<PartImpact>& impacts,
                              analytic::RestitutionLaw law, bool slope);
