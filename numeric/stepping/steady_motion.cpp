@@ -269,7 +269,7 @@ std::optional<GroundMotion> RockingWatch::judge(const ContactSystem& system, con
   if (!is_small || !is_steady || !now) return std::nullopt;
   const double moved = (now_.place - before_->place).head<2>().norm();
   const bool stays = now_.sliding <= fall && moved <= farthest_move * now_.depth &&
-                     (system.ground().has_friction() || radius * now_.spin <= now->rest);
+                     (system.ground().has_friction() || std::max(radius * now_.spin, now_.sliding) <= now->rest);
   std::optional<GroundMotion> motion;
   if (stays) motion = rocking_rest_of(*now);
   else if (now_.slips && before_->slips && radius * now_.spin <= now->rest && slides_to_rest(*now))
