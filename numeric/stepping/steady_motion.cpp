@@ -115,8 +115,12 @@ std::optional<double> decay_of(const Vector3& motion, const Vector3& rate, doubl
   return size * decay * std::sqrt(square) > part * g ? decay : 0;
 }
 
-Vector3 gravity_of(const ContactSystem& system) {
-  return Gravity(system.gravity(), system.gravity_along()).acceleration();
+Gravity pull_of(const ContactSystem& system) { return {system.gravity(), system.gravity_along()}; }
+Vector3 gravity_of(const ContactSystem& system) { return pull_of(system).acceleration(); }
+
+/// The equilibrium of the body near a state.
+std::optional<Equilibrium> level_near(const ContactSystem& system, const MotionState& pose) {
+  return equilibrium_near(system.body(), system.ground(), pull_of(system), system.planar(), pose);
 }
 
 /// The motion from now on, of which `turning` is left.
@@ -162,9 +166,7 @@ GroundMotion slide_of(const Instant& now) {
   end.centre += v * (motion.stops_after / 2);
   end.velocity.setZero();
   motion.rest = {end, now.at.diagnosis.load.deepest, motion.energy_stored};
-  const ContactSystem& system = now.system;
-  const auto level = equilibrium_near(system.body(), system.ground(), Gravity(system.gravity(), system.gravity_along()),
-                                      system.planar(), end);
+  const auto level = level_near(now.system, end);
   if (!level) return motion;
   motion.rest = *level;
   const Vector3 change = end.attitude * now.at.diagnosis.centre - level->state.attitude * now.at.diagnosis.centre;
@@ -175,10 +177,8 @@ GroundMotion slide_of(const Instant& now) {
 
 /// The equilibrium about which the body rocks, its pressure centre where it is.
 std::optional<GroundMotion> rocking_rest_of(const Instant& now) {
-  const ContactSystem& system = now.system;
   GroundMotion motion = rest_of(now);
-  const auto level = equilibrium_near(system.body(), system.ground(), Gravity(system.gravity(), system.gravity_along()),
-                                      system.planar(), motion.from);
+  const auto level = level_near(now.system, motion.from);
   if (!level) return std::nullopt;
   motion.rest = *level;
   return motion;

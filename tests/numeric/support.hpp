@@ -2,6 +2,9 @@
 // Meshes and checks that the tests of the numeric module share.
 #pragma once
 
+#include <array>
+#include <vector>
+
 #include "numeric/errors.hpp"
 #include "numeric/mesh/generators.hpp"
 #include "numeric/surface/surface.hpp"
@@ -73,6 +76,21 @@ inline double enclosed(const Surface& surface) {
 
 inline std::vector<Vector3> unit_cube() {
   return {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}};
+}
+
+using Triangle = std::array<Vector3, 3>;
+
+/// A box as twelve outward triangles.
+inline std::vector<Triangle> box_of_triangles(const Vector3& low, const Vector3& high) {
+  std::vector<Vector3> corner = unit_cube();
+  for (Vector3& c : corner) c = low + c.cwiseProduct(high - low);
+  std::vector<Triangle> triangles;
+  for (const auto& [a, b, c, d] :
+       {std::array{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}}) {
+    triangles.push_back({corner[a], corner[b], corner[c]});
+    triangles.push_back({corner[a], corner[c], corner[d]});
+  }
+  return triangles;
 }
 
 /// A hexahedron all of whose faces are warped.

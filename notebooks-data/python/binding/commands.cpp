@@ -12,7 +12,6 @@ namespace clatter::python {
 namespace {
 
 namespace py = pybind11;
-using validation::Argument;
 using validation::Command;
 
 /// @throws BadInput for a name that none has
@@ -41,27 +40,10 @@ py::tuple run_command(const std::string& name, const std::vector<std::string>& w
   return py::make_tuple(report ? py::cast(kept(std::move(*report))) : py::none(), status);
 }
 
-/// The arguments of its own, without those of scenes and of the form of the output.
-py::list command_arguments(const std::string& name) {
-  py::list rows;
-  const Command command = made(name);
-  for (const Argument& argument : command.arguments) {
-    if (!argument.is_option() || argument.group == validation::scene_group) continue;
-    py::dict row;
-    row["flag"] = argument.name;
-    row["type"] = argument.type;
-    row["help"] = argument.help;
-    row["is_truth"] = argument.is_flag();
-    rows.append(row);
-  }
-  return rows;
-}
-
 }  // namespace
 
 void add_commands(py::module_& module) {
   module.def("run_command", &run_command, py::arg("name"), py::arg("words"), "What a command says, and its status.");
-  module.def("command_arguments", &command_arguments, py::arg("name"), "The arguments of a command's own.");
 }
 
 }  // namespace clatter::python

@@ -44,19 +44,19 @@ def _run(command: str, scene: Scene | float | None, changes: Mapping[str, Any], 
         if "angle" in given:
             raise BadInput(f"angle {shown(given['angle'])}: given twice")
         given, scene = {"angle": scene, **given}, None
-    files = {}
+    without_flag = {}
     for name, value in given.items():
         key = KEYS[name]
         text = text_of(name, key, value)
         if not key.flag:
-            files[key.key] = value
+            without_flag[key.key] = value
         elif key.kind != "truth":
             words += [f"{key.flag}={text.replace('x', ',') if key.kind == 'list' and name != 'size' else text}"]
         elif value:
             words.append(key.flag)
     with tempfile.TemporaryDirectory() as folder:
-        if scene is not None or files:
-            words.append(_file_of({} if scene is None else scene, files, folder))
+        if scene is not None or without_flag:
+            words.append(_file_of({} if scene is None else scene, without_flag, folder))
         try:
             report, _ = called(_clatter.run_command, command, words)
         except BadInput as error:

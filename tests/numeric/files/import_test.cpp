@@ -36,20 +36,8 @@ class TemporaryFile {
   std::filesystem::path path_;
 };
 
-using Triangle = std::array<Vector3, 3>;
-
-/// The box 1 × 2 × 3 with a corner at the origin, as twelve outward triangles.
-std::vector<Triangle> box_triangles() {
-  std::vector<Vector3> corner = unit_cube();
-  for (Vector3& c : corner) c = c.cwiseProduct(Vector3(1, 2, 3));
-  std::vector<Triangle> triangles;
-  for (const auto& [a, b, c, d] :
-       {std::array{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}}) {
-    triangles.push_back({corner[a], corner[b], corner[c]});
-    triangles.push_back({corner[a], corner[c], corner[d]});
-  }
-  return triangles;
-}
+/// The box 1 × 2 × 3 with a corner at the origin.
+std::vector<Triangle> box_triangles() { return box_of_triangles(Vector3::Zero(), {1, 2, 3}); }
 
 /// Two lines of head, then seven for each triangle.
 std::string text_stl(const std::vector<Triangle>& triangles) {

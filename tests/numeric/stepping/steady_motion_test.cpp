@@ -152,7 +152,8 @@ BOOST_AUTO_TEST_CASE(a_box_that_starts_on_the_ground_slides_without_rocking) {
     start.attitude = Eigen::AngleAxisd(std::atan2(-0.8, 0.6), Vector3::UnitZ());
     start = sliding_equilibrium(cube(), world, start).state;
     start.velocity = speed * way;
-    BOOST_TEST((start.attitude * Vector3::UnitZ()).dot(way) == Wedge().tilt, boost::test_tools::tolerance(1e-3));
+    // The wedge is right to first order in its tilt, 3.5e-5, times some.
+    BOOST_TEST((start.attitude * Vector3::UnitZ()).dot(way) == Wedge().tilt, boost::test_tools::tolerance(3e-4));
     Request request = plain_impacts(5);
     request.starts_on_ground = true;
     const Simulation run = simulate(cube(), world, start, request);

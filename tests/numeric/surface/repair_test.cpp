@@ -13,22 +13,7 @@ using namespace clatter::numeric::test;
 
 constexpr double rounding = 100 * eps;
 
-using Triangle = std::array<Vector3, 3>;
-
-/// A box as twelve outward triangles.
-std::vector<Triangle> box(const Vector3& low, const Vector3& high) {
-  std::vector<Vector3> corner = unit_cube();
-  for (Vector3& c : corner) c = low + c.cwiseProduct(high - low);
-  std::vector<Triangle> triangles;
-  for (const auto& [a, b, c, d] :
-       {std::array{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}}) {
-    triangles.push_back({corner[a], corner[b], corner[c]});
-    triangles.push_back({corner[a], corner[c], corner[d]});
-  }
-  return triangles;
-}
-
-std::vector<Triangle> box_of_6() { return box({0, 0, 0}, {1, 2, 3}); }
+std::vector<Triangle> box_of_6() { return box_of_triangles({0, 0, 0}, {1, 2, 3}); }
 
 std::vector<Triangle> together(std::vector<Triangle> one, const std::vector<Triangle>& other) {
   one.insert(one.end(), other.begin(), other.end());
@@ -109,7 +94,7 @@ BOOST_AUTO_TEST_CASE(corners_across_a_seam_are_joined_and_the_bar_of_the_volume_
 }
 
 BOOST_AUTO_TEST_CASE(corners_closer_than_the_weld_stay_where_nothing_is_open) {
-  const std::vector<Triangle> thin = box({0, 0, 0}, {1, 1, 1e-8});
+  const std::vector<Triangle> thin = box_of_triangles({0, 0, 0}, {1, 1, 1e-8});
   const Repairs repairs = check_volume(thin, 1e-8, eps);  // of coordinates of 1 [m]
   BOOST_TEST(!repairs.any());
 }
@@ -162,7 +147,7 @@ BOOST_AUTO_TEST_CASE(doubled_triangles_are_left_out_whichever_way_they_face) {
 
 BOOST_AUTO_TEST_CASE(the_wall_between_two_boxes_that_share_a_face_is_none_of_the_surface) {
   // Only where the diagonals of the common face agree are its triangles the same.
-  const std::vector<Triangle> stacked = together(box_of_6(), box({0, 0, 3}, {1, 2, 5}));
+  const std::vector<Triangle> stacked = together(box_of_6(), box_of_triangles({0, 0, 3}, {1, 2, 5}));
   std::vector<Triangle> same = stacked;
   same[12] = {same[2][0], same[2][2], same[2][1]};
   same[13] = {same[3][0], same[3][2], same[3][1]};
@@ -172,7 +157,7 @@ BOOST_AUTO_TEST_CASE(the_wall_between_two_boxes_that_share_a_face_is_none_of_the
 }
 
 BOOST_AUTO_TEST_CASE(a_box_that_faces_inward_in_another_is_its_cavity_and_one_that_faces_outward_is_left_out) {
-  const std::vector<Triangle> inner = box({0.25, 0.5, 0.5}, {0.5, 1, 1.5});
+  const std::vector<Triangle> inner = box_of_triangles({0.25, 0.5, 0.5}, {0.5, 1, 1.5});
   const Repairs hollow = check_volume(together(box_of_6(), turned(inner)), 6 - 0.125);
   BOOST_TEST(hollow.cavities == 1);
   BOOST_TEST(!hollow.any());
@@ -183,29 +168,29 @@ BOOST_AUTO_TEST_CASE(a_box_that_faces_inward_in_another_is_its_cavity_and_one_th
   BOOST_TEST(inside_out.cavities == 1);
   BOOST_TEST(inside_out.turned == 24);
   const std::vector<Triangle> island =
-      together(together(box_of_6(), turned(inner)), box({0.3, 0.6, 0.6}, {0.4, 0.7, 0.7}));
+      together(together(box_of_6(), turned(inner)), box_of_triangles({0.3, 0.6, 0.6}, {0.4, 0.7, 0.7}));
   BOOST_TEST(check_volume(island, 6 - 0.125 + 0.001).parts == 2);
   check_strict_refuses(together(inner, box_of_6()));
 }
 
 BOOST_AUTO_TEST_CASE(boxes_apart_are_parts_and_the_bar_of_boxes_that_overlap_holds_what_they_share) {
-  const Repairs apart = check_volume(together(box_of_6(), box({5, 0, 0}, {6, 1, 1})), 7);
+  const Repairs apart = check_volume(together(box_of_6(), box_of_triangles({5, 0, 0}, {6, 1, 1})), 7);
   BOOST_TEST(apart.parts == 2);
   BOOST_TEST(apart.overlapping == 0);
   for (const Vector3& low : {Vector3(0.5, 0.5, 0.5), Vector3(0.5, 0, 0)}) {  // the second with faces in common planes
     const Vector3 high = low + Vector3(1, 2, 3);
-    const Repairs repairs = repaired(soup(together(box_of_6(), box(low, high)))).repairs;
+    const Repairs repairs = repaired(soup(together(box_of_6(), box_of_triangles(low, high)))).repairs;
     const double shared = (Vector3(1, 2, 3) - low).prod();
     BOOST_TEST(repairs.overlapping == 1);
     BOOST_TEST(repairs.volume_error >= shared);
     BOOST_TEST(std::fabs(repairs.volume - 12) <= rounding * 12);
-    check_strict_refuses(together(box_of_6(), box(low, high)));
+    check_strict_refuses(together(box_of_6(), box_of_triangles(low, high)));
   }
-  BOOST_TEST(repaired(soup(together(box_of_6(), box({1, 3, 0}, {2, 4, 1})))).repairs.overlapping == 0);
+  BOOST_TEST(repaired(soup(together(box_of_6(), box_of_triangles({1, 3, 0}, {2, 4, 1})))).repairs.overlapping == 0);
 }
 
 BOOST_AUTO_TEST_CASE(boxes_that_touch_in_an_edge_are_two) {
-  const std::vector<Triangle> touching = together(box_of_6(), box({1, 2, 0}, {2, 3, 3}));
+  const std::vector<Triangle> touching = together(box_of_6(), box_of_triangles({1, 2, 0}, {2, 3, 3}));
   const Repairs repairs = check_volume(touching, 9);
   BOOST_TEST(repairs.touching == 1);
   BOOST_TEST(repairs.parts == 2);
