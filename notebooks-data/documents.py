@@ -168,7 +168,7 @@ def digits(region):
 def extremes(result):
     """Without costs, which no two runs share."""
     lines = [f"# What holds at the extremes (clatter {result['clatter']})", "",
-             "Written by `notebooks-data/documents.py` from `clatter extremes --format json --plot notebooks-data/figures/extremes.svg`;",
+             "Written by `notebooks-data/documents.py` from `clatter verify --extremes --format json --plot notebooks-data/figures/extremes.svg`;",
              "no test compares it, since digits near rounding differ from machine to machine.  Costs are left out.",
              "F2 and F3 are the folds at 58.488442288312° and 27.577809606636°; long: 10⁴ impacts (hits), random scenes (sc).", "",
              f"{result['message'][0].upper() + result['message'][1:]}.", "",
@@ -225,10 +225,10 @@ def main():
         return 1 if stale else 0
     for path in stale:
         path.write_text(wanted[path], encoding="utf-8")
-    printed(program, ["figures", "--output", str(FIGURES)])
+    printed(program, ["verify", "--figures", "--output", str(FIGURES)])
     for name, command in DRAWN.items():
         printed(program, [*command, str(FIGURES / name)])
-    map_of_extremes = printed(program, ["extremes", "--format", "json", "--plot", str(FIGURES / "extremes.svg")])
+    map_of_extremes = printed(program, ["verify", "--extremes", "--format", "json", "--plot", str(FIGURES / "extremes.svg")])
     EXTREMES.write_text(extremes(json.loads(map_of_extremes)), encoding="utf-8")
     return 0
 

@@ -7,7 +7,7 @@
     figures.py PROGRAM --only 7 regimes  these alone
 
 In a notebook: `%matplotlib inline`, then figures.draw(10) or figures.draw("regimes"); figures.names() lists them.
-Data and specification of the paper's figures, figures/figure_NN.csv, are those of `clatter figures`; documents.py renews
+Data and specification of the paper's figures, figures/figure_NN.csv, are those of `clatter verify --figures`; documents.py renews
 them.
 """
 

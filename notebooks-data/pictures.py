@@ -96,10 +96,10 @@ def write_arrow(axes, start, by, colour, name):
 
 THETA_2, THETA_3 = "theta_2_deg", "theta_3_deg"
 REGIMES = (Source("regimes_restitution.csv",
-                  ("regimes", "--over", "restitution", "--from", "0.01", "--to", "1", "--step", "0.01"),
+                  ("angles", "--regimes", "--over", "restitution", "--from", "0.01", "--to", "1", "--step", "0.01"),
                   ("restitution", THETA_2, "kind_2", THETA_3)),
            Source("regimes_gravity.csv",
-                  ("regimes", "--over", "gravity-number", "--from", "0.001", "--to", "100", "--count", "101", "--log"),
+                  ("angles", "--regimes", "--over", "gravity-number", "--from", "0.001", "--to", "100", "--count", "101", "--log"),
                   ("gravity-number", THETA_2, "kind_2", THETA_3)))
 KINDS = {"fold": ("end b grazes", "line"), "upright": ("β reaches 90°", "dashed"), "order": ("end a comes first", "dotted")}
 
@@ -215,14 +215,14 @@ def draw_costs(axes, table):
                   label=f"{model} model" if model == "discrete" else model)
 
 
-EXTREMES = Source("extremes.csv", ("extremes", "--quick"), ("axis", "model", "label", "verdict", "digits"), same_everywhere=False)
+EXTREMES = Source("extremes.csv", ("verify", "--extremes", "--quick"), ("axis", "model", "label", "verdict", "digits"), same_everywhere=False)
 MODELS = ("closed form", "discrete", "discrete 3D", "planar", "spatial")
 AXES = {"angle": "θ [°]", "stiffness": "k_G [N/m³]", "damping": "c_G [N·s/m⁴]", "restitution": "e [–]", "ratio": "μᵢ [–]",
         "friction": "μ [–]", "speed": "speed [m/s]", "gravity": "g [m/s²]", "size": "size [× L]", "mass": "mass [× m]",
         "turns": "turns in a flight [–]", "impacts": "impacts in a run [–]", "disc": "disc off level [rad]",
         "needle": "needle off level [rad]", "slenderness": "length over diameter [–]", "bounces": "e, flat bounces [–]",
         "hops": "e, hops of a rim [–]", "squares": "tracked squares, arm [°]", "cubes": "tracked cubes, arm [°]"}
-BOUNDS = (0, 2, 4, 6, 8, 10, 12, 14, 17)  # of the classes of right digits, as in the picture of `clatter extremes`
+BOUNDS = (0, 2, 4, 6, 8, 10, 12, 14, 17)  # of the classes of right digits, as in the picture of `clatter verify --extremes`
 HATCHES = {"bad-input": ("////", "bad input"), "ended-early": ("---", "run ends early"), "not-computed": ("\\\\\\\\", "not computed"),
            "outside-model": ("xxx", "outside the model")}
 

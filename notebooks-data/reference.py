@@ -49,9 +49,9 @@ def printed(program, *arguments):
 
 
 def commands(program):
-    """Their names, in the order of --help."""
-    listed = printed(program, "--help").split("Subcommands:\n")[1].split("\n\n")[0]
-    return [line.split()[0] for line in listed.splitlines() if line.startswith("  ") and not line.startswith("   ")]
+    """The words of each command and of its forms, such as "plan --tradeoff", by the name of its page, in the order of the manual page."""
+    names = re.findall(r"^\.SH clatter (.+)$", printed(program, "man"), re.M)
+    return {name.split()[-1].lstrip("-"): name.split() for name in (name.replace("\\", "") for name in names)}
 
 
 def as_myst(text, name, depth=0):
@@ -66,12 +66,11 @@ def as_myst(text, name, depth=0):
     return text.replace("](" + "../" * (depth + 1), "](" + "../" * depth).replace(".ipynb)", ".md)")
 
 
-def command_page(program, name):
+def command_page(program, name, words):
     """What a page of reference/commands/ says, then the help."""
     own = PAGES / "commands" / f"{name}.md"
-    head = own.read_text(encoding="utf-8") if own.exists() else f"# clatter {name}\n"
-    arguments = [name] if name != "clatter" else []
-    return f"{head}\n## Options\n\n```text\n{printed(program, *arguments, '--help')}```\n"
+    head = own.read_text(encoding="utf-8") if own.exists() else f"# clatter {' '.join(words)}\n"
+    return f"{head}\n## Options\n\n```text\n{printed(program, *words, '--help')}```\n"
 
 
 def public_headers(library):
@@ -124,8 +123,8 @@ def stage(program, source):
         shutil.copy(picture, source)
     for folder in ("commands", "headers", "notebooks"):
         (source / folder).mkdir()
-    for name in ["clatter", *commands(program)]:
-        (source / "commands" / f"{name}.md").write_text(as_myst(command_page(program, name), name, 1), encoding="utf-8")
+    for name, words in {"clatter": [], **commands(program)}.items():
+        (source / "commands" / f"{name}.md").write_text(as_myst(command_page(program, name, words), name, 1), encoding="utf-8")
     for name, text in header_pages():
         (source / name).write_text(text, encoding="utf-8")
     notebook_pages(source / "notebooks")

@@ -31,7 +31,7 @@ def case(scene):
 
 def measured(program, scene):
     """Header comments and rows of one scene."""
-    run = subprocess.run([program, "tradeoff", case(scene), "--format", "csv"], capture_output=True, text=True,
+    run = subprocess.run([program, "plan", "--tradeoff", case(scene), "--format", "csv"], capture_output=True, text=True,
                          check=True, cwd=ROOT)
     lines = run.stdout.splitlines()
     return ([line for line in lines if line.startswith("#")],
@@ -108,7 +108,7 @@ def main():
     write_csv(table)
     write_page(table)
     picture = DATA / "figures" / "tradeoff.svg"
-    subprocess.run([program, "tradeoff", case(PICTURED), *PICTURED_RUN, "--plot", str(picture)], check=True, cwd=ROOT,
+    subprocess.run([program, "plan", "--tradeoff", case(PICTURED), *PICTURED_RUN, "--plot", str(picture)], check=True, cwd=ROOT,
                    stdout=subprocess.DEVNULL)
 
 

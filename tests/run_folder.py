@@ -4,6 +4,7 @@
 import csv
 import json
 import os
+import re
 import shlex
 import subprocess
 import tempfile
@@ -45,6 +46,11 @@ def printed(*arguments, status=(0,), **options):
 
 def json_of(*arguments, **options):
     return json.loads(printed(*arguments, "--format", "json", **options))
+
+
+def commands():
+    """The words of each command and of its forms, such as ["plan", "--tradeoff"], as the manual page has them."""
+    return [name.replace("\\", "").split() for name in re.findall(r"^\.SH clatter (.+)$", printed("man"), re.M)]
 
 
 def records(text):

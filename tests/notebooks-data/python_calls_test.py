@@ -258,7 +258,7 @@ class SweepsAsTheProgram(unittest.TestCase):
         self.assertEqual(local.scene["ground"]["friction_law"], "local")
         self.assertEqual(clatter.atlas("rod").to_text(), run("atlas", "rod").stdout)
         self.assertEqual(clatter.ground("phone-damped", floor="concrete").to_dict(),
-                         json_of("ground", "phone-damped", "--floor", "concrete"))
+                         json_of("shock", "--ground", "phone-damped", "--floor", "concrete"))
         answer = clatter.report("phone-damped", impacts=1, probe={"camera": place}, drops=0, sensitivity=False)
         self.assertIn("answer", answer.to_dict())
         counts = clatter.map(over={"drop.angle_deg": (0, 60), "impact.restitution": (0.1, 1)}, size=(8, 6))
@@ -299,7 +299,7 @@ class SweepsAsTheProgram(unittest.TestCase):
         self.assertIn("'surface', 'projected'", str(parameters["area"]))
 
     def test_documentation_tells_each_key_with_unit_and_range(self):
-        self.assertIn("    stiffness [N/m³]: k_G, pressure of the ground for each metre of depth; clatter ground finds it; or ground.modulus, ground.floor or ground.curve; a number, greater than 0\n", clatter.simulate.__doc__)
+        self.assertIn("    stiffness [N/m³]: k_G, pressure of the ground for each metre of depth; clatter shock --ground finds it; or ground.modulus, ground.floor or ground.curve; a number, greater than 0\n", clatter.simulate.__doc__)
         self.assertIn("    angle [°]: inclination at the first impact", clatter.sequence.__doc__)
 
     def test_keyword_arguments_complete_in_a_notebook(self):

@@ -80,7 +80,7 @@ SAME = [
      "simulate --angle 0 --curve [[0,0],[0.1,2e4],[0.6,5e4]] --thickness 0.02 --impacts 1".split(), ()),
     (lambda: clatter.sequence(**POSE), ["sequence", *typed(POSE)], FORMS), (lambda: clatter.gradient(**POSE), ["gradient", *typed(POSE)], FORMS),
     (lambda: clatter.explain(1, **POSE), ["explain", "1", *typed(POSE)], FORMS), (lambda: clatter.explain(2, 10), ["explain", "2", "--angle", "10"], FORMS),
-    (clatter.regimes, ["regimes"], FORMS), (lambda: clatter.regimes("restitution", from_=0.5, to=1, step=0.25),
+    (clatter.regimes, ["angles", "--regimes"], FORMS), (lambda: clatter.regimes("restitution", from_=0.5, to=1, step=0.25),
                                             "regimes --over restitution --from 0.5 --to 1 --step 0.25".split(), FORMS),
     *((lambda action=action: getattr(clatter, f"measured_{action}")("square-drops", seed=3), ["measured", action, "square-drops", "--seed", "3"], FORMS)
       for action in ("fit", "predict", "score")),
@@ -163,7 +163,7 @@ class TheSameBits(unittest.TestCase):
             self.assertEqual(mine.choice.model, program["choice"]["model"])
         self.assertEqual([rung.model for rung in mine.rungs], ["closed form", "discrete", "discrete 3D", "planar", "spatial"])
         mine = clatter.tradeoff("phone-corner", impacts=1)
-        program = told("tradeoff", "phone-corner", "--impacts", "1")
+        program = told("plan", "--tradeoff", "phone-corner", "--impacts", "1")
         self.assertEqual(timeless(mine.to_dict()["points"]), timeless(program["points"]))
         self.assertGreater(len(mine.front), 1)
 
@@ -455,7 +455,7 @@ class Evidence(unittest.TestCase):
 
     def test_the_map_of_extremes_has_the_program_s_cells(self):
         cells = clatter.extremes(["restitution"], seconds=600)
-        expected = told("extremes", "--only", "restitution", "--seconds", "600")["cells"]
+        expected = told("verify", "--extremes", "--only", "restitution", "--seconds", "600")["cells"]
         timed = {"seconds", "model_seconds", "cost"}
         self.assertEqual([{k: v for k, v in cell.items() if "seconds" not in k and k not in timed} for cell in cells.to_dict()["cells"]],
                          [{k: v for k, v in cell.items() if "seconds" not in k and k not in timed} for cell in expected])
@@ -465,7 +465,7 @@ class Evidence(unittest.TestCase):
 
     def test_a_figure_has_the_numbers_of_its_file(self):
         with tempfile.TemporaryDirectory() as folder:
-            printed("figures", "--only", "7", "--output", folder, "--format", "json")
+            printed("verify", "--figures", "--only", "7", "--output", folder, "--format", "json")
             self.assertEqual(clatter.figure(7).to_dict(), json.loads(Path(folder, "figure_07.json").read_text(encoding="utf-8")))
         with self.assertRaisesRegex(clatter.BadInput, "there are 7, 8"):
             clatter.figure(13)

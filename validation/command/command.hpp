@@ -2,6 +2,7 @@
 // A command of the program, described as data: parser, help, completion scripts and manual page are made from it.
 #pragma once
 
+#include <algorithm>
 #include <functional>
 #include <memory>
 #include <string>
@@ -13,16 +14,20 @@
 
 namespace clatter::validation {
 
-/// The columns of a table that a command writes, under the name that `clatter columns` has for it.
+/// The columns of a table that a command writes, under the name that `clatter help columns` has for it.
 struct NamedColumns {
   const char* name;
   std::vector<Column> (*columns)();
 };
 
 struct Command {
-  std::string name{};    ///< this and `help` are set by the list of commands (program/commands.cpp)
-  std::string help{};    ///< one line
-  std::string footer{};  ///< an example, and what else to know
+  /// One word, or a command and the word after it that asks for this form of it: "plan --tradeoff", "help keys".  This
+  /// and the next three are set by the list of commands (program/commands.cpp).
+  std::string name{};
+  std::string was{};      ///< a form's name before it was one, which works for one version more; empty: none
+  std::string section{};  ///< of --help that has it
+  std::string help{};     ///< one line
+  std::string footer{};   ///< an example, and what else to know
   std::vector<Argument> arguments{};
   std::vector<NamedColumns> columns{};
   std::function<int()> run{};  ///< after parsing; returns the exit status
@@ -43,6 +48,9 @@ struct Command {
                 const std::string& words) {
     add({.name = option, .target = &list, .type = type, .help = words});
   }
+  [[nodiscard]] std::string first_word() const { return name.substr(0, name.find(' ')); }
+  /// The word that asks for this form of the command; empty: it is the command itself.
+  [[nodiscard]] std::string form() const { return name.substr(std::min(first_word().size() + 1, name.size())); }
   /// Names of the options, --help first.
   [[nodiscard]] std::vector<std::string> option_names() const {
     std::vector<std::string> names{"--help"};
@@ -85,10 +93,11 @@ template <class Input>
 [[nodiscard]] Command extremes_command();
 [[nodiscard]] Command benchmark_command();
 [[nodiscard]] Command measured_command();
-[[nodiscard]] Command demo_command();
+[[nodiscard]] Command help_command();
 [[nodiscard]] Command keys_command();
 [[nodiscard]] Command columns_command();
 [[nodiscard]] Command init_command();
+[[nodiscard]] Command demo_command();
 [[nodiscard]] Command completion_command();
 [[nodiscard]] Command man_command();
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// `clatter verify`, `clatter figures` and `clatter extremes`: what holds, and how it is seen.
+// `clatter verify`, `clatter verify --figures` and `clatter verify --extremes`: what holds, and how it is seen.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -121,7 +121,7 @@ Command figures_command() {
     command.add_flag("--ascii", input.style.ascii, "plain ASCII in tables");
     command.add_flag("--bare", input.style.bare, "CSV without comments");
     command.footer =
-        "Example: clatter figures --only 7 14 --output figures\n"
+        "Example: clatter verify --figures --only 7 14 --output figures\n"
         "Comments \"plot: ...\" and in JSON the list plots say how each panel is drawn.\n"
         "clatter verify --html FILE draws them. Figs. 13 and 18 of the paper are meshes, Figs. 1 to 6 sketches.";
   });
@@ -191,7 +191,7 @@ Command extremes_command() {
     command.add_text("--plot", input.plot, "FILE", "also a picture, .svg");
     add_output_options(command, input.output);
     command.footer =
-        "Example: clatter extremes --only angle restitution --plot extremes.svg\n"
+        "Example: clatter verify --extremes --only angle restitution --plot extremes.svg\n"
         "Quantities: angle, stiffness, damping, restitution, ratio, friction, speed,\n"
         "gravity, size, mass, turns, impacts, disc, needle, slenderness, bounces, hops,\n"
         "squares, cubes, long.\n"

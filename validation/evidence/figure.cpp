@@ -25,7 +25,7 @@ std::string Figure::label(const std::string& words, const std::string& column) c
   return fmt::format("{} [{}]", words, unit);
 }
 
-std::string Figure::command() const { return fmt::format("clatter figures --only {} --output DIR", number); }
+std::string Figure::command() const { return fmt::format("clatter verify --figures --only {} --output DIR", number); }
 
 const std::vector<int>& figure_numbers() {
   static const std::vector<int> numbers{7, 8, 9, 10, 11, 12, 14, 15, 16, 17, 19, 20, 21, 22, 23, 24};

@@ -21,7 +21,7 @@ struct Figure {
 
   /// "WORDS [UNIT]", the unit that of a column, with its symbol.
   [[nodiscard]] std::string label(const std::string& words, const std::string& column) const;
-  /// "clatter figures --only N --output DIR".
+  /// "clatter verify --figures --only N --output DIR".
   [[nodiscard]] std::string command() const;
 };
 

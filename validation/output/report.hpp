@@ -21,7 +21,7 @@ struct Column {
   std::string name{};
   std::string heading{};
   std::string unit{};     ///< of CSV, JSON and tables; empty: none
-  std::string meaning{};  ///< for `clatter columns`
+  std::string meaning{};  ///< for `clatter help columns`
   bool shown = true;      ///< false: only in CSV and JSON
   bool words = false;     ///< a text, aligned to the left in tables
   std::string object{};   ///< in JSON: the group of fields that it belongs to; empty: the row's own

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// `clatter plan` and `clatter tradeoff`: what accuracy costs.
+// `clatter plan` and `clatter plan --tradeoff`: what accuracy costs.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -114,7 +114,7 @@ Command tradeoff_command() {
     add_output_options(command, input.output);
     add_plot_options(command, input.plot);
     command.footer =
-        "Example: clatter tradeoff rod-45 --plot tradeoff.svg\n"
+        "Example: clatter plan --tradeoff rod-45 --plot tradeoff.svg\n"
         "The table shows the front, --format csv all points.";
     command.columns = {{"tradeoff", tradeoff_columns}};
   });

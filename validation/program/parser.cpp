@@ -31,13 +31,55 @@ const Command& program_options() {
   return options;
 }
 
-const Command& find_command(const std::vector<Command>& commands, const std::string& name) {
-  std::vector<std::string> names{"help"};
+/// The words after the program's name as they are said today: a form by its command and the word that asks for it.
+std::vector<std::string> words_of_today(const std::vector<Command>& commands, std::vector<std::string> given,
+                                        std::string& note) {
+  const std::size_t place = given.front() == "help" && given.size() > 1 ? 1 : 0;
   for (const Command& command : commands) {
-    if (command.name == name) return command;
-    names.push_back(command.name);
+    if (command.was.empty() || command.was != given[place]) continue;
+    if (place == 1 && command.first_word() == "help") break;  // "help keys" is the new name
+    note = fmt::format("{}: is {} now; the old name goes with the next version", command.was, command.name);
+    given[place] = command.first_word();
+    given.insert(given.begin() + static_cast<std::ptrdiff_t>(place) + 1, command.form());
+    break;
   }
-  throw BadInput(fmt::format("command '{}': unknown; did you mean {}?", name, nearest_name(name, names)));
+  return given;
+}
+
+/// `help NAME` is NAME --help, but for what has a page of its own, such as `help keys`.
+std::vector<std::string> with_help_as_flag(const std::vector<Command>& commands, std::vector<std::string> given) {
+  if (given.front() != "help") return given;
+  const auto is_page = [&](const Command& command) {
+    return command.first_word() == "help" && given.size() > 1 && command.form() == given[1];
+  };
+  if (std::any_of(commands.begin(), commands.end(), is_page)) return given;
+  given.erase(given.begin());
+  if (given.empty() || given.back() != "--help") given.emplace_back("--help");
+  return given;
+}
+
+/// The command that the words call, or the form of it that one of them asks for, which is taken out with the name.
+/// @throws BadInput for a name that none has
+const Command& called_command(const std::vector<Command>& commands, std::vector<std::string>& words) {
+  const Command* called = nullptr;
+  auto asking = words.begin();
+  std::vector<std::string> known{scene_help}, meant{std::string("help ") + scene_help};
+  for (const Command& command : commands) {
+    known.push_back(command.was.empty() ? command.name : command.was);
+    meant.push_back(command.name);
+    if (command.first_word() != words.front()) continue;
+    const auto found = std::find(words.begin() + 1, words.end(), command.form());
+    if (command.form().empty()) called = called == nullptr ? &command : called;
+    else if (found != words.end()) called = &command, asking = found;
+  }
+  if (called == nullptr) {
+    const auto nearest = std::find(known.begin(), known.end(), nearest_name(words.front(), known));
+    throw BadInput(fmt::format("command '{}': unknown; did you mean {}?", words.front(),
+                               meant[static_cast<std::size_t>(nearest - known.begin())]));
+  }
+  if (asking != words.begin()) words.erase(asking);
+  words.erase(words.begin());
+  return *called;
 }
 
 /// A flag of scenes where scenes are varied by their keys instead.
@@ -131,21 +173,13 @@ bool is_short_option(const std::string& argument) {
          std::isalpha(static_cast<unsigned char>(argument[1])) != 0;
 }
 
-/// Checks the arguments against the commands and joins each option with its value as "--name=value", so that a value
-/// may begin with a minus sign.
+/// Checks the words after a command's name and joins each option with its value as "--name=value", so that a value may
+/// begin with a minus sign.
 /// @throws BadInput with one line.
-std::vector<std::string> checked_arguments(const std::vector<Command>& commands,
-                                           const std::vector<std::string>& arguments) {
+std::vector<std::string> checked_arguments(const Command& command, const std::vector<std::string>& arguments) {
   std::vector<std::string> out;
-  const Command* command = &program_options();
-  std::size_t begin = 0;
-  if (!arguments[0].starts_with('-')) {
-    command = &find_command(commands, arguments[0]);
-    out.push_back(arguments[0]);
-    begin = 1;
-  }
-  Scan scan(*command, out);
-  for (std::size_t i = begin; i < arguments.size(); ++i) {
+  Scan scan(command, out);
+  for (std::size_t i = 0; i < arguments.size(); ++i) {
     const std::string& argument = arguments[i];
     bool used_next = false;
     if (argument == "-h") out.push_back("--help");
@@ -153,7 +187,7 @@ std::vector<std::string> checked_arguments(const std::vector<Command>& commands,
       scan.option(argument, i + 1 < arguments.size() ? &arguments[i + 1] : nullptr, used_next);
     } else if (is_short_option(argument)) {
       throw BadInput(fmt::format("option {}: unknown; options begin with two dashes", argument));
-    } else if (begin == 0) {
+    } else if (command.name.empty()) {
       throw BadInput(fmt::format("'{}': a command comes before its options", argument));
     } else {
       scan.positional(argument);
@@ -200,14 +234,24 @@ std::string scene_words(const Command& command) {
       names);
 }
 
+/// The flags that ask for other forms of a command, for its help alone: who gives one has called the form.
+void add_forms(CLI::App& app, const std::vector<Command>& commands, const Command& called) {
+  for (const Command& command : commands) {
+    if (!called.form().empty() || command.first_word() != called.name || !command.form().starts_with("--")) continue;
+    const std::string words = fmt::format("{}: clatter help {}", command.help, command.name);
+    app.add_flag_function(
+           command.form(), [](std::int64_t) {}, words)
+        ->group("In place of this");
+  }
+}
+
 /// CLI11 compares each option with all before it, so that only the command that is called gets its own.
-void add_command(CLI::App& app, const Command& command, bool is_called, Waiting& waiting) {
-  CLI::App* part = app.add_subcommand(command.name, command.help);
-  if (!is_called) return;
+void add_arguments(CLI::App& part, const Command& command, Waiting& waiting) {
   const bool explains_scene = command.name == scene_help;
-  part->footer((explains_scene ? "" : scene_words(command)) + command.footer);
+  part.description(command.help);
+  part.footer((explains_scene ? "" : scene_words(command)) + command.footer);
   for (const Argument& argument : command.arguments) {
-    CLI::Option* option = add_value(*part, argument, waiting);
+    CLI::Option* option = add_value(part, argument, waiting);
     if (is_of_scene(argument) && !explains_scene) option->group("");
     else if (!argument.group.empty()) option->group(argument.group);
     if (argument.repeats) option->expected(1)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
@@ -227,17 +271,10 @@ Command explained_scene() {
     if (std::none_of(command.arguments.begin(), command.arguments.end(), is_same)) command.add(std::move(argument));
   }
   command.footer =
-      "Times are those of sequence and simulate.  clatter keys has each flag's key in a file, its unit and what is "
+      "Times are those of sequence and simulate.  clatter help keys has each flag's key in a file, its unit and what "
+      "is "
       "allowed.";
   return command;
-}
-
-/// `help NAME` is NAME --help.
-std::vector<std::string> with_help_as_flag(std::vector<std::string> given) {
-  if (given.empty() || given.front() != "help") return given;
-  given.erase(given.begin());
-  given.push_back("--help");
-  return given;
 }
 
 /// A line of help within the width of a terminal; what explains an option goes on below its explanation.
@@ -277,18 +314,27 @@ std::string folded(const std::vector<std::string>& lines) {
   return out;
 }
 
-std::string help_of(const CLI::App& app) {
+std::string help_of(const CLI::App& app, const Command& called) {
   const auto chosen = app.get_subcommands();
-  std::istringstream text(chosen.empty() ? app.help() : chosen[0]->help(app.get_name()));
+  std::string all = chosen.empty() ? app.help() : chosen[0]->help(app.get_name());
+  if (!called.form().empty()) {
+    const std::string usage = "clatter " + called.first_word();
+    all.insert(all.find(usage) + usage.size(), " " + called.form());
+  }
+  std::istringstream text(all);
   std::vector<std::string> lines;
-  for (std::string line; std::getline(text, line);) lines.push_back(line);
+  for (std::string line; std::getline(text, line);) {
+    if (!line.empty() || (!lines.empty() && !lines.back().empty())) lines.push_back(line);
+  }
   return folded(lines);
 }
 
 /// For who calls the program without knowing more.
 std::string short_help(const std::vector<Command>& commands) {
   std::string names;
-  for (const Command& command : commands) names += (names.empty() ? "" : ", ") + command.name;
+  for (const Command& command : commands) {
+    if (command.form().empty()) names += (names.empty() ? "" : ", ") + command.name;
+  }
   return std::string("clatter ") + version + ": " + program_summary +
          "\n\n"
          "  clatter sequence --angle 10        impacts of a rod that falls at 10 degrees\n"
@@ -311,15 +357,26 @@ ParsedLine parse_line(const std::vector<Command>& commands, const std::vector<st
   app.set_help_flag("--help", "print this help and exit");
   bool show_version = false;
   app.add_flag("--version", show_version, "print the version and exit");
-  std::vector<std::string> arguments = checked_arguments(commands, with_help_as_flag(given));
+  std::string note;
+  std::vector<std::string> words = with_help_as_flag(commands, words_of_today(commands, given, note));
+  const bool calls = !words.front().starts_with('-');
+  const Command& called = calls ? called_command(commands, words) : program_options();
+  std::vector<std::string> arguments = checked_arguments(called, words);
   Waiting waiting;
-  for (const Command& command : commands)
-    add_command(app, command, !arguments.empty() && command.name == arguments.front(), waiting);
+  for (const Command& command : commands) {
+    if (!command.form().empty()) continue;
+    CLI::App* part = app.add_subcommand(command.name, command.help);
+    if (!command.section.empty()) part->group(command.section);
+    if (!calls || command.name != called.first_word()) continue;
+    add_arguments(*part, called, waiting);
+    add_forms(*part, commands, called);
+  }
+  if (calls) arguments.insert(arguments.begin(), called.first_word());
   std::reverse(arguments.begin(), arguments.end());  // as CLI11's parse(vector) wants them
   try {
     app.parse(arguments);
   } catch (const CLI::CallForHelp&) {
-    return {.text = help_of(app)};
+    return {.text = help_of(app, called), .note = note};
   } catch (const CLI::ParseError& error) {
     throw BadInput(error.what());
   }
@@ -329,9 +386,15 @@ ParsedLine parse_line(const std::vector<Command>& commands, const std::vector<st
   for (const auto& [argument, text, option] : waiting) {
     if (option->count() > 0) std::get<Argument::Reader>(argument->target)(argument->name, text);
   }
-  const auto found = std::find_if(commands.begin(), commands.end(),
-                                  [&](const Command& command) { return command.name == chosen[0]->get_name(); });
-  return {.command = &*found};
+  return {.command = &called, .note = note};
+}
+
+Command help_command() {
+  static std::string name;
+  Command command;
+  command.add({.name = "NAME", .target = &name, .help = "a command, scene, keys or columns"});
+  command.footer = "Example: clatter help shock";
+  return command;
 }
 
 }  // namespace clatter::validation

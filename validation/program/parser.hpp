@@ -13,6 +13,7 @@ namespace clatter::validation {
 struct ParsedLine {
   const Command* command = nullptr;
   std::string text{};
+  std::string note{};  ///< to be said at the end: the command was called by a name that it no longer has
 };
 
 inline constexpr const char* program_summary = "impact sequences of falling rigid bodies";

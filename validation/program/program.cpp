@@ -13,11 +13,15 @@ int parse_and_run(const std::vector<Command>& commands, const std::vector<std::s
   const ParsedLine line = parse_line(commands, given);
   if (line.command && !line.command->run)
     throw BadInput(line.command->name + ": is a command of the whole program, which this one comes before");
-  if (line.command) return line.command->run();
-  Sink sink("");
-  sink.write(line.text);
-  sink.commit();
-  return 0;
+  int status = 0;
+  if (line.command) status = line.command->run();
+  else {
+    Sink sink("");
+    sink.write(line.text);
+    sink.commit();
+  }
+  if (!line.note.empty()) say(line.note);
+  return status;
 }
 
 }  // namespace

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What the program says of itself: `clatter keys` and `clatter init`, the language of scenes and a scene file to begin
-// with; `clatter columns`, every column of CSV and JSON; shell completion and the man page.
+// What the program says of itself: `clatter help keys` and `clatter init`, the language of scenes and a scene file to
+// begin with; `clatter help columns`, every column of CSV and JSON; shell completion and the man page.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -177,7 +177,7 @@ Command keys_command() {
   auto output = std::make_shared<OutputChoice>();
   Command command;
   add_output_options(command, *output);
-  command.footer = "Example: clatter keys --format markdown";
+  command.footer = "Example: clatter help keys --format markdown";
   command.run = [output] { return run_keys(*output); };
   return command;
 }
@@ -197,7 +197,7 @@ Command init_command() {
   return command;
 }
 
-// `clatter columns`: every column of CSV and JSON, by command.
+// `clatter help columns`: every column of CSV and JSON, by command.
 
 namespace {
 
@@ -224,7 +224,7 @@ Report columns_report(const std::string& command) {
   }
   report.notes = {
       "history: of simulate --history.  sweep: one row per scene; with --rows impact the columns of sequence or "
-      "simulate.  map: one quantity.  Before them come the swept keys, which clatter keys explains.  The files of "
+      "simulate.  map: one quantity.  Before them come the swept keys, which clatter help keys explains.  The files of "
       "figures explain theirs.",
       "corners, place, attitude and touches of a sequence are those of a drop in space; in the plane they are left "
       "out."};
@@ -264,7 +264,7 @@ Command columns_command() {
     };
     command.add(read_argument("--only", input.command, known, "COMMAND", "the columns of this one alone"));
     add_output_options(command, input.output);
-    command.footer = "Example: clatter columns --only sequence --format markdown";
+    command.footer = "Example: clatter help columns --only sequence --format markdown";
   });
 }
 
@@ -284,6 +284,39 @@ std::vector<const Argument*> options_of(const Command& command) {
   return options;
 }
 
+/// The commands as shells complete them: the options of a form are among those of its command.
+std::vector<Command> completed_commands() {
+  std::vector<Command> commands;
+  for (const Command& command : all_commands()) {
+    if (command.form().empty()) {
+      commands.push_back(command);
+      continue;
+    }
+    Command& whole = commands.back();
+    if (command.form().starts_with("--")) {
+      whole.add({.name = command.form(), .target = static_cast<bool*>(nullptr), .help = command.help});
+    }
+    for (const Argument& argument : command.arguments) {
+      const std::vector<std::string> known = whole.option_names();
+      if (argument.is_option() && std::find(known.begin(), known.end(), argument.name) == known.end())
+        whole.add(argument);
+    }
+  }
+  return commands;
+}
+
+std::string command_words() {
+  std::string names;
+  for (const Command& command : completed_commands()) names += (names.empty() ? "" : " ") + command.name;
+  return names;
+}
+
+/// What may stand after the command's name, as far as it is known.
+std::string words_after(const Command& command) {
+  if (command.name == "help") return command_words() + " scene keys columns";
+  return command.name == "completion" ? "bash zsh fish" : "";
+}
+
 /// Options of any command that take a file, each once.
 std::vector<std::string> file_options() {
   std::vector<std::string> names;
@@ -296,19 +329,14 @@ std::vector<std::string> file_options() {
   return names;
 }
 
-std::string command_words() {
-  std::vector<std::string> names;
-  for (const Command& command : all_commands()) names.push_back(command.name);
-  return fmt::format("{}", fmt::join(names, " "));
-}
-
 std::string bash_completion() {
   std::string out =
       "# bash completion for clatter\n_clatter() {\n"
       "  local word=\"${COMP_WORDS[COMP_CWORD]}\" previous=\"${COMP_WORDS[COMP_CWORD-1]}\" list=\"\"\n"
       "  case \"$previous\" in\n";
   std::vector<std::string> done;
-  for (const Command& command : all_commands()) {
+  const std::vector<Command> commands = completed_commands();
+  for (const Command& command : commands) {
     for (const Argument* option : options_of(command)) {
       const auto list = option->choices();
       if (list.empty() || std::find(done.begin(), done.end(), option->name) != done.end()) continue;
@@ -323,9 +351,9 @@ std::string bash_completion() {
       "  if ((COMP_CWORD == 1)); then list=\"{} --help --version\"; else\n"
       "    case \"${{COMP_WORDS[1]}}\" in\n",
       command_words());
-  for (const Command& command : all_commands()) {
-    const std::string extra = command.name == "completion" ? " bash zsh fish" : "";
-    out += fmt::format("      {}) list=\"{}{}\" ;;\n", command.name, fmt::join(command.option_names(), " "), extra);
+  for (const Command& command : commands) {
+    out += fmt::format("      {}) list=\"{} {}\" ;;\n", command.name, fmt::join(command.option_names(), " "),
+                       words_after(command));
   }
   return out +
          "    esac\n  fi\n  COMPREPLY=($(compgen -W \"$list\" -- \"$word\"))\n}\n"
@@ -339,12 +367,13 @@ std::string plain(std::string text) {
 }
 
 std::string zsh_completion() {
+  const std::vector<Command> commands = completed_commands();
   std::string out = "#compdef clatter\n_clatter() {\n  local -a commands\n  commands=(\n";
-  for (const Command& command : all_commands()) out += fmt::format("    '{}:{}'\n", command.name, plain(command.help));
+  for (const Command& command : commands) out += fmt::format("    '{}:{}'\n", command.name, plain(command.help));
   out +=
       "  )\n  if ((CURRENT == 2)); then _describe command commands; return; fi\n"
       "  case $words[2] in\n";
-  for (const Command& command : all_commands()) {
+  for (const Command& command : commands) {
     out += fmt::format("    {}) _arguments", command.name);
     for (const Argument* option : options_of(command)) {
       const auto list = option->choices();
@@ -353,16 +382,20 @@ std::string zsh_completion() {
                                                   : fmt::format(":value:({})", fmt::join(list, " "));
       out += fmt::format(" \\\n      '{}[{}]{}'", option->name, plain(option->help), value);
     }
-    out += " ;;\n";
+    const std::string after = words_after(command);
+    out += (after.empty() ? "" : fmt::format(" \\\n      '2:name:({})'", after)) + " ;;\n";
   }
   return out + "  esac\n}\n_clatter \"$@\"\n";
 }
 
 std::string fish_completion() {
   std::string out = "# fish completion for clatter\n";
-  for (const Command& command : all_commands()) {
+  for (const Command& command : completed_commands()) {
     out += fmt::format("complete -c clatter -f -n __fish_use_subcommand -a {} -d '{}'\n", command.name,
                        plain(command.help));
+    const std::string after = words_after(command);
+    if (!after.empty())
+      out += fmt::format("complete -c clatter -f -n '__fish_seen_subcommand_from {}' -a '{}'\n", command.name, after);
     for (const Argument* option : options_of(command)) {
       const auto list = option->choices();
       const std::string value = option->is_flag() ? ""

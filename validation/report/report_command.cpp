@@ -590,7 +590,7 @@ std::vector<std::string> assumptions(const Scene& scene, Model model, const KeyN
   } else if (model == Model::continuous) {
     items.emplace_back(
         "the ground is a bed of springs and dampers, each on its own: k_G and c_G are numbers of the floor "
-        "(clatter ground finds them), and peaks depend on them");
+        "(clatter shock --ground finds them), and peaks depend on them");
   } else {
     items.emplace_back("an impact takes no time: changes of velocity are known, forces and peaks are not");
   }

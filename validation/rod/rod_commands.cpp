@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// `clatter angles` and `clatter regimes`: the thin rod that strikes with one end and then the other.
+// `clatter angles` and `clatter angles --regimes`: the thin rod that strikes with one end and then the other.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -116,7 +116,7 @@ Command regimes_command() {
     add_output_options(command, input.output);
     add_plot_options(command, input.plot);
     command.footer =
-        "Example: clatter regimes --over restitution --from 0.2 --to 1 --step 0.1\n"
+        "Example: clatter angles --regimes --over restitution --from 0.2 --to 1 --step 0.1\n"
         "Of the thin rod in its plane, whose regimes end at folds of one angle. In space an attitude has three angles, "
         "and\n"
         "the number of impacts of its drops is a row of clatter sweep.";

@@ -318,7 +318,7 @@ std::string other_law_remark(const Scene& scene, const numeric::Simulation& run)
   const std::string words = other_law_words(scene, run.impacts.front().value.approach_speed);
   if (words.empty()) return "";
   return fmt::format("the law of [impact] is the discrete model's alone: {}{}", words,
-                     words.starts_with("e = ") ? "; clatter ground finds the damping for it" : "");
+                     words.starts_with("e = ") ? "; clatter shock --ground finds the damping for it" : "");
 }
 
 std::string reason_in_space(const Scene& scene) {

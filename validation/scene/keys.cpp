@@ -424,7 +424,7 @@ void append_ground(std::vector<Key>& keys) {
       keys.end(),
       {
           {"ground.stiffness", Use::both, "--stiffness", "N/M3", "N/m³",
-           "k_G, pressure of the ground for each metre of depth; clatter ground finds it; or ground.modulus, "
+           "k_G, pressure of the ground for each metre of depth; clatter shock --ground finds it; or ground.modulus, "
            "ground.floor or ground.curve",
            NumberValue{[](Scene& s) -> double& { return s.world.ground.stiffness; }, positive_number},
            [](const Scene& s, Model model) {
@@ -441,7 +441,7 @@ void append_ground(std::vector<Key>& keys) {
            NumberValue{[](Scene& s) -> double& { return s.half_space.modulus; }, positive_number},
            [](const Scene& s, Model) { return only_if(s.half_space.modulus > 0); }, false, springs_and_area},
           {"ground.floor", Use::both, "--floor", "", "",
-           "or a named floor, a half-space of published numbers (clatter ground shows them) under a body of "
+           "or a named floor, a half-space of published numbers (clatter shock --ground shows them) under a body of "
            "ground.body_material; with ground.curve what is under the pad where it bottoms out",
            NameValue{&floor_names(), [](const Scene& s) { return s.half_space.floor.value_or(0); },
                      [](Scene& s, std::size_t i) { s.half_space.floor = i; }},
@@ -453,7 +453,7 @@ void append_ground(std::vector<Key>& keys) {
            [](const Scene& s, Model) { return only_if(s.half_space.body_modulus.has_value()); }, false,
            all_but_half_space},
           {"ground.body_material", Use::both, "--body-material", "NAME", "",
-           "or what the body is made of: abs, steel, glass and others of clatter keys; on a named floor abs without it",
+           "or what the body is made of: abs, steel, glass and others of clatter help keys; on a named floor abs without it",
            NameValue{&body_material_names(), [](const Scene& s) { return s.half_space.body_material.value_or(0); },
                      [](Scene& s, std::size_t i) { s.half_space.body_material = i; }},
            [](const Scene& s, Model) {
@@ -487,7 +487,7 @@ void append_ground(std::vector<Key>& keys) {
            "Pa",
            TextValue{[](Scene& s) -> std::string& { return s.pad.units; }}, of_pad, false, springs_and_half_space},
           {"ground.thickness", Use::both, "--thickness", "M", "m",
-           "of the pad, by which strain becomes depth; in clatter ground of a layer",
+           "of the pad, by which strain becomes depth; in clatter shock --ground of a layer",
            OptionalNumber{[](Scene& s) -> std::optional<double>& { return s.pad.thickness; }, positive_number}, of_pad,
            false, springs_and_half_space},
           {"ground.under", Use::both, "--under", "PA/M", "Pa/m",

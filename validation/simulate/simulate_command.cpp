@@ -187,7 +187,7 @@ Command simulate_command() {
     add_window_option(command, input.window, "of pictures and histories");
     command.footer =
         "Example: clatter simulate phone-damped --digits 8\n"
-        "clatter keys explains the keys of scene files, clatter init writes one with all of them.";
+        "clatter help keys explains the keys of scene files, clatter init writes one with all of them.";
     command.columns = {{"simulate", simulation_columns}, {"history", history_columns}};
   });
 }

@@ -173,7 +173,7 @@ constexpr const char* map_footer =
     "Example: clatter map phone-corner --over drop.height=0.5:2 --over impact.restitution=0.2:0.9 "
     "--set drop.attitude=uniform --samples 50 --quantity hardest=1 --size 40x30 --output phone.png\n"
     "Without SCENE a thin rod drops. Each pixel is the drop at its middle, by the discrete model; curves are the folds "
-    "of clatter regimes,\n"
+    "of clatter angles --regimes,\n"
     "computed as such. Planar drops without friction, or with an impulse ratio, take the batch: a core does millions\n"
     "in a second without gravity, thousands with it. Drops in space and with friction are run one by one.\n"
     "Up to 100 impacts are followed unless run.impacts is given, of a class of counts as many as tell it. A pixel\n"

@@ -543,7 +543,7 @@ constexpr const char* sweep_footer =
     "--columns hardest,hardest_corners,impulse_normal_1,impulse_normal_2\n"
     "Example: clatter sweep phone-damped --set drop.attitude=26 --random 2600 --scatter 3 --set run.impacts=2 "
     "--summary\n"
-    "drop.attitude=26 has a box fall on each face, edge and corner (clatter keys numbers them); @FILE is a CSV file\n"
+    "drop.attitude=26 has a box fall on each face, edge and corner (clatter help keys numbers them); @FILE is a CSV file\n"
     "with columns q0, q1, q2, q3. Columns asked for are quantities that rows of impacts have; the hardest impact "
     "has\n"
     "the largest normal impulse.\n"

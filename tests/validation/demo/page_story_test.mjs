@@ -31,7 +31,7 @@ onOnePage("the page as one finds it", "", {
     }
     const flat = sequence("--angle", "0.1").impacts.map((i) => i.contact_angle_deg);
     has(doubling, (2 * flat[1]) / flat[0], 5);
-    const { rows: [regimes] } = printed("regimes");
+    const { rows: [regimes] } = printed("angles", "--regimes");
     has(fold, regimes.second.theta_deg, 6);
     has(fold, regimes.second.beta_deg, 4);
     has(fold, regimes.third.theta_deg, 6);

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""`clatter extremes` as its users meet it.  Costs are measured, not judged."""
+"""`clatter verify --extremes` as its users meet it.  Costs are measured, not judged."""
 
 import xml.etree.ElementTree
 
@@ -10,14 +10,14 @@ PATIENCE = ["--seconds", "600"]  # so that no test depends on a time
 
 class Extremes(EmptyFolder):
     def test_the_table_has_its_notes_and_help_its_quantities(self):
-        text = printed("extremes", "--only", "angle", "restitution", "size", *PATIENCE)
+        text = printed("verify", "--extremes", "--only", "angle", "restitution", "size", *PATIENCE)
         self.assertIn("slowest cell", text)
         self.assertIn("bad-input", text)
-        self.assertIn("angle, stiffness, damping, restitution", printed("extremes", "--help"))
+        self.assertIn("angle, stiffness, damping, restitution", printed("verify", "--extremes", "--help"))
 
     def test_csv_and_json_have_every_cell(self):
-        cells = json_of("extremes", "--only", "angle", *PATIENCE)["cells"]
-        rows = rows_of("extremes", "--only", "angle", *PATIENCE)
+        cells = json_of("verify", "--extremes", "--only", "angle", *PATIENCE)["cells"]
+        rows = rows_of("verify", "--extremes", "--only", "angle", *PATIENCE)
         self.assertEqual(len(rows), len(cells))
         self.assertEqual({row["model"] for row in rows}, {"closed form", "discrete", "planar", "spatial"})
         for cell in cells:
@@ -25,12 +25,12 @@ class Extremes(EmptyFolder):
             self.assertEqual(cell["reason"] is None, cell["verdict"] == "number", cell)
 
     def test_the_picture_is_well_formed_svg_with_a_cell_for_each(self):
-        cells = json_of("extremes", "--only", "ratio", "--plot", self.path("map.svg"), *PATIENCE)["cells"]
+        cells = json_of("verify", "--extremes", "--only", "ratio", "--plot", self.path("map.svg"), *PATIENCE)["cells"]
         titles = xml.etree.ElementTree.parse(self.path("map.svg")).getroot().findall(".//{http://www.w3.org/2000/svg}title")
         self.assertEqual(len(titles), len(cells))
 
     def test_the_same_digits_each_time(self):
-        once, again = ([cell["digits"] for cell in json_of("extremes", "--only", "gravity", *PATIENCE)["cells"]] for _ in range(2))
+        once, again = ([cell["digits"] for cell in json_of("verify", "--extremes", "--only", "gravity", *PATIENCE)["cells"]] for _ in range(2))
         self.assertEqual(once, again)
 
     def test_bad_arguments_are_one_line(self):

@@ -27,7 +27,7 @@ onOnePage("the page of the verification", "", {
     const figures = new Set(checks.map((check) => check.figure).filter(Boolean));
     assert.equal(figures.size, 16);
     const text = await page.evaluate(() => document.body.innerText);
-    for (const figure of figures) assert.ok(text.includes(`clatter figures --only ${figure} `), figure);
+    for (const figure of figures) assert.ok(text.includes(`clatter verify --figures --only ${figure} `), figure);
     const pictures = await page.evaluate(() => Array.from(document.querySelectorAll(".plots svg"), (svg) => {
       const { width, height } = svg.getBoundingClientRect();
       return { width, height, paths: svg.querySelectorAll("path").length };

@@ -89,7 +89,7 @@ class Figures(unittest.TestCase):
     def setUpClass(cls):
         cls.folder = tempfile.TemporaryDirectory()
         cls.addClassCleanup(cls.folder.cleanup)
-        cls.run_result = run("figures", "--output", os.path.join(cls.folder.name, "new", "folder"))
+        cls.run_result = run("verify", "--figures", "--output", os.path.join(cls.folder.name, "new", "folder"))
 
     def path(self, number):
         return os.path.join(self.folder.name, "new", "folder", f"figure_{number:02}.csv")
@@ -101,7 +101,7 @@ class Figures(unittest.TestCase):
             head, names, _ = read_figure(self.path(number))
             self.assertTrue(head[0].startswith(f"# Figure {number}: "))
             self.assertTrue(head[1].startswith("# scene: "))
-            self.assertEqual(head[2], f"# command: clatter figures --only {number} --output DIR")
+            self.assertEqual(head[2], f"# command: clatter verify --figures --only {number} --output DIR")
             self.assertRegex(head[3], r"^# clatter \d+\.\d+\.\d+$")
             for name, line in zip(names, head[-len(names):], strict=True):
                 self.assertRegex(line, rf"^# {re.escape(name)} \[[^\]]+\]: ..")
@@ -110,7 +110,7 @@ class Figures(unittest.TestCase):
 
     def test_the_head_and_json_say_how_each_panel_is_drawn_curve_by_curve(self):
         with tempfile.TemporaryDirectory() as folder:
-            self.assertEqual(run("figures", "--only", "17", "24", "--output", folder, "--format", "json").returncode, 0)
+            self.assertEqual(run("verify", "--figures", "--only", "17", "24", "--output", folder, "--format", "json").returncode, 0)
             for number, where in ((17, {"variant": {1, 2}}), (24, {"touches": {1, 2}})):
                 head, names, rows = read_figure(self.path(number))
                 plots = [json.loads(line.removeprefix("# plot: ")) for line in head if line.startswith("# plot: ")]

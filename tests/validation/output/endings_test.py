@@ -158,7 +158,7 @@ class Devices(Folder):
         told = 0
         elastic = self.write("elastic.toml", "[drop]\nangle_deg = 10\n[world]\ngravity = 9.81\n[ground]\nstiffness = 1e9\n[run]\nimpacts = 100000\n"
                              "evaluation_limit = 1000000000\nerrors = false\namplification = false\n")  # it bounces on for a quarter of an hour
-        for command in (["tradeoff", "rod-45"], ["shock", "phone-damped", "--probe", "a:0.01,0,0", "--digits", "11"], ["simulate", elastic]):
+        for command in (["plan", "--tradeoff", "rod-45"], ["shock", "phone-damped", "--probe", "a:0.01,0,0", "--digits", "11"], ["simulate", elastic]):
             for seconds in (0.1, 0.2, 0.4):  # of computing; where it has ended by then nothing is to be said
                 with subprocess.Popen([PROGRAM, *command], stdout=subprocess.PIPE, text=True) as process:
                     until(lambda: process.poll() is not None or computing_seconds(process.pid) >= seconds)

@@ -25,7 +25,7 @@ class Overwriting(Folder):
         for name in ("scene.toml", "body.stl"):
             words = f"must be another file than {name}, which is read"
             for spelling in self.spellings(name):
-                for command in (["simulate"], ["compare"], ["tradeoff"], ["plan"], ["sweep"], ["sequence"], ["explain", "1"]):
+                for command in (["simulate"], ["compare"], ["plan", "--tradeoff"], ["plan"], ["sweep"], ["sequence"], ["explain", "1"]):
                     self.refused(words, *command, "scene.toml", "--output", spelling)
                 self.refused(words, "simulate", "scene.toml", "--history", spelling)
 
@@ -71,8 +71,8 @@ class Overwriting(Folder):
         for one, other in (("new.svg", "./new.svg"), ("new.svg", self.path("new.svg")), ("here/new.svg", "new.svg"),
                            ("dangling.svg", "new.svg"), ("new.svg", "dangling.svg"), ("hard.svg", "old.svg"), ("old.svg", "here/old.svg")):
             self.refused("--history", "simulate", "scene.toml", "--output", one, "--history", other)
-            for command in (["simulate", "scene.toml"], ["sequence", "--angle", "10"], ["angles"], ["regimes"],
-                            ["compare", "scene.toml"], ["tradeoff", "scene.toml"], ["extremes"]):
+            for command in (["simulate", "scene.toml"], ["sequence", "--angle", "10"], ["angles"], ["angles", "--regimes"],
+                            ["compare", "scene.toml"], ["plan", "--tradeoff", "scene.toml"], ["verify", "--extremes"]):
                 self.refused("--plot", *command, "--output", one, "--plot", other)
             self.refused("--plot", "simulate", "scene.toml", "--history", one, "--plot", other)
             self.refused("--html", "verify", "--quick", "--output", one, "--html", other)
@@ -82,7 +82,7 @@ class Overwriting(Folder):
     def test_no_two_figures_are_one_file(self):
         os.mkdir(self.path("figures"))
         os.symlink("figure_08.csv", self.path("figures/figure_07.csv"))
-        self.refused("must be another file", "figures", "--only", "7", "8", "--output", "figures")
+        self.refused("must be another file", "verify", "--figures", "--only", "7", "8", "--output", "figures")
 
     def test_the_part_of_a_sweep_does_not_overwrite_the_scene(self):
         for ending in (".part", ".part.digests"):
@@ -137,7 +137,7 @@ class Overwriting(Folder):
         for length in (os.pathconf(self.folder, "PC_NAME_MAX") + 1, 5000, 100_000):
             name = "x" * length
             for option, command in (("--output", ["sequence", "--angle", "10"]), ("--history", ["simulate", "scene.toml"]),
-                                    ("--output", ["sweep", "scene.toml"]), ("--output", ["figures", "--only", "7"]),
+                                    ("--output", ["sweep", "scene.toml"]), ("--output", ["verify", "--figures", "--only", "7"]),
                                     ("--html", ["verify", "--quick"])):
                 self.refused(option, *command, option, name)
             self.refused("--plot", "sequence", "--angle", "10", "--plot", name + ".svg")

@@ -29,7 +29,7 @@ COMMANDS = {
     "angles": (["angles", "--step", "2"],
                ["contact angle θ of the first impact [°]", "contact angle [°]", "normal impulse [m|vₙ|]"],
                ["β, second impact", "γ, third impact", "P₁", "P₂", "P₃"]),
-    "regimes": (["regimes", "--over", "restitution"],
+    "regimes": (["angles", "--regimes", "--over", "restitution"],
                 ["coefficient of restitution e", "contact angle θ of the first impact [°]"],
                 ["at least one", "at least two", "three impacts", "θ₂", "θ₃"]),
     "simulate": (["simulate", case("phone-damped"), "--impacts", "3"],
@@ -47,7 +47,7 @@ COMMANDS = {
     "compare, swept": (["compare", case("rod-friction-sweep")],
                        ["friction coefficient μ", "normal impulse [N·s]", "largest deviation, relative"],
                        ["discrete", "continuous", "limit on stiff ground", "|continuous − discrete|"]),
-    "tradeoff": (["tradeoff", case("rod-45")], ["cost [ms]", "largest true error, relative"],
+    "tradeoff": (["plan", "--tradeoff", case("rod-45")], ["cost [ms]", "largest true error, relative"],
                  ["closed form", "discrete", "planar rk8pd", "spatial, all methods"]),
     "plan": (["plan", case("rod-45"), "--digits", "5", "--within", "500"],
              ["predicted cost [ms]", "predicted error, relative"], ["asked: 5 digits", "within 500 ms"]),
@@ -138,8 +138,8 @@ class Pictures(InFolder):
 
     def test_a_single_row_gives_a_picture(self):
         for arguments in (["angles", "--from", "10", "--to", "10"], ["sequence", "--angle", "70"],
-                          ["regimes", "--from", "0.1", "--to", "0.1", "--count", "1"], ["sequence", "--angle", "0"],
-                          ["regimes", "--from", "0", "--to", "0", "--count", "1"], ["compare", case("rod-45")],
+                          ["angles", "--regimes", "--from", "0.1", "--to", "0.1", "--count", "1"], ["sequence", "--angle", "0"],
+                          ["angles", "--regimes", "--from", "0", "--to", "0", "--count", "1"], ["compare", case("rod-45")],
                           ["simulate", case("rod-45")], ["sequence", "--angle", "90", "--restitution", "0"]):
             done = run(*arguments, "--plot", self.path("p.svg"))
             self.assertEqual((done.returncode, done.stderr), (0, ""), arguments)
@@ -240,18 +240,18 @@ class Data(InFolder):
         figure = re.search(r"for low, high, colour, name in (.*?):$", self.source("notebooks-data/pictures.py"), re.M | re.S)[1]
         self.assertEqual(areas, re.findall(r"#\w{6}", figure))
         for value, angle in drawn["panel1_3"][::40]:
-            row = json.loads(run("regimes", "--over", "restitution", "--from", repr(value), "--to", repr(value), "--count", "1",
+            row = json.loads(run("angles", "--regimes", "--over", "restitution", "--from", repr(value), "--to", repr(value), "--count", "1",
                                          "--format", "json").stdout)["rows"][0]
             self.assertAlmostEqual(angle, row["second"]["theta_deg"], 9)
         self.assertEqual([point[0] for point in drawn["panel1_1"]], [point[0] for point in drawn["panel1_3"]])
 
     def test_gravity_numbers_over_decades_get_a_logarithmic_axis(self):
-        self.plotted("regimes")
+        self.plotted("angles", "--regimes")
         self.assertRegex(self.read("p.gnuplot"), r"(?m)^set logscale x")
         self.assertIn("0 lies off this axis", self.read("p.gnuplot"))
-        self.plotted("regimes", "--from", "0", "--to", "1", "--step", "0.25")
+        self.plotted("angles", "--regimes", "--from", "0", "--to", "1", "--step", "0.25")
         self.assertNotRegex(self.read("p.gnuplot"), r"(?m)^set logscale")
-        self.plotted("regimes", "--over", "restitution", "--from", "0.5", "--to", "1", "--count", "5", "--log")
+        self.plotted("angles", "--regimes", "--over", "restitution", "--from", "0.5", "--to", "1", "--count", "5", "--log")
         self.assertRegex(self.read("p.gnuplot"), r"(?m)^set logscale x")
 
     def test_simulate_draws_the_history_that_it_writes_beside_it(self):

@@ -12,7 +12,7 @@ import subprocess
 import unittest
 
 import run_folder
-from run_folder import PROGRAM, ROOT, EmptyFolder, records, run
+from run_folder import PROGRAM, ROOT, EmptyFolder, commands, records, run
 
 TERMINAL = 80  # columns
 FORMS = ("table", "csv", "json", "markdown", "latex")
@@ -24,21 +24,21 @@ COMMANDS = [
     (PLAIN, "impacts"), (["sequence", "phone-corner", "--impacts", "3"], "impacts"),
     (["sequence", "--angle", "10", "--gravity", "9.81", "--restitution", "0.5", "--friction", "0.3", "--impacts", "60"], "impacts"),
     (["sequence", "--angle", "90", "--radius", "0.1", "--gravity", "9.81", "--restitution", "0.5"], "impacts"),
-    (["angles", "--gravity-number", "1", "--as-printed", "--step", "30"], "rows"), (["angles"], "rows"), (["regimes"], "rows"),
+    (["angles", "--gravity-number", "1", "--as-printed", "--step", "30"], "rows"), (["angles"], "rows"), (["angles", "--regimes"], "rows"),
     (["atlas", "phone"], "rows"), (["explain", "2", "--angle", "10", "--gravity", "9.81", "--friction", "0.2"], "steps"),
     (["gradient", "--angle", "33", "--gravity", "9.81", "--friction", "0.1", "--impacts", "2"], "gradients"), (PHONE, "impacts"),
     (["simulate", "phone-corner", "--impacts", "2"], "impacts"), (["simulate", "phone-sweep", "--impacts", "1", "--digits", "3"], "runs"),
     (["compare", "phone-damped", "--impacts", "1"], "impacts"),
     *((["compare", name], "impacts") for name in ("rod-10", "rod-from-2m", "every-key")),
     (["shock", "phone-damped", "--impacts", "1", "--probe", "tip:0.05,0,0", "--no-sensitivity", "--frequencies", "100:1000:3"], "impacts"),
-    (["ground", "--body", "box", "--size", "0.1x0.06x0.02", "--angle", "0", "--measured-e", "1", "--indentation", "1e-6"], "solutions"),
-    (["ground", "--floor", "wood", "--footprint", "1e-4"], "solutions"), (SWEEP, "rows"),
+    (["shock", "--ground", "--body", "box", "--size", "0.1x0.06x0.02", "--angle", "0", "--measured-e", "1", "--indentation", "1e-6"], "solutions"),
+    (["shock", "--ground", "--floor", "wood", "--footprint", "1e-4"], "solutions"), (SWEEP, "rows"),
     (["sweep", "phone-damped", "--set", "drop.angle_deg=5,40", "--set", "drop.spin=0,1", "--rows", "impact"], "rows"),
     (["sweep", "phone-corner", "--set", "drop.orientation=1,20", "--model", "discrete", "--rows", "impact"], "rows"),
     (["verify", "--only", "C1", "C5", "E8", "F24", "M10"], "checks"), (["plan", "phone-damped", "--impacts", "1"], "rungs"),
-    (["extremes", "--only", "restitution", "--seconds", "600"], "cells"), (["measured", "fit", "square-drops"], "fits"),
+    (["verify", "--extremes", "--only", "restitution", "--seconds", "600"], "cells"), (["measured", "fit", "square-drops"], "fits"),
     (["measured", "predict", "square-drops"], "drops"), (["measured", "score", "square-drops"], "scores"), (["benchmark", "list"], "problems"),
-    (["benchmark", "truth", "corner"], "impacts"), (["keys"], "keys"), (["columns"], "columns"),
+    (["benchmark", "truth", "corner"], "impacts"), (["help", "keys"], "keys"), (["help", "columns"], "columns"),
 ]
 
 
@@ -67,9 +67,9 @@ def version():
     return printed("--version").split()[1]
 
 
-def commands():
-    listed = printed("--help").split("Subcommands:\n")[1].split("\n\n")[0]
-    return [line.split()[0] for line in listed.splitlines() if re.match(r"  \S", line)]
+def named(command):
+    """By the last of its words: "tradeoff" of plan --tradeoff."""
+    return command[len(command) > 1 and command[:2] in commands()].lstrip("-")
 
 
 class Forms(EmptyFolder):
@@ -90,7 +90,7 @@ class Forms(EmptyFolder):
         for command in [*(command for command, _ in COMMANDS), ["benchmark", "show", "rod-10"]]:
             with self.subTest(command=command):
                 self.assertEqual(data_of(command)["clatter"], version())
-                self.assertRegex(in_form(command, "csv"), rf"\A# clatter {re.escape(version())}, {command[0]}( \w+)?: ")
+                self.assertRegex(in_form(command, "csv"), rf"\A# clatter {re.escape(version())}, {named(command)}( \w+)?: ")
 
     def test_csv_names_the_unit_of_each_column_that_has_one(self):
         units = next(line for line in in_form(PHONE, "csv").splitlines() if line.startswith("# units: "))
@@ -98,17 +98,17 @@ class Forms(EmptyFolder):
         for part in units[len("# units: "):].split("; "):
             names, unit = re.fullmatch(r"(.*) \[(.*)\]", part).groups()
             listed.update((name, unit) for name in names.split(", "))
-        explained = {row["column"]: row["unit"] for row in rows_of(["columns", "--only", "simulate"])}
+        explained = {row["column"]: row["unit"] for row in rows_of(["help", "columns", "--only", "simulate"])}
         self.assertEqual(listed, {name: unit for name, unit in explained.items() if unit and not name.endswith("_error")})
 
     def test_every_column_of_every_command_is_explained(self):
         explained = {}
-        for row in rows_of(["columns"]):
+        for row in rows_of(["help", "columns"]):
             self.assertTrue(row["meaning"], row)
             explained.setdefault(row["command"], set()).add(row["column"])
         for command, _ in COMMANDS:
             with self.subTest(command=command):
-                name = "-".join(command[:2]) if command[0] == "measured" else command[0]
+                name = "-".join(command[:2]) if command[0] == "measured" else named(command)
                 if name in explained:
                     # A sweep's own columns are the swept keys, and those of impacts are explained with their models.
                     own = set() if "--rows" in command else set(rows_of(command)[0]) - {"angle_deg", "drop.angle_deg"}
@@ -171,7 +171,7 @@ class Forms(EmptyFolder):
                 found = errors("", data_of(command), False)
                 for row in rows_of(command):
                     found += [(key, float(cell)) for key, cell in row.items() if key.endswith("_error") and cell]
-                if command[0] in ("sequence", "angles", "regimes", "simulate", "compare", "sweep"):
+                if command[0] in ("sequence", "angles", "simulate", "compare", "sweep"):
                     self.assertGreater(len(found), 5)
                 for key, error in found:
                     self.assertEqual(float(f"{error:.1e}"), error, key)
@@ -192,14 +192,14 @@ class Forms(EmptyFolder):
 
     def test_figures_are_written_in_the_form_that_is_asked_for(self):
         for form, extension in (("csv", "csv"), ("json", "json"), ("markdown", "md"), ("latex", "tex"), ("table", "txt")):
-            printed("figures", "--only", "7", "--output", self.folder, "--format", form)
+            printed("verify", "--figures", "--only", "7", "--output", self.folder, "--format", form)
             self.assertGreater(os.path.getsize(self.path("figure_07." + extension)), 1000)
         data, rows = json.loads(self.read("figure_07.json")), self.records("figure_07.csv")
         self.assertEqual((len(rows), list(rows[0])), (len(data["rows"]), list(data["rows"][0])))
         self.assertIn(f"# clatter {version()}", self.read("figure_07.csv"))
 
     def test_columns_of_an_unknown_command_get_the_nearest(self):
-        self.refused("did you mean sequence?", "columns", "--only", "sequnce")
+        self.refused("did you mean sequence?", "help", "columns", "--only", "sequnce")
 
     def test_scores_and_histories_carry_the_version_too(self):
         self.write("run.csv", in_form(["benchmark", "truth", "rod-10"], "csv"))
@@ -228,8 +228,8 @@ class Tables(unittest.TestCase):
         self.assertIn("1 " + reason, " ".join(block.split("─\n")[1].split("\n\n")[0].split()))
 
     def test_columns_are_paragraphs_with_every_word(self):
-        shown = " ".join(printed("columns").split())
-        for row in rows_of(["columns"]):
+        shown = " ".join(printed("help", "columns").split())
+        for row in rows_of(["help", "columns"]):
             unit = f" [{row['unit']}]" if row["unit"] else ""
             self.assertIn(" ".join(f"{row['column']}{unit}: {row['meaning']}".split()), shown)
 
@@ -270,7 +270,7 @@ class Help(EmptyFolder):
 
     def test_help_fits_a_terminal_and_names_no_path_of_the_source(self):
         self.assertGreater(len(commands()), 15)
-        texts = {name: printed(*words) for name, words in {"": [], "--help": ["--help"], **{name: [name, "--help"] for name in commands()}}.items()}
+        texts = {name: printed(*words) for name, words in {"": [], "--help": ["--help"], **{" ".join(words): [*words, "--help"] for words in commands()}}.items()}
         for name, text in texts.items():
             self.assertEqual(too_long(text), [], name)
         for name, text in {**texts, "man": printed("man")}.items():
@@ -308,10 +308,10 @@ class Help(EmptyFolder):
                 self.assertNotRegex(done.stdout + done.stderr, "[\x00-\x09\x0b-\x1f\x7f-\x9f]", (command, form))
 
     def test_every_example_of_the_help_works_in_an_empty_folder(self):
-        slow = {"verify", "tradeoff", "extremes", "demo"}  # the same commands run in tests of their own
+        slow = {"verify", "verify --extremes", "plan --tradeoff", "demo"}  # the same commands run in tests of their own
         tried = 0
-        for name in commands():
-            text = re.sub(r" \\\n +", " ", printed(name, "--help"))  # as a shell joins the lines
+        for name in (" ".join(words) for words in commands()):
+            text = re.sub(r" \\\n +", " ", printed(*name.split(), "--help"))  # as a shell joins the lines
             if "not in this build" in text:
                 continue
             example = re.search(r"Example: clatter (.*)", text)
@@ -364,5 +364,5 @@ class Colours(unittest.TestCase):
 
     def test_there_are_none_where_nobody_wants_them(self):
         for text in (run(*self.TABLE).stdout, on_terminal(self.TABLE, NO_COLOR="1"), on_terminal(self.TABLE, TERM="dumb"),
-                     on_terminal([*self.TABLE, "--format", "csv"]), on_terminal([*self.TABLE, "--ascii"]), on_terminal(["keys"])):
+                     on_terminal([*self.TABLE, "--format", "csv"]), on_terminal([*self.TABLE, "--ascii"]), on_terminal(["help", "keys"])):
             self.assertNotIn("\033", text)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""clatter plan, the runs that follow it, and clatter tradeoff.  Costs are measured, not judged: no test depends on a time."""
+"""clatter plan, the runs that follow it, and clatter plan --tradeoff.  Costs are measured, not judged: no test depends on a time."""
 
 import shlex
 import shutil
@@ -99,7 +99,7 @@ class InSpace(SpaceFolder):
         self.assertEqual(done.returncode, 0, done.stderr)
 
     def test_a_tradeoff_has_a_point_of_the_discrete_model_in_space_with_its_cost_and_error(self):
-        all_points = self.json_of("tradeoff", CORNER, "--stiffness", "1e15", "--impacts", "1")["points"]
+        all_points = self.json_of("plan", "--tradeoff", CORNER, "--stiffness", "1e15", "--impacts", "1")["points"]
         points = [p for p in all_points if p["model"] == "discrete 3D"]
         self.assertEqual(len(points), 1)
         self.assertIsNone(points[0]["failure"])
@@ -113,7 +113,7 @@ class InSpace(SpaceFolder):
 class Tradeoff(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        cls.result = json_of("tradeoff", "rod-45")
+        cls.result = json_of("plan", "--tradeoff", "rod-45")
 
     def points(self, model, method=None):
         return [p for p in self.result["points"] if (p["model"], p["method"]) == (model, method) and not p["mesh"]]
@@ -135,7 +135,7 @@ class Tradeoff(unittest.TestCase):
             self.assertFalse(any(p["seconds"] < point["seconds"] and p["error"] < point["error"] for p in points))
 
     def test_a_model_that_does_not_apply_is_listed_with_its_reason(self):
-        points = json_of("tradeoff", "phone-elastic", "--impacts", "1")["points"]
+        points = json_of("plan", "--tradeoff", "phone-elastic", "--impacts", "1")["points"]
         for model, reason in (("closed form", "rod"), ("discrete 3D", "stays in its plane")):
             [point] = [p for p in points if p["model"] == model]
             self.assertIn(reason, point["failure"])

@@ -11,7 +11,7 @@ import subprocess
 import unittest
 from decimal import Decimal
 
-from run_folder import PROGRAM, ROOT, EmptyFolder, json_of, printed, records, rows_of, run
+from run_folder import PROGRAM, ROOT, EmptyFolder, commands, json_of, printed, records, rows_of, run
 
 NUMBER_OPTIONS = {
     "sequence": "--angle --speed --height --tangential-velocity --spin --gravity --restitution --impulse-ratio --friction --mass "
@@ -27,7 +27,9 @@ OUT_OF_RANGE = {
     "1000001": "--impacts", "18": "--digits", "91": "--from", "90.5": "--to", "1e201": "--mass", "1e309": "--length"}
 REFUSED = {
     "sequence --angle 10 --angle 20": "twice", "sequence --angle": "value", "sequence --agle 10": "did you mean --angle",
-    "sequnce": "did you mean sequence", "sequence --angle 10 --format jsn": "did you mean json",
+    "sequnce": "did you mean sequence", "tradeof rod-45": "did you mean plan --tradeoff?", "scene": "did you mean help scene?",
+    "plan --tradeoff --tradeoff rod-45": "--tradeoff: unknown for plan --tradeoff", "plan --tradeoff=x rod-45": "--tradeoff: unknown for plan;",
+    "help keys scene": "'scene': unexpected argument for help keys", "sequence --angle 10 --format jsn": "did you mean json",
     "sequence --angle 10 --restitution-law strong": "did you mean stronge", "angles 10": "unexpected",
     "sequence 10 --angle 10": "rod-10", "sequence --angle 10 -x": "-x", "sequence --angle 10 --step 1": "--step", "sequence": "--angle",
     "sequence --angle 10 --impulse-ratio 0.1 --friction 0.1": "--friction", "sequence --angle 10 --speed 1 --height 1 --gravity 9.81": "not both",
@@ -88,7 +90,7 @@ class BadInput(EmptyFolder):
                       ["map", lost, "--over", "impact.restitution=0.4:0.6", "--over", "world.gravity=1e-3:2e-3",
                        "--size", "2x2", "--output", self.path("map.csv")],
                       ["simulate", *stiff], ["shock", *stiff, *probe], ["compare", *stiff], ["plan", *stiff],
-                      ["tradeoff", *stiff], report and [*report, *stiff], report and [*report, lost, "--model", "discrete"]):
+                      ["plan", "--tradeoff", *stiff], report and [*report, *stiff], report and [*report, lost, "--model", "discrete"]):
             if words:
                 done = run(*words)
                 self.assertEqual((done.returncode, done.stderr.startswith("clatter: ")), (3, True), (words, done.stderr))
@@ -105,7 +107,7 @@ class Output(unittest.TestCase):
         self.assertAlmostEqual(number, 9.81 * 2 / 9, delta=1e-15)  # three roundings
 
     def test_the_regimes_of_the_json_are_the_known_folds_in_degrees(self):
-        first = json_of("regimes")["rows"][0]
+        first = json_of("angles", "--regimes")["rows"][0]
         self.assertEqual(first["gravity-number"], 0)
         # The values of tests/analytic/plane/regime_boundary_test.cpp, to the digits given there.
         for kind, key, angle in [("second", "theta_deg", 58.488442288312), ("second", "beta_deg", 86.701384197437),
@@ -171,10 +173,30 @@ class Output(unittest.TestCase):
 
 class Manners(EmptyFolder):
     def test_help_of_a_command_is_the_same_asked_for_either_way_and_names_the_program(self):
-        for command in ("sequence", "simulate", "keys"):
-            self.assertEqual(printed("help", command), printed(command, "--help"))
-            self.assertIn(f"Usage: clatter {command} ", printed("help", command))
+        for words in commands():
+            told = printed(*words, "--help")
+            if words != ["help"]:
+                self.assertIn(f"Usage: clatter {' '.join(words)} ", told)
+            if words[0] != "help":
+                self.assertEqual(printed("help", *words), told)
         self.assertEqual(run("help").stdout, run("--help").stdout)
+
+    def test_help_lists_each_command_once_under_what_it_is_for_and_a_command_names_its_other_forms(self):
+        sections = dict(re.findall(r"^([A-Z][a-z ]+):\n((?:  .*\n)+)", printed("--help"), re.M))
+        listed = [name for words in ("One drop", "Many drops", "Shock", "Check", "Learn") for name in re.findall(r"^  (\w+) ", sections[words], re.M)]
+        self.assertEqual(listed, [words[0] for words in commands() if len(words) == 1])
+        for words in commands():
+            if words[-1].startswith("--"):
+                self.assertIn(f"\n  {words[1]} ", printed(words[0], "--help").split("In place of this:")[1], words)
+
+    def test_old_names_of_forms_do_what_they_did_and_say_the_new_ones(self):
+        for old, new in (("regimes", ["angles", "--regimes"]), ("ground", ["shock", "--ground", "--floor", "wood"]), ("keys", ["help", "keys"]),
+                         ("columns", ["help", "columns"]), ("extremes", ["verify", "--extremes", "--help"]),
+                         ("figures", ["verify", "--figures", "--help"]), ("tradeoff", ["plan", "--tradeoff", "--help"])):
+            was, done = run(old, *new[2:]), run(*new)
+            self.assertEqual((was.returncode, was.stdout, done.stderr), (0, done.stdout, ""), old)
+            self.assertEqual(was.stderr, f"clatter: {old}: is {' '.join(new[:2])} now; the old name goes with the next version\n")
+            self.assertEqual(run(new[0], *new[2:], new[1]).stdout if new[0] != "help" else done.stdout, done.stdout, "the form's word may stand last")
 
     def test_completion_scripts_parse_and_know_commands_keys_and_files(self):
         scripts = {shell: printed("completion", shell) for shell in ("bash", "zsh", "fish")}
@@ -187,14 +209,15 @@ class Manners(EmptyFolder):
         self.assertRegex(scripts["bash"], r"(?m)^ +\S*--plot\S*\) COMPREPLY=\(\$\(compgen -f ")
         self.assertRegex(scripts["zsh"], r"'--plot\[[^\]]*\]:file:_files'")
         self.assertRegex(scripts["fish"], r"-l plot -r -F ")
+        self.assertRegex(scripts["bash"], r"(?m)^ +verify\) list=\".*--extremes .*--seconds ")
+        self.assertRegex(scripts["fish"], r"__fish_seen_subcommand_from plan' -l tradeoff ")
 
     def test_there_is_a_manual_page_for_each_command_and_all_render_without_warnings(self):
         if not (shutil.which("groff") and shutil.which("help2man")):
             self.skipTest("no groff or no help2man here")
         subprocess.run(["sh", os.path.join(ROOT, "validation", "program", "man_pages"), PROGRAM, self.path("man")], check=True)
-        commands = re.findall(r"^  (\w+) ", run("--help").stdout.split("Subcommands:")[1].split("\n\n")[0], re.M)
         names = os.listdir(self.path("man"))
-        self.assertEqual(sorted(names), sorted(["clatter.1.gz"] + [f"clatter-{command}.1.gz" for command in commands]))
+        self.assertEqual(sorted(names), sorted(["clatter.1.gz"] + ["-".join(["clatter", *(word.lstrip("-") for word in words)]) + ".1.gz" for words in commands()]))
         texts = {"": printed("man")}
         self.assertEqual(texts[""].count("\n.TP\n\\&\\-\\-plot\\-script "), 12)
         for name in names:

@@ -10,7 +10,7 @@ from run_folder import Folder, json_of, run
 
 FLAT = ["--body", "box", "--size", "0.15x0.075x0.008", "--mass", "0.165", "--angle", "0", "--speed", "2", "--impacts", "1"]
 CORNER = ["--body", "box", "--size", "0.15x0.075x0.008", "--mass", "0.165", "--height", "1", "--angle", "35", "--tilt", "20", "--impacts", "1"]
-# Young's modulus [Pa] and Poisson's ratio, least and largest, as the sources that `clatter ground` names have them.
+# Young's modulus [Pa] and Poisson's ratio, least and largest, as the sources that `clatter shock --ground` names have them.
 CONCRETE, ABS = ((10e9, 0.15), (23e9, 0.33)), (2.4e9, 0.35)
 STEEL_BODY = (212e9, 0.293)
 
@@ -81,20 +81,20 @@ class Floors(Folder):
         self.refused("no first impact", "simulate", *FLAT[:-4], "--gravity", "9.81", "--start", "rest", "--floor", "wood", "--floor-restitution", "0.4")
 
     def test_ground_prints_what_a_scene_and_flags_take(self):
-        shown = json_of("ground", "--floor", "concrete")
+        shown = json_of("shock", "--ground", "--floor", "concrete")
         self.assertEqual(len(shown["solutions"]), 3)
         for row, value in zip(shown["solutions"], concrete_under(ABS)):
             self.assertAlmostEqual(row["reduced_modulus"] / value, 1, delta=1e-14)
         pad = ["--curve", "[[0, 0], [0.1, 2e4], [0.6, 2.5e4], [0.8, 2e5]]", "--thickness", "0.03"]
         for ground in (["--floor", "concrete"], ["--ground-modulus", "1e9"], pad):
-            text = run("ground", *FLAT, *ground, "--measured-e", "0.4").stdout
+            text = run("shock", "--ground", *FLAT, *ground, "--measured-e", "0.4").stdout
             block = text[text.index("[ground]\n"):text.index("or as flags:")]
             flags = " ".join(text[text.index("or as flags:") + len("or as flags:"):].split()).split()
             again = json_of("simulate", *FLAT, *(pad if ground == pad else []), *flags)
             after = again["impacts"][0]["velocity_after"][2]
             self.assertAlmostEqual(after / 2, 0.4, delta=1e-5)
             self.assertIn("dissipation = ", block)
-        found = run("ground", *FLAT, "--measured-e", "0.5", "--contact-time", "5e-4").stdout
+        found = run("shock", "--ground", *FLAT, "--measured-e", "0.5", "--contact-time", "5e-4").stdout
         self.assertIn("--stiffness", found[found.index("or as flags:"):])
 
     def test_what_cannot_be_is_refused_in_a_line(self):
@@ -103,7 +103,7 @@ class Floors(Folder):
                              ("give one of them, not both", ("--floor", "wood", "--body-modulus", "1e9", "--body-material", "abs")),
                              ("only for a ground with a modulus or a floor", ("--body-material", "abs"))):
             self.refused(words, "simulate", *FLAT, *flags)
-        self.refused("it is what is sought", "ground", *FLAT, "--floor", "wood", "--dissipation", "1", "--measured-e", "0.5")
+        self.refused("it is what is sought", "shock", "--ground", *FLAT, "--floor", "wood", "--dissipation", "1", "--measured-e", "0.5")
 
 
 if __name__ == "__main__":

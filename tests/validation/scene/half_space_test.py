@@ -52,7 +52,7 @@ class HalfSpace(Folder):
             self.refused("give one of them, not both", "simulate", *BOX, flag, value)
         self.refused("only for a ground with a modulus", "sequence", "--angle", "10", "--dissipation", "1")
         self.refused("ground.modulus of an elastic half-space", "simulate", "--angle", "10", "--dissipation", "1")
-        self.refused("it is what is sought", "ground", *BOX, "--measured-e", "0.5", "--contact-time", "3e-4")
+        self.refused("it is what is sought", "shock", "--ground", *BOX, "--measured-e", "0.5", "--contact-time", "3e-4")
 
     def test_a_ball_s_impact_is_hertz_s_within_one_per_cent_and_its_peak_goes_like_the_modulus_to_two_fifths(self):
         impact = self.json_of("simulate", *BALL)["impacts"][0]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""One language of scenes for every command: files, cases and flags alone; what clatter keys and clatter init say of it."""
+"""One language of scenes for every command: files, cases and flags alone; what clatter help keys and clatter init say of it."""
 
 import re
 import shutil
@@ -25,7 +25,7 @@ class Sources(Folder):
 
     def flags_of(self, scene):
         """The flags that say what the echo of a scene says."""
-        flags = {key["key"]: key["flag"] for key in self.json_of("keys")["keys"]}
+        flags = {key["key"]: key["flag"] for key in self.json_of("help", "keys")["keys"]}
         words = []
         for key, value in leaves(scene):
             flag = flags.get(key)
@@ -81,7 +81,7 @@ class Sources(Folder):
         self.assertEqual(self.json_of("sequence", "swept.toml", "--angle", "12")["scene"]["drop"]["angle_deg"], 12)
 
     def keys(self):
-        return self.json_of("keys")["keys"]
+        return self.json_of("help", "keys")["keys"]
 
     def test_every_key_of_an_echo_is_a_row(self):
         names = {key["key"] for key in self.keys()}
@@ -113,7 +113,7 @@ class Sources(Folder):
         self.assertIn("did you mean clatter sequence --angle", done.stderr)
 
     def test_the_text_has_a_default_or_says_required(self):
-        text = self.run_program("keys").stdout
+        text = self.run_program("help", "keys").stdout
         self.assertIn("drop.angle_deg  --angle  (required)", text)
         self.assertIn("world.gravity  --gravity  (0)", text)
 
@@ -135,7 +135,7 @@ class Sources(Folder):
 
     def test_each_key_has_its_line(self):
         text = self.run_program("init").stdout
-        keys = self.json_of("keys")["keys"]
+        keys = self.json_of("help", "keys")["keys"]
         table = ""
         found = set()
         for line in text.splitlines():

@@ -80,7 +80,7 @@ class Words(unittest.TestCase):
         self.assertIn("how many of these three", " ".join(run("angles").stdout.split()))
         sequence = json_of("sequence", "--angle", "30", "--restitution", "0.2")
         self.assertGreater(len(sequence["impacts"]), 3)
-        self.assertIn("Of the first three impacts", run("regimes", "--over", "restitution").stdout)
+        self.assertIn("Of the first three impacts", run("angles", "--regimes", "--over", "restitution").stdout)
 
     def test_contact_angles_have_the_names_of_the_paper_and_then_numbers(self):
         self.assertLessEqual({"θ", "β"}, symbols("2", "--angle", "10"))
@@ -111,7 +111,7 @@ class Words(unittest.TestCase):
 
 class HowToGoOn(EmptyFolder):
     def test_figures_says_what_it_wrote_and_what_draws_it(self):
-        done = run("figures", "--only", "7", "8", "--output", self.path("new"))
+        done = run("verify", "--figures", "--only", "7", "8", "--output", self.path("new"))
         self.assertEqual(done.stdout, f"2 files in {self.path('new')}; clatter verify --html FILE draws the figures\n")
 
     def test_the_example_of_the_reference_reads_json(self):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""`clatter shock` and `clatter ground` as their users meet them: probes, tables, JSON, bad input."""
+"""`clatter shock` and `clatter shock --ground` as their users meet them: probes, tables, JSON, bad input."""
 
 import math
 import unittest
@@ -158,7 +158,7 @@ class PulsesAndHistory(unittest.TestCase):
 
 class Ground(unittest.TestCase):
     def test_a_material_and_e_give_a_ground_that_gives_e_back(self):
-        found = json_of("ground", *FLAT, "--modulus", "3e10", "--poisson", "0.2", "--thickness", "0.1", "--measured-e", "0.5")
+        found = json_of("shock", "--ground", *FLAT, "--modulus", "3e10", "--poisson", "0.2", "--thickness", "0.1", "--measured-e", "0.5")
         ground = found["solutions"][0]
         self.assertAlmostEqual(ground["stiffness"], 3e10 * 0.8 / (1.2 * 0.6 * 0.1), delta=1)
         again = json_of("simulate", *FLAT, "--stiffness", repr(ground["stiffness"]), "--damping", repr(ground["damping"]),
@@ -167,11 +167,11 @@ class Ground(unittest.TestCase):
         self.assertAlmostEqual(after / 2, 0.5, delta=1e-5)
 
     def test_numbers_that_no_ground_gives_are_status_3(self):
-        found = run("ground", *FLAT, "--contact-time", "5e-4", "--peak-force", "1")
+        found = run("shock", "--ground", *FLAT, "--contact-time", "5e-4", "--peak-force", "1")
         self.assertEqual(found.returncode, 3)
         self.assertIn("no ground gives both", found.stdout)
 
     def test_a_named_floor_has_a_range_and_its_source(self):
-        found = json_of("ground", "--floor", "concrete", "--footprint", "0.004")
+        found = json_of("shock", "--ground", "--floor", "concrete", "--footprint", "0.004")
         self.assertLess(found["solutions"][0]["stiffness"], found["solutions"][1]["stiffness"])
         self.assertIn("doi", found["source"])

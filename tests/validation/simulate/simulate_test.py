@@ -193,7 +193,7 @@ class Claims(Folder):
                           "damping = 1e6\n[run]\nimpacts = 1\n")
         note = self.json(path)["notes"][0]
         self.assertRegex(note, r"\[impact\] is the discrete model's alone: e = 0.5 where the ground has 0\.\d+ at 1.00 m/s, "
-                               "μ = 0.3 where the ground has μ = 0; clatter ground")
+                               "μ = 0.3 where the ground has μ = 0; clatter shock --ground")
         self.assertEqual(self.json("phone-damped", "--impacts", "1")["notes"], [])
 
     FINE = "sectors = 1024, layers = 1, rings = 1"

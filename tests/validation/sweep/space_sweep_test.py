@@ -172,7 +172,7 @@ class Sweep(SpaceFolder):
         arguments = ["--set", "drop.orientation=1:26:1", "--set", "run.impacts=1", "--rows", "impact"]
         discrete = self.swept(*arguments)
         continuous = self.swept(*arguments, "--no-errors", model="continuous")
-        keys = self.json_of("keys")["orientations"]
+        keys = self.json_of("help", "keys")["orientations"]
         self.assertEqual([one["orientation"] for one in keys], list(range(1, 27)))
         seen = set()
         for one, row, other in zip(keys, discrete, continuous):
@@ -184,7 +184,7 @@ class Sweep(SpaceFolder):
                 seen.add(one["part"])
             self.assertEqual(one["part"], {4: "face", 2: "edge", 1: "corner"}[len(corners)])
         self.assertEqual(seen, {"face", "edge", "corner"})
-        text = self.run_program("keys").stdout
+        text = self.run_program("help", "keys").stdout
         for one in keys:
             self.assertIn(f"{one['orientation']} {one['down']}", text)
         self.assertLessEqual(max(map(len, text.splitlines())), 80)
