@@ -19,6 +19,7 @@ struct BenchmarkInput {
   std::string law, problem;
   ColumnNames columns;
   std::optional<Requirement> require;
+  bool details = false;
   OutputChoice output;
   PlotChoice plot;
 };
@@ -68,8 +69,9 @@ int run_score(const BenchmarkInput& input, const OutputChoice& choice) {
     submissions.push_back(judge_file(file, input.problem, input.columns));
     is_met = is_met && requirement.is_met(submissions.back());
   }
-  write_report(choice, score_report("benchmark", submissions));
-  plot.write(score_picture(submissions), {"clatter benchmark score: errors of answers, impact by impact"});
+  write_report(choice, score_report("benchmark", submissions, input.details));
+  const Picture picture = score_picture(submissions);
+  plot.write(picture, {"clatter benchmark score: " + picture.what});
   return is_met ? 0 : check_failed;
 }
 
@@ -81,6 +83,7 @@ int run_benchmark(const BenchmarkInput& input) {
   only_for(!input.columns.empty(), "--columns", "score", action == 3);
   only_for(!input.problem.empty(), "--problem", "score", action == 3);
   only_for(input.require.has_value(), "--require", "score", action == 3);
+  only_for(input.details, "--details", "score", action == 3);
   only_for(!input.plot.path.empty(), "--plot", "score", action == 3);
   check_files(choice, plot_files(input.plot));
   switch (action) {
@@ -109,6 +112,7 @@ Command benchmark_command() {
     command.add(read_argument("--require", input.require, read_requirement, "CLASS",
                               "exact|sharp|good|coarse|incomplete, or a largest error of complete answers: exit status "
                               "1 where a file does worse"));
+    command.add_flag("--details", input.details, "of several files to score: all errors, causes and findings of each");
     add_output_options(command, input.output);
     add_plot_options(command, input.plot);
     command.footer =

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <tuple>
 
 #include "validation/benchmark/benchmark_report.hpp"
 #include "validation/benchmark/score.hpp"
@@ -131,20 +132,61 @@ std::string class_words(const Submission& one) {
                      std::isfinite(error) ? ", off by " + significant(error, 2) : "");
 }
 
+/// "box, some engine: order 1.17 with 5 steps from 0.00208 to 0.000130 s; at the shortest off by 0.0038, coarse"
 std::string group_words(const SubmissionGroup& group) {
   std::string name;
   for (const std::string& part : {group.head.problem, group.head.engine, group.head.version, group.head.settings}) {
     if (!part.empty()) name += (name.empty() ? "" : ", ") + part;
   }
-  std::string words = (name.empty() ? "all files" : name) + ": " + verdict_name(group.verdict);
-  for (const SubmissionGroup::Step& step : group.steps) {
-    if (step.files < 2 && group.steps.size() < 2) continue;
-    words += fmt::format("; {}largest error of {} file{}: {}",
-                         step.step ? "step " + significant(*step.step, 3) + " s, " : "", step.files,
-                         step.files == 1 ? "" : "s", std::isfinite(step.error) ? significant(step.error, 2) : "?");
+  const auto number = [](double error) { return std::isfinite(error) ? significant(error, 2) : "?"; };
+  const SubmissionGroup::Step &longest = group.steps.front(), &shortest = group.steps.back();
+  const bool has_steps = group.steps.size() > 1 && longest.step && shortest.step;
+  std::string words = name.empty() ? "all files" : name;
+  if (!has_steps) return fmt::format("{}: {}, off by {}", words, verdict_name(group.verdict), number(shortest.error));
+  return words + fmt::format(": {} with {} steps from {} to {} s; at the longest off by {}, at the shortest by {}; {}",
+                             group.order ? fmt::format("order {:.2f}", *group.order) : "no order", group.steps.size(),
+                             significant(*longest.step, 3), significant(*shortest.step, 3), number(longest.error),
+                             number(shortest.error), verdict_name(group.verdict));
+}
+
+/// Why an answer is not exact, in a few words: an impact that is wrong, or the likely cause.
+std::string short_reason(const Submission& one) {
+  if (!one.score.order_is_right && !one.score.findings.empty()) return one.score.findings.front();
+  return one.causes.empty() ? "" : one.causes.front().name;
+}
+
+/// A line for each of many files, those of a group together, the longest step first.
+Grid files_in_lines(std::vector<Submission> submissions) {
+  std::ranges::stable_sort(submissions, {}, [](const Submission& one) {
+    return std::tuple(one.head.problem, one.head.engine, one.head.version, one.head.settings, one.head.law,
+                      -one.head.step.value_or(0));
+  });
+  Grid lines;
+  lines.columns = {word_column("file", "file", ""),
+                   {"step", "step", "s"},
+                   {"error", "error", ""},
+                   word_column("decided_by", "of", ""),
+                   word_column("verdict", "verdict", ""),
+                   word_column("cause", "likely cause", "")};
+  for (const Submission& one : submissions) {
+    const Score& score = one.score;
+    const std::string of = score.error() > 0 && score.order_is_right ? score.decided_by() : "";
+    lines.rows.push_back({Cell(std::filesystem::path(one.path).filename().string()), step_cell(one.head.step),
+                          error_cell(score.error()), Cell(text_or_nothing(of)), Cell(verdict_name(one.verdict)),
+                          Cell(text_or_nothing(short_reason(one)))});
   }
-  if (group.order) words += fmt::format("; order {:.2f} in the step", *group.order);
-  return words;
+  return lines;
+}
+
+/// What is wrong with a file, and why.
+void add_details(const Submission& one, std::vector<std::string>& notes) {
+  const std::string name = std::filesystem::path(one.path).filename().string();
+  const bool says_why = !one.score.order_is_right || one.verdict == Verdict::incomplete;  // in a finding
+  if (one.verdict != Verdict::exact && !says_why) notes.push_back(name + ": " + class_words(one));
+  for (const std::string& words : cause_words(one.causes)) notes.push_back(name + ": " + words);
+  for (const std::string& finding : one.score.findings) notes.push_back(name + ": " + finding);
+  if (!one.score.law_is_declared && one.score.law != "any")
+    notes.push_back(name + ": declares no law; judged by the one that fits best, " + one.score.law);
 }
 
 }  // namespace
@@ -188,10 +230,18 @@ std::vector<std::string> score_legend() {
           "all without units, 1 is 100 %; ?: not told, impacts are wrong, missing or extra"};
 }
 
-Report score_report(const std::string& command, const std::vector<Submission>& submissions) {
+Report score_report(const std::string& command, const std::vector<Submission>& submissions, bool details) {
   Report report = begun_report(command, "answers of others against the truth");
   report.grid.columns = score_columns();
-  report.notes = score_legend();
+  const bool in_lines = submissions.size() > 1 && !details;
+  if (in_lines) {
+    report.digest = files_in_lines(submissions);
+    report.notes = {
+        "error: the largest of all, without unit, 1 is 100 %; ?: impacts are wrong, missing or extra; --details tells "
+        "all errors and findings of each file"};
+  } else {
+    report.notes = score_legend();
+  }
   Value files{Value::List{}}, problems{Value::List{}};
   Verdict worst = Verdict::exact;
   for (const Submission& one : submissions) {
@@ -199,17 +249,11 @@ Report score_report(const std::string& command, const std::vector<Submission>& s
     for (Column& column : report.grid.columns) column.shown |= one.gradients && column.name == "gradient_error";
     files.push_back(submission_value(report.grid.columns, one));
     worst = std::max(worst, one.verdict);
-    const std::string name = std::filesystem::path(one.path).filename().string();
-    const bool says_why = !one.score.order_is_right || one.verdict == Verdict::incomplete;  // in a finding
-    if (one.verdict != Verdict::exact && !says_why) report.notes.push_back(name + ": " + class_words(one));
-    for (const std::string& words : cause_words(one.causes)) report.notes.push_back(name + ": " + words);
-    for (const std::string& finding : one.score.findings) report.notes.push_back(name + ": " + finding);
-    if (!one.score.law_is_declared && one.score.law != "any")
-      report.notes.push_back(name + ": declares no law; judged by the one that fits best, " + one.score.law);
+    if (!in_lines) add_details(one, report.notes);
   }
   for (const SubmissionGroup& group : group_submissions(submissions)) {
     problems.push_back(group_value(group));
-    report.notes.push_back(group_words(group));
+    if (submissions.size() > 1) report.notes.push_back(group_words(group));
   }
   report.fields["verdict"] = verdict_name(worst);
   report.fields["files"] = std::move(files);
@@ -237,11 +281,12 @@ Requirement read_requirement(const std::string& name, const std::string& text) {
 
 namespace {
 
+constexpr double least_drawn = 1e-17, most_drawn = 10;  // errors are drawn there that are 0, larger or unknown
+
 void add_answer(const Submission& submission, double curve, PicturePanel& panel) {
-  constexpr double least = 1e-17, most = 10;  // drawn where they are 0, larger or unknown
   for (std::size_t n = 0; n < submission.score.impacts.size(); ++n) {
     panel.rows.push_back(
-        {curve, static_cast<double>(n + 1), std::clamp(submission.score.impacts[n].error, least, most)});
+        {curve, static_cast<double>(n + 1), std::clamp(submission.score.impacts[n].error, least_drawn, most_drawn)});
   }
   panel.plot.curves.push_back(
       {.x = "impact",
@@ -253,11 +298,29 @@ void add_answer(const Submission& submission, double curve, PicturePanel& panel)
        .where = {{"curve", curve}}});
 }
 
+/// The worst error of V, Ω and t of a group over its steps, by which its order is told.
+void add_steps(const SubmissionGroup& group, double curve, PicturePanel& panel) {
+  for (const SubmissionGroup::Step& step : group.steps) {
+    if (!step.step) continue;
+    panel.rows.push_back({curve, *step.step, std::clamp(step.motion_error, least_drawn, most_drawn)});
+    Range2& x = panel.plot.x;
+    x = {std::fmin(x.low, *step.step / 1.3), std::fmax(x.high, *step.step * 1.3)};
+  }
+  std::string name = group.head.problem;
+  for (const std::string& part : {group.head.engine, group.head.settings}) name += (part.empty() ? "" : " ") + part;
+  panel.plot.curves.push_back({.x = "step",
+                               .y = "error",
+                               .legend = name + (group.order ? fmt::format(": order {:.2f}", *group.order) : ""),
+                               .style = FigureCurve::Style::line_points,
+                               .where = {{"curve", curve}}});
+}
+
 void add_classes(const std::vector<double>& tolerances, const std::string& of_what, PicturePanel& panel) {
+  const std::string& axis = panel.columns[1].name;
   for (std::size_t k = 0; k < tolerances.size(); ++k) {
     const double curve = -1 - static_cast<double>(k);
     for (const double x : {panel.plot.x.low, panel.plot.x.high}) panel.rows.push_back({curve, x, tolerances[k]});
-    panel.plot.curves.push_back({.x = "impact",
+    panel.plot.curves.push_back({.x = axis,
                                  .y = "error",
                                  .legend = k == 0 ? "from below up to: exact, sharp, good, coarse" + of_what : "",
                                  .style = FigureCurve::Style::dotted,
@@ -269,21 +332,34 @@ void add_classes(const std::vector<double>& tolerances, const std::string& of_wh
 }  // namespace
 
 Picture score_picture(const std::vector<Submission>& submissions) {
-  PicturePanel panel{.columns = {{"curve", "1", "number of the file; below 0 of a class of tolerance"},
+  const std::vector<SubmissionGroup> groups = group_submissions(submissions);
+  const bool over_steps = std::ranges::any_of(
+      groups, [](const SubmissionGroup& group) { return group.steps.size() > 1 && group.steps.back().step; });
+  PicturePanel panel{.columns = {{"curve", "1", "number of the file or group; below 0 of a class of tolerance"},
                                  {"impact", "1", "number of the impact"},
                                  {"error", "1", "the largest of all errors of the impact and the flight after it"}},
                      .plot = {.x_label = "number of the impact",
                               .y_label = "largest error, relative",
                               .y = {3e-18, 10},
                               .legend_place = "beside",
+                              .logarithmic_x = over_steps,
                               .logarithmic_y = true,
-                              .whole_x = true}};
-  std::size_t most = 1;
-  for (std::size_t file = 0; file < submissions.size(); ++file) {
-    most = std::max(most, submissions[file].score.impacts.size());
-    add_answer(submissions[file], static_cast<double>(file), panel);
+                              .whole_x = !over_steps}};
+  if (over_steps) {
+    panel.columns[1] = {"step", "s", "of time"};
+    panel.columns[2].quantity = "the largest of V, Ω and t";
+    panel.plot.x_label = "step [s]";
+    panel.plot.y_label = "largest error of V, Ω and t, relative";
+    panel.plot.y.low = problem_named("", submissions.front().head.problem).tolerances.front() / 30;
+    for (std::size_t i = 0; i < groups.size(); ++i) add_steps(groups[i], static_cast<double>(i), panel);
+  } else {
+    std::size_t most = 1;
+    for (std::size_t file = 0; file < submissions.size(); ++file) {
+      most = std::max(most, submissions[file].score.impacts.size());
+      add_answer(submissions[file], static_cast<double>(file), panel);
+    }
+    panel.plot.x = {0.5, static_cast<double>(most) + 0.5};
   }
-  panel.plot.x = {0.5, static_cast<double>(most) + 0.5};
   std::vector<std::string> problems;
   bool have_one_scale = true;
   const std::string& first = submissions.front().head.problem;
@@ -294,11 +370,13 @@ Picture score_picture(const std::vector<Submission>& submissions) {
     have_one_scale = have_one_scale && problem_named("", one.head.problem).tolerances == tolerances;
   }
   add_classes(tolerances, have_one_scale ? "" : " of " + first, panel);
-  return {.what = "Errors of answers, impact by impact", .scene = problems, .panels = {panel}};
+  return {.what = over_steps ? "Errors of answers over their time steps" : "Errors of answers, impact by impact",
+          .scene = problems,
+          .panels = {panel}};
 }
 
 Report against_report(const Scene& scene, const Reference& reference, const std::vector<Submission>& submissions) {
-  Report report = score_report("compare", submissions);
+  Report report = score_report("compare", submissions, true);
   report.head = scene_head(scene, Model::discrete);
   report.fields["scene"] = scene_value(scene, Model::discrete);
   report.fields["message"] = text_or_nothing(reference.remark);

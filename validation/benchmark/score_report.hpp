@@ -12,9 +12,11 @@ namespace clatter::validation {
 [[nodiscard]] std::vector<Column> score_columns();
 
 /// One row per file; groups with their worst phase and order in words and JSON.
-[[nodiscard]] Report score_report(const std::string& command, const std::vector<Submission>& submissions);
+/// @param details  whether a reader sees all errors, causes and findings of several files, too, and not a line for each
+[[nodiscard]] Report score_report(const std::string& command, const std::vector<Submission>& submissions, bool details);
 
-/// The largest error of each impact, a curve for each file, with the classes of the first file's problem.
+/// Where files of a group differ in their step, the largest error over the step, a curve for each group, else that of
+/// each impact, a curve for each file; with the classes of the first file's problem.
 [[nodiscard]] Picture score_picture(const std::vector<Submission>& submissions);
 
 /// The same of runs of a scene that has no certified answers: they are judged by the discrete model.

@@ -34,6 +34,32 @@ std::string share_words(const std::string& text, long long count, long long rows
                      significant(100 * interval.low, 3), significant(100 * interval.high, 3));
 }
 
+/// The columns of a layout that were asked for by name, by a probe or a part, or as those of rest.
+std::vector<std::string> asked_names(const RowLayout& layout, const std::string& ranked_by) {
+  std::vector<std::string> names{ranked_by};
+  for (const Probe& probe : layout.probes) {
+    for (const std::string_view column : {margin_column, peak_column, std::string_view("width_"), shock_column})
+      names.push_back(std::string(column) + probe.name);
+  }
+  for (const ImpactColumn& asked : layout.asked) names.push_back(asked.column.name);
+  names.insert(names.end(), layout.named.begin(), layout.named.end());
+  if (layout.rests) names.emplace_back("rest_time");
+  return names;
+}
+
+/// "6 in 120, 5 in 60 and 3 others", the most frequent first.
+template <class Counts>
+std::string tally_words(const Counts& counts) {
+  constexpr std::size_t most_named = 4;
+  std::vector<std::pair<std::string, long long>> order;
+  for (const auto& [what, count] : counts) order.emplace_back(fmt::format("{}", what), count);
+  std::ranges::stable_sort(order, std::ranges::greater{}, &std::pair<std::string, long long>::second);
+  std::string words;
+  for (std::size_t i = 0; i < std::min(order.size(), most_named); ++i)
+    words += fmt::format("{}{} in {}", i == 0 ? "" : ", ", order[i].first, order[i].second);
+  return words + (order.size() > most_named ? fmt::format(" and {} others", order.size() - most_named) : "");
+}
+
 bool is_summarised(const Column& column) { return !column.words && !column.name.ends_with("_error"); }
 
 }  // namespace
@@ -75,7 +101,15 @@ Summary::Summary(const RowLayout& layout, const SweepPoints& points)
       outcome_(static_cast<std::size_t>(std::ranges::find(columns_, "outcome", &Column::name) - columns_.begin())),
       numbers_(columns_.size()),
       worst_(static_cast<std::size_t>(points.attitudes()), std::vector<Extreme>(columns_.size(), {0, -1})),
-      texts_(columns_.size()), row_(columns_.size()) {}
+      texts_(columns_.size()), row_(columns_.size()) {
+  const auto by = ranking();
+  const bool ranks = by && (!worst_.empty() || !rank_by_.empty());
+  for (const std::string& name : asked_names(layout, ranks ? columns_[*by].name : "")) {
+    const auto column = std::ranges::find(columns_, name, &Column::name);
+    const auto place = static_cast<std::size_t>(column - columns_.begin());
+    if (column != columns_.end() && std::ranges::find(asked_, place) == asked_.end()) asked_.push_back(place);
+  }
+}
 
 void Summary::add(std::string_view rows) {
   for (PackedRows packed(rows); packed.next(row_);) {
@@ -89,6 +123,8 @@ void Summary::add(std::string_view rows) {
       if (first || cell.number < numbers.least.value) numbers.least = {cell.number, index};
       if (first || cell.number > numbers.largest.value) numbers.largest = {cell.number, index};
       numbers.histogram.add(cell.number);
+      constexpr std::size_t few = 64;
+      if (columns_[i].unit.empty() && numbers.tally.size() <= few) ++numbers.tally[cell.number];
       if (worst_.empty()) continue;
       Extreme& of_attitude = worst_[static_cast<std::size_t>(points_->attitude_of(index))][i];
       if (of_attitude.index < 0 || is_worse(i, cell.number, of_attitude.value)) of_attitude = {cell.number, index};
@@ -124,19 +160,27 @@ std::vector<Column> Summary::columns() {
 void Summary::add_number(Report& report, std::size_t column, const std::string& least,
                          const std::string& largest) const {
   const Numbers& numbers = numbers_[column];
+  const auto is_whole = [](const auto& counted) { return counted.first == std::rint(counted.first); };
+  const bool counts = !numbers.tally.empty() && std::ranges::all_of(numbers.tally, is_whole);
+  const auto shown = [&](const Estimated& value) {
+    return counts && value.error == 0 ? Cell(std::llrint(value.value)) : known_cell(value, {});
+  };
   Row row{Cell(columns_[column].name), Cell(columns_[column].unit), Cell(numbers.histogram.count()),
-          Cell(numbers.least.value, 6)};
+          shown({numbers.least.value, 0})};
   Row errors;
   for (const double percent : summary_percents) {
     const Estimated value = numbers.histogram.percentile(percent / 100);
-    row.push_back(known_cell(value, {}));
+    row.push_back(shown(value));
     errors.emplace_back(rounded_up(value.error));
   }
-  row.insert(row.end(), {Cell(numbers.largest.value, 6), Cell(numbers.least.index), Cell(numbers.largest.index)});
+  row.insert(row.end(), {shown({numbers.largest.value, 0}), Cell(numbers.least.index), Cell(numbers.largest.index)});
   row.insert(row.end(), errors.begin(), errors.end());
   row.insert(row.end(), {Cell(least), Cell(largest)});
-  report.commands.push_back({fmt::format("largest {}", columns_[column].name), largest});
   report.grid.rows.push_back(std::move(row));
+}
+
+const char* Summary::end_of(std::size_t column) const {
+  return is_worst_least(columns_[column].name) ? "least" : "largest";
 }
 
 bool Summary::is_worse(std::size_t column, double one, double other) const {
@@ -164,10 +208,10 @@ void Summary::add_attitudes(Report& report, const std::function<std::string(long
     return one.index >= 0 && (other.index < 0 || is_worse(by, one.value, other.value));
   });
   constexpr std::size_t most_named = 5;
-  const auto end_of = [&](std::size_t column) { return is_worst_least(columns_[column].name) ? "least" : "largest"; };
   const auto drops = numbers_[by].histogram.count() / static_cast<long long>(worst_.size());
   std::string words =
-      fmt::format("attitudes by {}, the {} of about {} drops of each:", columns_[by].name, end_of(by), drops);
+      fmt::format("attitudes by {}{}:", columns_[by].name,
+                  drops > 1 ? fmt::format(", the {} of about {} drops of each", end_of(by), drops) : "");
   Value::List list;
   for (std::size_t place = 0; place < order.size(); ++place) {
     const std::vector<Extreme>& worst = worst_[order[place]];
@@ -200,12 +244,56 @@ void Summary::add_texts(Report& report) const {
     for (const auto& [text, count] : std::map<std::string, long long>(texts_[i].begin(), texts_[i].end())) {
       counts[text] = count;
       if (columns_[i].name == "rest_face") words += share_words(text, count, rows, words.empty(), shares);
-      else if (columns_[i].name != "reason") words += fmt::format("{}{} {}", words.empty() ? "" : ", ", text, count);
     }
     report.fields["texts"][columns_[i].name] = counts;
     if (!shares.empty()) report.fields["shares"][columns_[i].name] = shares;
-    if (!words.empty()) report.notes.insert(report.notes.begin(), fmt::format("{}: {}", columns_[i].name, words));
+    if (words.empty() && std::ranges::find(asked_, i) != asked_.end()) words = tally_words(texts_[i]);
+    if (!words.empty()) report.notes.push_back(fmt::format("{}: {}", columns_[i].name, words));
   }
+  report.notes.push_back(fmt::format("outcome: {}", tally_words(texts_[outcome_])));
+}
+
+std::optional<std::size_t> Summary::longest_tail() const {
+  std::optional<std::size_t> found;
+  double most = 1;
+  for (std::size_t i = first_; i < columns_.size(); ++i) {
+    const Column& column = columns_[i];
+    const bool counts = numbers_[i].histogram.count() > 0 && !column.unit.empty() && column.unit != "s";
+    if (!counts || i == ranking() || column.name.starts_with(of_landing)) continue;
+    const double times = numbers_[i].largest.value / numbers_[i].histogram.percentile(0.5).value;
+    if (std::isfinite(times) && times > most) most = times, found = i;
+  }
+  return found;
+}
+
+std::vector<std::size_t> Summary::remarked(Report& report) const {
+  if (!asked_.empty()) {
+    report.digest = Grid{report.grid.columns, {}, report.grid.leading};
+    for (const std::size_t column : asked_) {
+      const auto is_its = [&](const Row& row) { return shown_text(row.front()) == columns_[column].name; };
+      std::ranges::copy_if(report.grid.rows, std::back_inserter(report.digest->rows), is_its);
+    }
+  }
+  std::string& outcome = report.notes.back();
+  std::string counts;
+  for (std::size_t i = first_; i < columns_.size(); ++i) {
+    const std::map<double, long long>& tally = numbers_[i].tally;
+    if (columns_[i].name == "predictable" && tally.contains(0))
+      outcome += fmt::format("; {} cannot be predicted", tally.at(0));
+    if (tally.size() > 1 && (columns_[i].name == "impacts" || columns_[i].name == "hardest"))
+      counts += fmt::format("{}{}: {}", counts.empty() ? "" : "; ", columns_[i].name, tally_words(tally));
+  }
+  if (!counts.empty()) report.notes.push_back(counts);
+  std::vector<std::size_t> columns;
+  if (const auto by = ranking(); by && numbers_[*by].histogram.count() > 0) columns.push_back(*by);
+  if (const auto tail = longest_tail()) {
+    const Numbers& numbers = numbers_[*tail];
+    report.notes.push_back(fmt::format(
+        "{}: the largest, {} {}, is {} times the median", columns_[*tail].name, significant(numbers.largest.value, 4),
+        columns_[*tail].unit, significant(numbers.largest.value / numbers.histogram.percentile(0.5).value, 3)));
+    columns.push_back(*tail);
+  }
+  return columns;
 }
 
 }  // namespace clatter::validation

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -57,8 +58,9 @@ class Summary {
 
   /// Takes whole packed rows, whose first cell is the scene's number.
   void add(std::string_view rows);
-  /// Puts the summary into a report that has its head: a row for each number, `texts` in JSON, and a note for each
-  /// text.
+  /// Puts the summary into a report that has its head: a row for each number and `texts` in JSON.  A reader sees the
+  /// rows that were asked for, the one by which attitudes are ranked first, all if none was; notes on what was asked,
+  /// and up to three on what else is remarkable; and the commands of the scenes that these are about.
   /// @param command  the command that shows a scene, of its number
   /// @param attitude  the name of a listed attitude, of its place from 0
   template <class Command, class Attitude>
@@ -69,6 +71,10 @@ class Summary {
     }
     if (points_->attitudes() > 0) add_attitudes(report, attitude);
     add_texts(report);
+    for (const std::size_t i : remarked(report)) {
+      const Extreme& worst = is_worst_least(columns_[i].name) ? numbers_[i].least : numbers_[i].largest;
+      report.commands.push_back({fmt::format("{}, the {}", columns_[i].name, end_of(i)), command(worst.index)});
+    }
   }
   /// Place, among the rows' columns, of the one by which attitudes are ranked; none if the rows have none that tells.
   [[nodiscard]] std::optional<std::size_t> ranking() const;
@@ -83,17 +89,25 @@ class Summary {
   struct Numbers {
     Histogram histogram;
     Extreme least, largest;
+    std::map<double, long long> tally{};  ///< how often each value occurs, while they are few: numbers of impacts are
   };
   using Texts = std::unordered_map<std::string, long long>;
 
   void add_number(Report& report, std::size_t column, const std::string& least, const std::string& largest) const;
   void add_texts(Report& report) const;
+  /// Adds the notes on what is remarkable; returns the columns whose worst scene a reader may want to see.
+  [[nodiscard]] std::vector<std::size_t> remarked(Report& report) const;
+  /// The column, but for the ranked one and times, whose largest value is the most times its median; none: no two
+  /// differ.
+  [[nodiscard]] std::optional<std::size_t> longest_tail() const;
+  [[nodiscard]] const char* end_of(std::size_t column) const;  ///< "least" of margins, "largest" of all else
   /// Whether one number of a column is worse than another: a margin where it is less.
   [[nodiscard]] bool is_worse(std::size_t column, double one, double other) const;
   void add_attitudes(Report& report, const std::function<std::string(long long)>& name) const;
 
   std::vector<Column> columns_;
-  std::size_t first_;    ///< column that is summarised: swept keys need not be told
+  std::vector<std::size_t> asked_{};  ///< columns that were asked for, in the order in which they are told
+  std::size_t first_;                 ///< column that is summarised: swept keys need not be told
   std::string rank_by_;  ///< name of the column by which attitudes are ranked first; empty: the force or impulse
   const SweepPoints* points_;
   std::size_t outcome_;  ///< column that each row has

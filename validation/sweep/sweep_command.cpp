@@ -543,7 +543,8 @@ constexpr const char* sweep_footer =
     "--columns hardest,hardest_corners,impulse_normal_1,impulse_normal_2\n"
     "Example: clatter sweep phone-damped --set drop.attitude=26 --random 2600 --scatter 3 --set run.impacts=2 "
     "--summary\n"
-    "drop.attitude=26 has a box fall on each face, edge and corner (clatter help keys numbers them); @FILE is a CSV file\n"
+    "drop.attitude=26 has a box fall on each face, edge and corner (clatter help keys numbers them); @FILE is a CSV "
+    "file\n"
     "with columns q0, q1, q2, q3. Columns asked for are quantities that rows of impacts have; the hardest impact "
     "has\n"
     "the largest normal impulse.\n"
@@ -587,8 +588,10 @@ Command sweep_command() {
         command.add_text(
             "--output", input.output, "FILE",
             "write there; until it is complete the rows are in FILE.part; FILE.h5 is HDF5, columns with units");
-        command.add_flag("--summary", request.summary,
-                         "no rows: counts, percentiles, and extremes with the command that shows each");
+        command.add_flag(
+            "--summary", request.summary,
+            "no rows: counts, percentiles and extremes, in a table of what was asked for, in other forms of all, "
+            "with the command that shows each extreme");
         command.add(format_argument(input.format,
                                     "form of the output (csv); others are written at the end, and not taken up again"));
         command.add_flag("--ascii", input.ascii, "plain ASCII in tables");

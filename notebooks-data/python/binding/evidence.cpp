@@ -95,7 +95,7 @@ py::tuple benchmark_score(const std::vector<std::string>& files, const NamedText
     return judged(
         files, options, watch,
         [&](const std::string& file, const auto& names) { return validation::judge_file(file, problem, names); },
-        [](const Submissions& all) { return validation::score_report("benchmark", all); });
+        [](const Submissions& all) { return validation::score_report("benchmark", all, false); });
   };
   return py::cast(run_interruptible(work, progress));
 }

@@ -1,8 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Answers of others: what is read, how it is scored, what is refused."""
 import math
+import re
 import shutil
 import subprocess
+import unittest
 from pathlib import Path
 
 from exact_motion import Asked, Motion, printed, scored, told
@@ -206,6 +208,31 @@ class Exact(EmptyFolder):
                 worst = max(file[error] for file in report["files"] if f"/{n}_" in file["file"]
                             for error in ("velocity_error", "angular_velocity_error", "time_error"))
                 self.assertEqual(step["motion_error"], worst)
+
+    def test_many_files_take_a_line_each_then_the_order_and_details_on_demand(self):
+        files = [self.write(f"{n}_{gap}.csv", self.delayed(1 / n, gap, 1)) for gap in (2, 0) for n in (400, 100, 200)]
+        text = printed("benchmark", "score", *files)
+        lines = re.findall(r"^  (\d+)_(\d)\.csv +\S+ +(\S+)  (\S+) +(\S+)", text, re.M)
+        self.assertEqual([line[:2] for line in lines], [(n, gap) for n in ("100", "200", "400") for gap in "20"])
+        judged = {file["file"].split("/")[-1][:-4]: file for file in told("benchmark", "score", *files)["files"]}
+        for n, gap, error, of, verdict in lines:
+            file = judged[f"{n}_{gap}"]
+            self.assertEqual((float(error), of, verdict), (file["error"], file["decided_by"], file["verdict"]))
+        self.assertIn("rod-45, some engine, tuned: order 1.00 with 3 steps from 0.01 to 0.0025 s;", re.sub(r"\n  ", " ", text).replace("0.0100", "0.01").replace("0.00250", "0.0025"))
+        self.assertNotIn("is off, error", text)
+        self.assertIn("velocity of impact 1 is off, error", printed("benchmark", "score", *files, "--details"))
+        self.assertEqual(printed("benchmark", "score", files[0]), printed("benchmark", "score", files[0], "--details"))
+
+    @unittest.skipUnless(shutil.which("gnuplot"), "no gnuplot here")
+    def test_the_picture_of_several_steps_is_of_errors_over_steps(self):
+        files = [self.write(f"{n}.csv", self.delayed(1 / n, 0, 2)) for n in (100, 200)]
+        printed("benchmark", "score", *files, "--plot", self.path("p.svg"), "--plot-script")
+        report = told("benchmark", "score", *files)["problems"][0]["steps"]
+        drawn = re.findall(r"^([\d.e-]+) ([\d.e-]+)$", self.read("p.gnuplot"), re.M)[:2]
+        self.assertEqual([float(step) for step, _ in drawn], [step["step"] for step in report])
+        for (_, error), step in zip(drawn, report):  # JSON has two digits, rounded up
+            self.assertTrue(0 <= step["motion_error"] - float(error) < 0.1 * float(error), (error, step))
+        self.assertIn("step [s]", self.read("p.svg"))
 
     def test_a_step_may_be_written_as_a_fraction(self):
         motion = Motion("flat", 1)

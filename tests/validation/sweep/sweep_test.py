@@ -3,6 +3,7 @@
 
 import importlib.util
 import itertools
+import collections
 import json
 import math
 import os
@@ -387,12 +388,33 @@ class RowsTogether(Folder):
         mean = sum((2 * math.degrees(math.acos(min(1, cosine)))) ** 2 for cosine in cosines) / len(rows)
         self.assertAlmostEqual(mean, 27, delta=27 * 0.2)
 
+    def test_a_summary_tells_first_what_was_asked_and_then_in_three_lines_what_else_is_remarkable(self):
+        arguments = ["phone-corner", "--model", "discrete", "--set", "drop.attitude=26", "--random", "52", "--scatter", "4", "--set", "run.impacts=3"]
+        asked = ["--probe", "lens:0.03,0.01,0.002", "--columns", "hardest,restitution_2"]
+        text = self.sweep(*arguments, *asked, "--summary")
+        table, notes = re.split(r"\n(?=attitudes by delta_v_lens)", text)
+        names = re.findall(r"^  ([a-z_]+\w*) +(?:\S+ +)?52 ", table, re.M)
+        self.assertEqual(names[:2], ["delta_v_lens", "hardest"])
+        self.assertNotIn("energy_loss", table)
+        rows = records(self.sweep(*arguments, *asked))
+        said = re.sub(r"\n  ", " ", notes).splitlines()
+        outcomes, hardest = (collections.Counter(row[name] for row in rows).most_common() for name in ("outcome", "hardest"))
+        self.assertEqual(said[1].split(";")[0], "outcome: " + ", ".join(f"{name} in {count}" for name, count in outcomes))
+        for name, count in hardest:
+            self.assertRegex(said[2], rf"hardest:.* {name} in {count}\b")
+        tail = re.fullmatch(r"(\w+): the largest, (\S+) \S+, is (\S+) times the median", said[3])
+        values = sorted(self.numbers("\n".join([",".join(rows[0]), *(",".join(row.values()) for row in rows)]), tail[1]))
+        self.assertAlmostEqual(float(tail[3]), values[-1] / values[len(values) // 2 - 1], delta=0.01 * float(tail[3]))
+        self.assertEqual(text.count(", the largest:\n"), 2)
+        everything = json.loads(self.sweep(*arguments, *asked, "--summary", "--format", "json"))["rows"]
+        self.assertIn("energy_loss", [row["quantity"] for row in everything])
+
     def test_the_commands_below_a_summary_can_be_pasted_into_a_shell(self):
         summary = self.sweep("phone-corner", "--model", "discrete", "--set", "drop.attitude=26", "--random", "26", "--scatter", "4", "--summary")
-        pasted = summary[summary.index("largest impacts:"):]
+        pasted = summary[summary.index(", the largest:"):]
         for line in pasted.splitlines():
             self.assertTrue(len(line) < 80 or len(line.split()) <= 2, line)  # an attitude is one long word
-        commands = re.findall(r"^largest (\w+):\n((?:.*\\\n)*.*)$", pasted, re.M)
+        commands = re.findall(r"^(\w+), the largest:\n((?:.*\\\n)*.*)$", summary, re.M)
         self.assertIn("hardest_impulse_normal", dict(commands))
         for name, command in commands:
             done = subprocess.run(["bash", "-c", f'clatter() {{ "$PROGRAM" "$@"; }}\n{command}'], capture_output=True, text=True,
