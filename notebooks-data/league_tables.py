@@ -26,6 +26,8 @@ class League:
         self.engines = [engine for engine in told["engine"] if engine["id"] in run]
         self.absent = told["absent"]
         self.problems = list(dict.fromkeys(row["problem"] for row in self.rows))
+        ids = (path.stem for path in sorted((catalogue.parent.parent / "problems").glob("*.toml")))
+        self.not_run = [problem for problem in ids if problem not in self.problems]
         self.by_key = {(row["engine"], row["settings"], row["problem"], row["step"]): row for row in self.rows}
 
     def engine(self, name):
@@ -118,4 +120,4 @@ class League:
         runs = sum(int(row["phases"]) for row in self.rows if not row["reason"])
         others = [engine for engine in self.engines if engine["package"] != "clatter"]
         return (f"{len(others)} engine builds of others and {len(self.engines) - len(others)} models of this program on {len(self.problems)} "
-                f"problems: {runs} runs.")
+                f"of the benchmark's {len(self.problems) + len(self.not_run)} problems: {runs} runs. Not run: {', '.join(self.not_run)}.")

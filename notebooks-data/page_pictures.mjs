@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Draws notebooks-data/figures/demo.png, the page of `clatter demo` at the second impact of a phone that fell on its corner,
 // and report.png, how the page of a report begins.
-//   DEMO_PAGE=build/page DEMO_SCENE=demo.html REPORT_PAGE=phone.html node notebooks-data/page_pictures.mjs
+//   DEMO_PAGE=build/page DEMO_SCENE=demo.html REPORT_PAGE=handset.html node notebooks-data/page_pictures.mjs
 // DEMO_PAGE: the folder in which validation/demo/build_page.py built it; DEMO_SCENE: what `clatter demo phone-corner --export` wrote;
 // REPORT_PAGE: what README's `clatter report` wrote
 import { readFileSync } from "node:fs";

@@ -60,7 +60,7 @@ class Numbers(unittest.TestCase):
         self.assertEqual({engine["id"] for engine in self.league.engines} - {finding["engine"] for finding in findings}, set())
 
     def test_a_finding_that_a_run_does_not_show_is_refused(self):
-        run = {"problem": "rod-10", "settings": "tuned", "step": "1/960", "column": "law_error", "above": 0.5}
+        run = {"problem": "rod-10-brisk", "settings": "tuned", "step": "1/960", "column": "law_error", "above": 0.5}
         with self.assertRaisesRegex(ValueError, "does not show it"):
             self.league.shown("chipmunk", run)
 

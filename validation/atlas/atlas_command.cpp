@@ -551,10 +551,13 @@ struct AtlasInput {
 struct NamedBody {
   const char *name, *shape, *size;
 };
-constexpr std::array named_bodies{
-    NamedBody{"rod", "rod", nullptr},          NamedBody{"box", "box", nullptr},
-    NamedBody{"cube", "box", "1x1x1"},         NamedBody{"square", "box", "1x1x1e-6"},
-    NamedBody{"rectangle", "box", "2x1x1e-6"}, NamedBody{"phone", "box", "0.15x0.075x0.008"}};
+constexpr std::array named_bodies{NamedBody{"rod", "rod", nullptr},
+                                  NamedBody{"box", "box", nullptr},
+                                  NamedBody{"cube", "box", "1x1x1"},
+                                  NamedBody{"square", "box", "1x1x1e-6"},
+                                  NamedBody{"rectangle", "box", "2x1x1e-6"},
+                                  NamedBody{"phone", "box", "0.10566x0.04394x0.01905"},
+                                  NamedBody{"handset", "box", "0.15x0.075x0.008"}};
 const char* const triangle = "triangle";
 
 /// Takes the name of a body as flags; what is typed goes before it.  The drop lands flat where nothing says otherwise.
@@ -608,12 +611,13 @@ Command atlas_command() {
   return command_of<AtlasInput>(run_atlas, [](Command& command, AtlasInput& input) {
     add_scene_flags(command, input.scene, Model::discrete);
     command.arguments.front().help =
-        "rod, box, cube, square, rectangle, triangle, phone; or a scene file or the name of a case";
+        "rod, box, cube, square, rectangle, triangle, phone (of the cases), handset; or a scene file or the name of a "
+        "case";
     command.add_flag("--plane", input.in_plane, "of a box or mesh, tilts in the plane y = 0 alone", "Scene");
     add_output_options(command, input.output);
     add_plot_options(command, input.plot);
     command.footer =
-        "Example: clatter atlas phone --restitution 0.5 --plot atlas.svg\n"
+        "Example: clatter atlas handset --restitution 0.5 --plot atlas.svg\n"
         "Of a box or mesh that face lands which the drop's attitude brings down (--orientation 1 to 6 of a box).\n"
         "Gravity, friction and motion of the scene are left out: in the limit of no tilt they change nothing.";
     command.columns = {{"atlas", atlas_space_columns}, {"atlas-plane", atlas_plane_columns}};

@@ -53,7 +53,9 @@ Range2 with_room(const Range2& range) {
   return {range.low - room, range.high + room};
 }
 
-std::vector<PicturePanel> panels(const XAxis& axis, const std::vector<std::vector<double>>& rows) {
+/// @param discrete  legend of the discrete model's numbers
+std::vector<PicturePanel> panels(const XAxis& axis, const std::vector<std::vector<double>>& rows,
+                                 const char* discrete) {
   const std::vector<FigureColumn> columns{axis.column,
                                           {"discrete", "N·s", "normal impulse, discrete model"},
                                           {"continuous", "N·s", "normal impulse, continuous model"},
@@ -65,7 +67,7 @@ std::vector<PicturePanel> panels(const XAxis& axis, const std::vector<std::vecto
     return FigureCurve{.x = "x", .y = column, .legend = legend, .style = Style::marks};
   };
   FigurePlot impulses{.y_label = "normal impulse [N·s]",
-                      .curves = {marks("discrete", "discrete"), marks("continuous", "continuous"),
+                      .curves = {marks("discrete", discrete), marks("continuous", "continuous"),
                                  marks("limit", "limit on stiff ground")},
                       .x = axis.range,
                       .y = {0, no_number},
@@ -79,6 +81,11 @@ std::vector<PicturePanel> panels(const XAxis& axis, const std::vector<std::vecto
       .logarithmic_y = true,
       .whole_x = axis.is_number};
   return {{.columns = columns, .rows = rows, .plot = impulses}, {.columns = columns, .rows = rows, .plot = deviations}};
+}
+
+/// Both models are drawn with the same corners, which a table has in a column of their own.
+const char* discrete_legend(const Comparison& comparison) {
+  return comparison.as_given ? "discrete, corners of the mesh" : "discrete";
 }
 
 /// What the picture leaves out.
@@ -96,7 +103,7 @@ Picture comparison_picture(const Scene& scene, const Comparison& comparison) {
                    .is_number = true};
   return {.what = "Discrete and continuous model, impact by impact" + parted_words(comparison.parted),
           .scene = scene.summary(),
-          .panels = panels(axis, rows)};
+          .panels = panels(axis, rows, discrete_legend(comparison))};
 }
 
 /// The same of the first impact over the swept value.
@@ -109,8 +116,9 @@ Picture swept_comparison_picture(const Scene& scene, const std::vector<SweptComp
   const XAxis axis{.column = {"x", unit.empty() ? "1" : unit, swept_words(*scene.sweep)},
                    .range = with_room(swept_range(swept.front().value, swept.back().value)),
                    .is_number = false};
-  return {
-      .what = "Discrete and continuous model, first impact", .scene = scene.summary(), .panels = panels(axis, rows)};
+  return {.what = "Discrete and continuous model, first impact",
+          .scene = scene.summary(),
+          .panels = panels(axis, rows, discrete_legend(swept.front().comparison))};
 }
 
 const char* const comparison_summary = "discrete and continuous model, impact by impact";

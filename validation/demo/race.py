@@ -3,7 +3,7 @@
 """The race of the page of `clatter demo`: the league's runs of one drop, small enough to be shipped.
 
 Usage: race.py [TRAJECTORIES [OUTPUT]]
-  TRAJECTORIES  of validation/benchmark/engines/run --problems rod-10 --keep (build/league/trajectories)
+  TRAJECTORIES  of validation/benchmark/engines/run --problems rod-10-brisk --keep (build/league/trajectories)
   OUTPUT        validation/demo/page/race.json
 """
 
@@ -17,7 +17,7 @@ from pathlib import Path
 HERE = Path(__file__).resolve().parent
 ROOT = HERE.parents[1]
 BENCHMARK = ROOT / "validation/benchmark"
-PROBLEM = "rod-10"
+PROBLEM = "rod-10-brisk"
 # As a game runs: each engine's own settings, a picture a step.
 SETTINGS, STEP = "default", "1/60"
 GAP = 1  # of the problem's starting heights, from 0

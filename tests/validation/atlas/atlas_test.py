@@ -32,10 +32,14 @@ class Space(EmptyFolder):
     def test_the_hardest_blows_are_the_known_fractions(self):
         for body, words in (("rectangle", ("17/7", "121/49", "4 to 6")), ("square", ("17/7", "121/49", "4 to 6")),
                             ("triangle", ("77/27", "impact 4")), ("cube", ("2 times, at impact 2", "infinitely many impacts: none found")),
-                            ("phone", ("2.425101", "2.456013", "impact 3"))):
+                            ("handset", ("2.425101", "2.456013", "impact 3"))):
             text = run("atlas", body).stdout
             for word in words:
                 self.assertIn(word, text, body)
+
+    def test_the_phone_is_that_of_the_cases(self):
+        of_case = atlas("phone-damped", "--restitution", "1", "--friction", "0", "--angle", "0", "--tilt", "0")
+        self.assertEqual(atlas("phone")["amplification"], of_case["amplification"])
 
     def test_a_face_is_the_one_that_the_attitude_brings_down(self):
         found = [atlas("box", "--size", "3x2x1", "--orientation", str(n)) for n in (1, 3, 5)]

@@ -27,7 +27,7 @@ class League(unittest.TestCase):
 
     @classmethod
     def run_league(cls, *options):
-        ended = subprocess.run([RUN, "--program", PROGRAM, "--engines", "chipmunk,box2d", "--problems", "rod-10,rod-10-half,corner",
+        ended = subprocess.run([RUN, "--program", PROGRAM, "--engines", "chipmunk,box2d", "--problems", "rod-10-brisk,rod-10-half,corner",
                                 "--output", cls.folder.name, *options], capture_output=True, text=True, timeout=HOURS, check=False)
         assert ended.returncode == 0, ended.stderr
         lines = (Path(cls.folder.name) / "league.csv").read_text().splitlines()
@@ -48,12 +48,12 @@ class League(unittest.TestCase):
 
     def test_impulses_follow_the_exact_map_to_the_engines_precision(self):
         for engine, tolerance in (("chipmunk", DOUBLE), ("box2d", SINGLE)):
-            for row in self.answered(engine, "rod-10", "tuned"):
+            for row in self.answered(engine, "rod-10-brisk", "tuned"):
                 self.assertEqual(row["right"], row["phases"])
                 self.assertLessEqual(float(row["law_error"]), tolerance)
 
     def test_errors_of_velocities_shrink_with_the_step(self):
-        errors = [float(row["velocity_error"]) for row in self.answered("chipmunk", "rod-10", "tuned")]
+        errors = [float(row["velocity_error"]) for row in self.answered("chipmunk", "rod-10-brisk", "tuned")]
         self.assertEqual(errors, sorted(errors, reverse=True))
         self.assertLess(errors[-1], errors[0] / 4)
 

@@ -67,13 +67,13 @@ class Gradients(EmptyFolder):
         self.assertEqual(self.judged("rod-10", found, clockwise=False)["verdict"], "fails")
 
     def test_usual_mistakes_are_named_and_are_no_mistakes_of_the_motion(self):
-        found = rod_derivatives("rod-10")
+        found = rod_derivatives("rod-10-brisk")
         degree = mpmath.pi / 180
         for column, factor, words in (("dV/dangle", -1, "the other sign"), ("dOmega/dangle", degree, "per degree, not per radian"),
                                       ("dt/dangle", -degree, "per degree, and the other sign"), ("dPn/drestitution", 0, "it is left out"),
                                       ("dV/dspeed", mpmath.mpf("1.01"), "must be")):
             with self.subTest(column, words=words):
-                judged = self.judged("rod-10", {column: [factor * one for one in found[column]]})
+                judged = self.judged("rod-10-brisk", {column: [factor * one for one in found[column]]})
                 self.assertEqual(judged["verdict"], "coarse" if factor == mpmath.mpf("1.01") else "fails")
                 self.assertEqual(len(judged["findings"]), 1)
                 self.assertTrue(judged["findings"][0].startswith(column), judged["findings"])

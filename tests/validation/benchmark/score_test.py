@@ -55,7 +55,7 @@ class Problems(EmptyFolder):
                     self.assertAlmostEqual(row["t"], impact["start"], delta=1e-12)
 
     def test_speeds_keep_off_the_known_thresholds(self):
-        for problem in IDS:
+        for problem in set(IDS) - {"rod-10"}:  # the drop of the case of this name, and its statement says what that means
             drop = Asked(problem).statement["scene"]["drop"]
             speed = drop["speed"] if drop["velocity"] is None else -drop["velocity"][2]
             for threshold in (0.1, 0.2, 0.5, 1.0, 2.0):

@@ -88,7 +88,7 @@ def without_gyroscopic_term():
 
 
 def damped():
-    code = RigidCode("rod-10", 1)
+    code = RigidCode("rod-10-brisk", 1)
     planted_test.damped(0.1, 0.1)(code)
     return code.text(code.rows(0.005))
 

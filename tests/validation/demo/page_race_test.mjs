@@ -16,10 +16,10 @@ const RADIANS = Math.PI / 180;
 
 test("a recorded run becomes whole tenths of a millimetre and milliradians, with the part of the energy that is left", () => {
   const write = (name, text) => writeFileSync(path.join(scratch, name), text);
-  const head = "# engine: x\n# version: 7\n# problem: rod-10\n# step: 0.0166\n# settings: default\nt,x,z,phi,vx,vz,omega\n";
+  const head = "# engine: x\n# version: 7\n# problem: rod-10-brisk\n# step: 0.0166\n# settings: default\nt,x,z,phi,vx,vz,omega\n";
   // At the end 1 m/s upwards and 3 rad/s: 1 + 9/12 of 1.5².
-  write("planck-rod-10-default-1_60-2.csv", `${head}0,0,0.0903,0.1745,0,-1.5,0\n0.0166,0,0.0705049,-0.0305,0,1,-3\n`);
-  for (const other of ["planck-rod-10-tuned-1_60-2.csv", "planck-rod-10-default-1_240-2.csv", "planck-rod-10-default-1_60-1.csv", "clatter-sequence-rod-10-default-1_60-2.csv"]) {
+  write("planck-rod-10-brisk-default-1_60-2.csv", `${head}0,0,0.0903,0.1745,0,-1.5,0\n0.0166,0,0.0705049,-0.0305,0,1,-3\n`);
+  for (const other of ["planck-rod-10-brisk-tuned-1_60-2.csv", "planck-rod-10-brisk-default-1_240-2.csv", "planck-rod-10-brisk-default-1_60-1.csv", "clatter-sequence-rod-10-brisk-default-1_60-2.csv"]) {
     write(other, `${head}0,0,1,1,0,1,1\n`);
   }
   const output = path.join(scratch, "race.json");
@@ -32,7 +32,7 @@ test("a recorded run becomes whole tenths of a millimetre and milliradians, with
 });
 
 test("the recorded runs are those of the league's problem: each begins where its drop does and falls as nothing touches it yet", () => {
-  const shown = printed("benchmark", "show", "rod-10");
+  const shown = printed("benchmark", "show", "rod-10-brisk");
   assert.ok(JSON.stringify(shown).includes(String(recorded.drop.gap)));
   assert.ok(recorded.runs.length >= 8);
   const start = recorded.drop.gap + 0.5 * Math.sin(10 * RADIANS);

@@ -40,7 +40,7 @@ COMMANDS = {
                         ["friction coefficient μ", "velocity [m/s]", "Ω [rad/s]", "impulse [N·s]", "energy [J]"],
                         ["normal velocity after the impact, Vₙ", "angular velocity after the impact, Ω",
                          "normal impulse, Pₙ", "energy lost"]),
-    "compare": (["compare", case("rod-10")],
+    "compare": (["compare", case("rod-10"), "--radius", "0.01"],
                 ["number of the impact", "normal impulse [N·s]", "largest deviation, relative"],
                 ["discrete", "continuous", "limit on stiff ground", "|continuous − discrete|", "predicted size",
                  "|limit − discrete|"]),
@@ -88,7 +88,7 @@ class Pictures(InFolder):
                 for words in axes + legends:
                     self.assertIn(words, texts)
                 script = self.read("p.gnuplot")
-                self.assertRegex(script, r"\A# clatter \d+\.\d+\.\d+, " + arguments[0])
+                self.assertRegex(script, r"\A# clatter \d+\.\d+\.\d+, " + arguments[arguments[1] in ("--regimes", "--tradeoff")].lstrip("-"))
                 if name == "simulate":
                     self.assertEqual(json.loads(re.search(r"(?m)^# scene: (.*)", script)[1])["run"]["impacts"], 3)
                 again = self.path("again")

@@ -106,5 +106,5 @@ class Law(EmptyFolder):
         thick = answer("sequence", "--angle", "10", "--radius", "0.01", "--stiffness", "1e11")["impacts"][0]["impulse_normal"]
         self.assertAlmostEqual(thin["mesh_corners"] / thick, 1, delta=1e-14)
         self.assertAlmostEqual(thin["limit"] / thick, 1, delta=1e-9)
-        same = answer("compare", "rod-10", "--impacts", "1")["impacts"][0]["numbers"]["impulse_normal"]
+        same = answer("compare", "rod-10", "--radius", "0.01", "--impacts", "1")["impacts"][0]["numbers"]["impulse_normal"]
         self.assertIsNone(same["mesh_corners"])
