@@ -40,6 +40,48 @@ with_one_folder() {
   [[ ! -e $folder/clatter/analytic/plane/first_root.cpp && ! -e $folder/clatter/analytic/space/landing/level_rim.hpp ]]
 }
 
+# What an installed header names, in its text, too, is installed.
+with_headers_that_are_there() {
+  local folder named missing
+  folder=$(dirname -- "$(find "$prefix" -name analytic.hpp)")
+  named=$(grep -rhoE '[A-Za-z_]+\.hpp' "$folder" | sort -u)
+  [[ $(wc -l <<<"$named") -gt 40 ]]
+  missing=$(comm -23 <(printf '%s\n' "$named") <(find "$folder" -name '*.hpp' -printf '%f\n' | sort -u))
+  [[ -z $missing ]] || { printf 'installed headers name headers that are not there: %s\n' "$missing" >&2; return 1; }
+}
+
+# The project as a part of another, by add_subdirectory or FetchContent, which CPM calls: the examples compile with the headers by
+# their documented names.  They are linked with the libraries that are there already, which here would take minutes.
+as_a_part() {
+  local how root part=$prefix/part libraries
+  root=$(readlink -f -- "$source/../..")
+  mapfile -t libraries < <(find "$build" -name 'libclatter_numeric.a' -o -name 'libclatter_analytic.a' | sort -r)
+  for how in "add_subdirectory([[$root]] clatter)" \
+    "include(FetchContent)
+FetchContent_Declare(clatter SOURCE_DIR [[$root]])
+FetchContent_MakeAvailable(clatter)"; do
+    rm -rf -- "$part"
+    mkdir "$part"
+    cp -- "$source"/*_example.cpp "$part"
+    cat >"$part/CMakeLists.txt" <<CMAKE
+cmake_minimum_required(VERSION 3.25)
+project(part LANGUAGES CXX)
+$how
+foreach(one analytic space numeric)
+  add_executable(\${one} \${one}_example.cpp)
+  target_link_libraries(\${one} PRIVATE clatter::analytic clatter::numeric)
+endforeach()
+CMAKE
+    cmake -S "$part" -B "$part/build" -G Ninja -DCMAKE_BUILD_TYPE=Release >"$prefix/log" 2>&1 || { cat -- "$prefix/log"; return 1; }
+    [[ ! -e $part/build/clatter/validation && ! -e $part/build/_deps/clatter-build/validation ]]
+    for one in analytic space numeric; do
+      cmake --build "$part/build" --target "CMakeFiles/$one.dir/${one}_example.cpp.o" >"$prefix/log" 2>&1 || { cat -- "$prefix/log"; return 1; }
+      g++ "$part/build/CMakeFiles/$one.dir/${one}_example.cpp.o" -o "$part/$one" "${libraries[@]}" -lgsl -lgslcblas -ldl
+      "$part/$one" >/dev/null
+    done
+  done
+}
+
 # A component that is not there ends the configuration with a line that names it.
 without_a_component() {
   mkdir "$prefix/unknown"
@@ -71,6 +113,8 @@ PYTHON
 with_cmake
 with_pkg_config
 with_one_folder
+with_headers_that_are_there
+as_a_part
 without_a_component
 with_python
 printf 'the installed libraries and the Python module work\n'
