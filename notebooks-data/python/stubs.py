@@ -106,7 +106,7 @@ def samples() -> Mapping[str, list[Any]]:
         "ImpactErrors": [impact.error_estimate for run in runs for impact in run],
         "Impact": [impact for run in sequences for impact in run],
         "SimulatedImpact": [impact for run in simulated for impact in run],
-        "Accuracy": [run.accuracy for run in sequences], "Cost": [run.cost for run in runs],
+        "Accuracy": [run.accuracy for run in runs], "Cost": [run.cost for run in runs],
         "Tail": [run.tail for run in sequences if run.tail],
         "Check": list(clatter.verify(["C1", "E1", "X1"])), "Rung": list(plan), "Choice": [plan.choice],
         "Equation": [equation for step in explanation.steps for equation in step.equations], "Step": explanation.steps,

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "validation/output/bad_input.hpp"
 #include "validation/run/history_file.hpp"
 
 namespace clatter::validation {
@@ -100,6 +101,10 @@ const RecordedRun& CaseRuns::history(const std::string& name, const RunOptions& 
 const std::vector<SweptSimulation>& CaseRuns::sweep(const std::string& name, const RunOptions& options) {
   return once<std::vector<SweptSimulation>>(sweeps_, name + options.key(), [&] {
     Scene scene = this->scene(name, options);
+    for (const SceneOverride& change : changes) {
+      if (!scene.sweep && !scene_of_case(name, options, {change}).sweep)
+        throw BadInput(fmt::format("{}: must be left out where {} varies it", change.flag, name));
+    }
     scene.request.amplification = false;
     const numeric::Body body = scene.make_body();
     std::vector<SweptSimulation> swept;

@@ -70,7 +70,7 @@ void check(int number, const CaseRuns& case_runs, const FigureParameters& parame
   if (!case_runs.changes.empty() && number < 14) refuse(case_runs.changes[0].flag);
   for (const SceneOverride& change : case_runs.changes) {
     if (number == 16 && change.key.ends_with("_friction"))
-      throw BadInput(fmt::format("{}: figure 16 shows four frictions", change.flag));
+      throw BadInput(fmt::format("{}: must be left out, as figure 16 shows four frictions", change.flag));
   }
   for (const double angle : parameters.angles_deg) {
     if (!(angle > 0 && angle < 90))

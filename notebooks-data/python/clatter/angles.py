@@ -12,7 +12,7 @@ from clatter.arguments import Progress, checked, is_list, is_number, plain, show
 from clatter.arrays import Array, frozen, numpy_for, same_arrays
 from clatter.errors import BadArgument
 from clatter.findings import Rows
-from clatter.records import Record, absent
+from clatter.records import Record, absent, as_array
 from clatter.results import Report
 from clatter.scenes import called
 
@@ -99,6 +99,8 @@ class Angles:
             rows = self._rows[name]
             return [Record(row) for row in rows] if isinstance(rows, list) else Record(rows)
         array: Array | None = getattr(self, name, None) if name in type(self).__annotations__ else None
+        if array is None and self._rows and name in self._rows[0]:
+            array = as_array([row[name] for row in self._rows])
         if array is None:
             raise KeyError(absent(name, self._arrays()))
         return array

@@ -5,7 +5,7 @@ import functools
 from typing import Any
 
 from clatter.fields import Choice, Rung, Step
-from clatter.records import Record, flat
+from clatter.records import Record
 from clatter.results import Report, Result, given_again, named_row
 
 
@@ -161,7 +161,7 @@ class Ranking(Table):
 
     @functools.cached_property
     def _columns(self) -> dict[str, list[Any]]:
-        rows = [flat(one) for one in self._objects()]
+        rows = [{name: value["largest"] if isinstance(value, dict) else value for name, value in one.items()} for one in self._objects()]
         return {name: [row.get(name) for row in rows] for name in dict.fromkeys(name for row in rows for name in row)}
 
 

@@ -49,7 +49,8 @@ def flat(row: JsonObject) -> dict[str, Any]:
     columns: dict[str, Any] = {}
     for name, value in row.items():
         if isinstance(value, dict):
-            columns |= {f"{key}_error": error for key, error in flat(value).items()} if name == "error_estimate" else flat(value)
+            is_error = name == "error_estimate"
+            columns |= {f"{key}_error" if is_error else f"{name}_{key}": part for key, part in flat(value).items()}
         elif isinstance(value, (list, tuple)) or getattr(value, "ndim", 0) == 1:
             parts = "xyz" if len(value) == 3 else [f"q{i}" for i in range(len(value))]
             columns |= {f"{name}_{part}": number for part, number in zip(parts, value)}
