@@ -50,35 +50,26 @@ with_headers_that_are_there() {
   [[ -z $missing ]] || { printf 'installed headers name headers that are not there: %s\n' "$missing" >&2; return 1; }
 }
 
-# The project as a part of another, by add_subdirectory or FetchContent, which CPM calls: the examples compile with the headers by
-# their documented names.  They are linked with the libraries that are there already, which here would take minutes.
+# The project as a part of another, by add_subdirectory or FetchContent, which CPM calls: the examples compile with the
+# headers by their documented names.  They are linked with the libraries that are there already, which here would take
+# minutes.
 as_a_part() {
-  local how root part=$prefix/part libraries
+  local how example root part=$prefix/part libraries
   root=$(readlink -f -- "$source/../..")
   mapfile -t libraries < <(find "$build" -name 'libclatter_numeric.a' -o -name 'libclatter_analytic.a' | sort -r)
-  for how in "add_subdirectory([[$root]] clatter)" \
-    "include(FetchContent)
-FetchContent_Declare(clatter SOURCE_DIR [[$root]])
-FetchContent_MakeAvailable(clatter)"; do
+  for how in add_subdirectory FetchContent; do
     rm -rf -- "$part"
-    mkdir "$part"
-    cp -- "$source"/*_example.cpp "$part"
-    cat >"$part/CMakeLists.txt" <<CMAKE
-cmake_minimum_required(VERSION 3.25)
-project(part LANGUAGES CXX)
-$how
-foreach(one analytic space numeric)
-  add_executable(\${one} \${one}_example.cpp)
-  target_link_libraries(\${one} PRIVATE clatter::analytic clatter::numeric)
-endforeach()
-CMAKE
-    cmake -S "$part" -B "$part/build" -G Ninja -DCMAKE_BUILD_TYPE=Release >"$prefix/log" 2>&1 || { cat -- "$prefix/log"; return 1; }
-    [[ ! -e $part/build/clatter/validation && ! -e $part/build/_deps/clatter-build/validation ]]
-    for one in analytic space numeric; do
-      cmake --build "$part/build" --target "CMakeFiles/$one.dir/${one}_example.cpp.o" >"$prefix/log" 2>&1 || { cat -- "$prefix/log"; return 1; }
-      g++ "$part/build/CMakeFiles/$one.dir/${one}_example.cpp.o" -o "$part/$one" "${libraries[@]}" -lgsl -lgslcblas -ldl
-      "$part/$one" >/dev/null
+    cp -r -- "$source/mine" "$part"
+    [[ $how == add_subdirectory ]] || sed -i "s|^add_sub.*|include(FetchContent)\nFetchContent_Declare(clatter SOURCE_DIR $root)\nFetchContent_MakeAvailable(clatter)|" "$part/CMakeLists.txt"
+    cp -- "$source/analytic_example.cpp" "$part/main.cpp"
+    cmake -S "$part" -B "$part/build" -G Ninja -DCLATTER_SOURCE="$root" -DCMAKE_BUILD_TYPE=Release >"$prefix/log" 2>&1 || { cat -- "$prefix/log"; return 1; }
+    for example in analytic space numeric; do
+      cp -- "$source/${example}_example.cpp" "$part/main.cpp"
+      cmake --build "$part/build" --target CMakeFiles/mine.dir/main.cpp.o >"$prefix/log" 2>&1 || { cat -- "$prefix/log"; return 1; }
+      g++ "$part/build/CMakeFiles/mine.dir/main.cpp.o" -o "$part/mine" "${libraries[@]}" -lgsl -lgslcblas -ldl
+      "$part/mine" >/dev/null
     done
+    [[ -z $(find "$part/build" -name 'clatter_validation*') ]] || { echo 'a part of another project is the libraries alone' >&2; return 1; }
   done
 }
 

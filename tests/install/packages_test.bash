@@ -60,7 +60,7 @@ check_what_it_is_linked_with() {
         fail "${library##*/} needs $needed, which is neither in the wheel nor everywhere"
     done
   done
-  grep -q 'RUNPATH.*\$ORIGIN\|RPATH.*\$ORIGIN' <(objdump -p "$folder"/wheel/clatter/_clatter*.so) || fail "the module does not look beside itself"
+  grep -qE 'R(UN)?PATH +[$]ORIGIN' <(objdump -p "$folder"/wheel/clatter/_clatter*.so) || fail "the module does not look beside itself"
 }
 
 # The extra asks for NumPy and matplotlib, here those of the system; with them the notebooks' helpers work.
