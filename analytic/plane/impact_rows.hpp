@@ -86,9 +86,9 @@ struct ImpactRow {
 
   /// P [N·s].
   [[nodiscard]] Eigen::Vector3d impulse() const { return {impact.tangential_impulse, 0, impact.normal_impulse}; }
-  /// Of the centre of mass [m/s].
+  /// V′ of the centre of mass [m/s].
   [[nodiscard]] Eigen::Vector3d velocity_after() const { return {impact.after.tangential, 0, impact.after.normal}; }
-  /// [rad/s].
+  /// ω′ [rad/s].
   [[nodiscard]] Eigen::Vector3d angular_velocity_after() const { return {0, impact.after.angular, 0}; }
 };
 

@@ -83,7 +83,7 @@ struct Wanted {
   }
 };
 
-/// Of the columns: "" without gravity, else _G0_1 and the like.
+/// The end of columns' names: "" without gravity, else _G0_1 and the like.
 std::string suffix(double gravity_number) {
   std::string text = gravity_number == 0 ? "" : fmt::format("_G{}", gravity_number);
   std::replace(text.begin(), text.end(), '.', '_');

@@ -87,9 +87,9 @@ struct ImpactRow {
 
   /// P, world frame [N·s].
   [[nodiscard]] Vector3 impulse() const { return impact.impulse; }
-  /// Of the centre of mass, world frame [m/s].
+  /// V′ of the centre of mass, world frame [m/s].
   [[nodiscard]] Vector3 velocity_after() const { return impact.velocity_after; }
-  /// World frame [rad/s].
+  /// ω′, world frame [rad/s].
   [[nodiscard]] Vector3 angular_velocity_after() const { return impact.angular_velocity_after; }
 };
 
