@@ -29,7 +29,7 @@ test_packages=(libboost-test-dev python3 python3-numpy python3-matplotlib python
 full_packages=(ccache clang-format libgmsh-dev libbenchmark-dev zsh fish groff-base chromium emscripten firefox-esr nodejs npm zopfli "${mpi_packages[@]}"
                "${hdf5_packages[@]}" python3-h5py
                pybind11-dev python3-dev jupyter-nbconvert python3-ipykernel mypy
-               python3-venv python3-sphinx furo python3-myst-parser libjs-katex pkg-config dpkg-dev lintian
+               python3-venv python3-pandas python3-sphinx furo python3-myst-parser libjs-katex pkg-config dpkg-dev lintian
                mmdebstrap help2man reuse)
 # Engines of others that the tests put through the league, the smallest two; validation/benchmark/engines/run installs the
 # rest.

@@ -16,7 +16,7 @@ struct SequenceOptions {
   /// of tail and total.
   bool amplification = true;
   /// The end is asked for and no number of rows: bouncing in closed form is summed up at once.  In space: goes on after
-  /// corners have stayed on the ground while the body turns (space/sequence/sustained_contact.hpp), and ends where the
+  /// corners have stayed on the ground while the body turns, and ends where the
   /// body has to settle on one face and no impact can be predicted any more.
   bool until_rest = false;
   /// With until_rest, in space: ends as soon as the face is known on which the body must come to rest (Sequence::rest).

@@ -34,8 +34,8 @@ struct PlanarBody {
   double gyration_square = 0;  ///< k² = I/m about the y axis through the centre of mass [m²]
   int vertex_count = 0;
   std::array<Vertex, max_vertices> vertices{};
-  /// Uniform rod without thickness: 12 k² = L².  Its elastic sequences have closed forms
-  /// (elastic_rod.hpp) that the program uses where they apply.
+  /// Uniform rod without thickness: 12 k² = L².  Its elastic sequences have closed forms, which
+  /// are used where they apply.
   bool uniform_thin_rod = false;
 
   /// Largest distance of a vertex from the centre of mass [m].

@@ -84,8 +84,8 @@ struct ContactVelocity {
 /// without friction or with an impulse ratio, is not between the vertices and pushes would have to pull: then the
 /// vertices strike one after the other, the faster approach first.
 /// Where friction has stopped slip, the rebound that (2) prescribes can do work on the body, by pushes beside R₀. Under
-/// every law but Newton's the landing then rebounds by the largest e without a gain of energy
-/// (restitution_without_gain.hpp), as Impact::is_limited says.
+/// every law but Newton's the landing then rebounds by the largest e without a gain of energy,
+/// as Impact::is_limited says.
 [[nodiscard]] std::optional<Impact> strike_flat(const PlanarBody& body, const PlanarVelocity& before,
                                                 const ContactPoint& first, const ContactPoint& second,
                                                 const ImpactLaw& law);

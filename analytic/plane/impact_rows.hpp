@@ -2,6 +2,7 @@
 // A drop in the plane, the rows of its impact sequence, and the units in which that is computed.
 #pragma once
 
+#include <Eigen/Core>
 #include <optional>
 #include <string>
 #include <vector>
@@ -54,7 +55,7 @@ struct Drop {
   double gravity = 0;        ///< towards the ground, >= 0 [m/s²]
   double gravity_along = 0;  ///< along x, where the ground slopes [m/s²]
   ImpactLaw law;
-  std::optional<FreeFall> fall{};  ///< that has ended in this touch (free_fall.hpp)
+  std::optional<FreeFall> fall{};  ///< that has ended in this touch
 
   /// @throws std::domain_error naming the field, its value and what is allowed.
   void validate() const;
@@ -80,6 +81,15 @@ struct ImpactRow {
   /// The flight that led here; for the first row all zero.
   Flight flight;
   Departure departure;  ///< how that flight began
+
+  // As in space, world frame: x to the right, y into the page, z up.
+
+  /// P [N·s].
+  [[nodiscard]] Eigen::Vector3d impulse() const { return {impact.tangential_impulse, 0, impact.normal_impulse}; }
+  /// V′ of the centre of mass [m/s].
+  [[nodiscard]] Eigen::Vector3d velocity_after() const { return {impact.after.tangential, 0, impact.after.normal}; }
+  /// ω′ [rad/s].
+  [[nodiscard]] Eigen::Vector3d angular_velocity_after() const { return {0, impact.after.angular, 0}; }
 };
 
 /// The remaining impacts after the last row: infinitely many in a finite time.

@@ -12,7 +12,7 @@ namespace clatter::analytic {
 /// strike_flat.  With e < 1 and gravity, infinitely many impacts in a finite time are recognised: in
 /// closed form for flat and upright bouncing, where the times form a geometric series ending
 /// 2w/(g(1−e)) after an impact with rebound speed w, otherwise by extrapolation of the flight times of one vertex or of
-/// two in turn, accepted when its error meets `digits` (accumulation.hpp); there is no velocity threshold.
+/// two in turn, accepted when its error meets `digits`; there is no velocity threshold.
 /// Results scale exactly with powers of two of every unit.
 /// A number that cannot be had after the first impact (a flight so long that its end has no digit, say) ends the
 /// sequence as not_computed, an impact after the first that jams as outside_model.

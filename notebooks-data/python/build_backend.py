@@ -10,6 +10,7 @@ import base64
 import hashlib
 import os
 import re
+import shutil
 import subprocess
 import sys
 import sysconfig
@@ -26,6 +27,8 @@ SOURCES = ("CMakeLists.txt", "CMakePresets.json", "LICENSE", "README.md", "pypro
            "notebooks-data", "tests/packages.bash")
 DATA_LICENCE = ROOT / "validation" / "measured" / "data-licence.txt"  # of the measured drops, which the module carries
 LEFT_OUT = {"__pycache__", "node_modules"}
+# Libraries that every Debian has; others come with the wheel, as auditwheel would have it.
+EVERYWHERE = re.compile(r"(linux-vdso|ld-linux.*|lib(c|m|dl|pthread|rt|gcc_s|stdc\+\+))\.so\.\d+")
 EARLIEST = (1980, 1, 1, 0, 0, 0)  # of a zip file, so that equal files make an equal wheel
 
 Settings = Mapping[str, Any] | None
@@ -77,13 +80,17 @@ def run(*command: str | Path) -> None:
 
 
 def say(words: str) -> None:
-    """To who calls pip with -v, which shows what a build says; without it pip keeps that for a failure."""
-    print(f"clatter: {words}", file=sys.stderr, flush=True)
+    """On the terminal: pip keeps for a failure what a build prints, unless it is called with -v, as where there is no terminal."""
+    try:
+        with open("/dev/tty", "w", encoding="utf-8") as terminal:
+            print(f"\nclatter: {words}", end="", file=terminal, flush=True)
+    except OSError:
+        print(f"clatter: {words}", file=sys.stderr, flush=True)
 
 
 def compile_in(work: Path, jobs: int) -> None:
     """Compiles, and says at each tenth of the steps how far it is.  @raise RuntimeError: with what the compiler said."""
-    say(f"compiling with {jobs} jobs, some minutes; `pip install -v` shows how far it is")
+    say(f"compiling with {jobs} jobs, some ten minutes of processor time in all")
     command = ["cmake", "--build", str(work), "--parallel", str(jobs), "--target", "clatter_python"]
     said, tenth = [], 0
     with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, encoding="utf-8", errors="replace",
@@ -105,9 +112,29 @@ def build_and_install(stage: Path, settings: Settings) -> None:
         work = stage.parent / "build"
     jobs = int(os.environ.get("CMAKE_BUILD_PARALLEL_LEVEL") or len(os.sched_getaffinity(0)))
     run("cmake", "--preset", "release", "-S", ROOT, "-B", work, "-DCLATTER_PYTHON=ON",
-        f"-DCLATTER_PYTHON_EXECUTABLE={sys.executable}", "-DCLATTER_PYTHON_DIR=.")
+        f"-DCLATTER_PYTHON_EXECUTABLE={sys.executable}", "-DCLATTER_PYTHON_DIR=.", "-DCLATTER_PYTHON_RPATH=$ORIGIN")
     compile_in(work, jobs)
     run("cmake", "--install", work, "--prefix", stage, "--component", "python", "--strip")
+    bring_libraries(stage / "clatter")
+
+
+def bring_libraries(package: Path) -> None:
+    """Copies what the module is linked with and not every system has beside it, with the terms of Debian's package of it.
+
+    @raise RuntimeError: a library is not there.
+    """
+    module = next(package.glob("_clatter*.so"))
+    told = subprocess.run(["ldd", str(module)], check=True, capture_output=True, text=True).stdout
+    for name, place in re.findall(r"^\s*(\S+) => (/\S+|not found)", told, re.MULTILINE):
+        if EVERYWHERE.fullmatch(name):
+            continue
+        if place == "not found":
+            raise RuntimeError(f"{name}: not found, with which {module.name} is linked")
+        library = Path(place).resolve()
+        shutil.copyfile(library, package / name)
+        owner = subprocess.run(["dpkg", "-S", str(library)], check=True, capture_output=True, text=True).stdout.partition(":")[0]
+        (package / "licences").mkdir(exist_ok=True)
+        shutil.copyfile(f"/usr/share/doc/{owner}/copyright", package / "licences" / f"{owner}.txt")
 
 
 def digest(data: bytes) -> str:
@@ -121,7 +148,7 @@ def write_wheel(path: Path, files: Mapping[str, bytes], dist_info: str) -> None:
     with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED) as wheel:
         for name, data in {**files, f"{dist_info}/RECORD": record.encode()}.items():
             entry = zipfile.ZipInfo(name, EARLIEST)
-            entry.external_attr = (0o755 if name.endswith(".so") else 0o644) << 16
+            entry.external_attr = (0o755 if ".so" in name else 0o644) << 16
             entry.compress_type = zipfile.ZIP_DEFLATED
             wheel.writestr(entry, data)
 

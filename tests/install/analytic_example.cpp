@@ -10,6 +10,6 @@ int main() {
   drop.inclination = Angle::from_degrees(10);
   drop.velocity.normal = -1;
   const Sequence sequence = impact_sequence(drop, {.impacts = 6});
-  for (const ImpactRow& row : sequence.rows) std::printf("%.6f s  %.6f N s\n", row.start, row.impact.normal_impulse);
+  for (const ImpactRow& row : sequence.rows) std::printf("%.6f s  %.6f N s\n", row.start, row.impulse().z());
   return sequence.outcome == Outcome::no_further_impact ? 0 : 1;
 }

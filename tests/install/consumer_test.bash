@@ -40,6 +40,39 @@ with_one_folder() {
   [[ ! -e $folder/clatter/analytic/plane/first_root.cpp && ! -e $folder/clatter/analytic/space/landing/level_rim.hpp ]]
 }
 
+# What an installed header names, in its text, too, is installed.
+with_headers_that_are_there() {
+  local folder named missing
+  folder=$(dirname -- "$(find "$prefix" -name analytic.hpp)")
+  named=$(grep -rhoE '[A-Za-z_]+\.hpp' "$folder" | sort -u)
+  [[ $(wc -l <<<"$named") -gt 40 ]]
+  missing=$(comm -23 <(printf '%s\n' "$named") <(find "$folder" -name '*.hpp' -printf '%f\n' | sort -u))
+  [[ -z $missing ]] || { printf 'installed headers name headers that are not there: %s\n' "$missing" >&2; return 1; }
+}
+
+# The project as a part of another, by add_subdirectory or FetchContent, which CPM calls: the examples compile with the
+# headers by their documented names.  They are linked with the libraries that are there already, which here would take
+# minutes.
+as_a_part() {
+  local how example root part=$prefix/part libraries
+  root=$(readlink -f -- "$source/../..")
+  mapfile -t libraries < <(find "$build" -name 'libclatter_numeric.a' -o -name 'libclatter_analytic.a' | sort -r)
+  for how in add_subdirectory FetchContent; do
+    rm -rf -- "$part"
+    cp -r -- "$source/mine" "$part"
+    [[ $how == add_subdirectory ]] || sed -i "s|^add_sub.*|include(FetchContent)\nFetchContent_Declare(clatter SOURCE_DIR $root)\nFetchContent_MakeAvailable(clatter)|" "$part/CMakeLists.txt"
+    cp -- "$source/analytic_example.cpp" "$part/main.cpp"
+    cmake -S "$part" -B "$part/build" -G Ninja -DCLATTER_SOURCE="$root" -DCMAKE_BUILD_TYPE=Release >"$prefix/log" 2>&1 || { cat -- "$prefix/log"; return 1; }
+    for example in analytic space numeric; do
+      cp -- "$source/${example}_example.cpp" "$part/main.cpp"
+      cmake --build "$part/build" --target CMakeFiles/mine.dir/main.cpp.o >"$prefix/log" 2>&1 || { cat -- "$prefix/log"; return 1; }
+      g++ "$part/build/CMakeFiles/mine.dir/main.cpp.o" -o "$part/mine" "${libraries[@]}" -lgsl -lgslcblas -ldl
+      "$part/mine" >/dev/null
+    done
+    [[ -z $(find "$part/build" -name 'clatter_validation*') ]] || { echo 'a part of another project is the libraries alone' >&2; return 1; }
+  done
+}
+
 # A component that is not there ends the configuration with a line that names it.
 without_a_component() {
   mkdir "$prefix/unknown"
@@ -71,6 +104,8 @@ PYTHON
 with_cmake
 with_pkg_config
 with_one_folder
+with_headers_that_are_there
+as_a_part
 without_a_component
 with_python
 printf 'the installed libraries and the Python module work\n'

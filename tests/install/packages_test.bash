@@ -28,6 +28,7 @@ test_the_wheel() {
   wheel=$(echo "$folder"/clatter-*.whl)
   printf 'wheel: %d bytes\n' "$(stat -c %s "$wheel")"
   (($(stat -c %s "$wheel") <= 10000000)) || fail "the wheel is larger than 10 MB"
+  check_what_it_is_linked_with "$wheel"
   "$folder/venv/bin/pip" install --no-index "$wheel"
   (cd / && "$folder/venv/bin/python" -I - <<'PYTHON'
 import clatter
@@ -46,6 +47,20 @@ assert clatter.benchmark_truth("rod-10")[1].place == "b"
 PYTHON
   ) || fail "the module from the wheel does not work"
   test_the_extra "$wheel"
+}
+
+# Every library that the wheel's are linked with is in it, with its terms, or on every Debian.
+check_what_it_is_linked_with() {
+  local library needed
+  /usr/bin/python3 -m zipfile -e "$1" "$folder/wheel"
+  [[ -e $folder/wheel/clatter/libgsl.so.27 && -e $folder/wheel/clatter/licences/libgsl27.txt ]] || fail "GSL or its licence is not in the wheel"
+  for library in "$folder"/wheel/clatter/*.so*; do
+    for needed in $(objdump -p "$library" | sed -n 's/^ *NEEDED *//p'); do
+      [[ -e $folder/wheel/clatter/$needed || $needed =~ ^(ld-linux-x86-64|lib(c|m|gcc_s|stdc\+\+))\.so\. ]] ||
+        fail "${library##*/} needs $needed, which is neither in the wheel nor everywhere"
+    done
+  done
+  grep -qE 'R(UN)?PATH +[$]ORIGIN' <(objdump -p "$folder"/wheel/clatter/_clatter*.so) || fail "the module does not look beside itself"
 }
 
 # The extra asks for NumPy and matplotlib, here those of the system; with them the notebooks' helpers work.
@@ -109,7 +124,19 @@ test_the_packages() {
   diff "$folder/before" "$folder/after" || fail "files are left after the purge"
 }
 
+# In the bare system, which loses the libraries that the wheel brings along.
+test_the_wheel_alone() {
+  local names
+  mapfile -t names < <(cd -- "$folder/wheel/clatter" && for name in lib*.so*; do in_chroot dpkg -S "*/$name" | cut -d: -f1; done | sort -u)
+  in_chroot dpkg --purge --force-depends "${names[@]}" >/dev/null 2>&1
+  [[ -z $(find "$folder/system/usr/lib" -name 'libgsl.so*') ]] || fail "the bare system still has GSL"
+  cp -r -- "$folder/wheel" "$folder/system/tmp/wheel"
+  in_chroot env PYTHONPATH=/tmp/wheel python3 -c 'import clatter; assert len(clatter.simulate("phone-damped", impacts=1)) == 1' ||
+    fail "the wheel does not run on a bare system"
+}
+
 test_the_wheel
 make_packages
 test_the_packages
+test_the_wheel_alone
 printf 'wheel and Debian packages work\n'

@@ -1,24 +1,23 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A phone on its corner: the impact sequence of the discrete model in space, with friction.
-#include <clatter/analytic/space/flight/body.hpp>
-#include <clatter/analytic/space/sequence/sequence.hpp>
+#include <clatter/analytic.hpp>
 #include <cmath>
 #include <cstdio>
 
 int main() {
   using namespace clatter::analytic;
   space::Drop drop;
-  drop.body = space::box(0.18, {.size = {0.14, 0.07, 0.008}});
+  drop.body = space::make_box({.mass = 0.18, .length = 0.14, .width = 0.07, .thickness = 0.008});
   drop.attitude = Eigen::AngleAxisd(0.5, space::Vector3(1, -1, 0).normalized());
   drop.velocity.z() = -1;
-  drop.law.law = {.restitution = 0.8, .friction = FrictionKind::coulomb, .friction_value = 0.3};
+  drop.law = {.restitution = 0.8, .friction = FrictionKind::coulomb, .friction_value = 0.3};
   const space::Sequence sequence = space::impact_sequence(drop, {.impacts = 2});
   double impulse = 0;
   for (const space::ImpactRow& row : sequence.rows) {
-    std::printf("%.6f s  %.6f N s\n", row.start, row.impact.impulse.z());
-    impulse += row.impact.impulse.z();
+    std::printf("%.6f s  %.6f N s\n", row.start, row.impulse().z());
+    impulse += row.impulse().z();
   }
   // Without gravity the impulses are what changed the momentum.
-  const double change = 0.18 * (sequence.rows.back().impact.velocity_after.z() + 1);
+  const double change = 0.18 * (sequence.rows.back().velocity_after().z() + 1);
   return sequence.rows.size() == 2 && std::fabs(impulse - change) < 1e-12 ? 0 : 1;
 }

@@ -183,6 +183,44 @@ class Results(unittest.TestCase):
         self.assertRegex(repr(self.results["in space"][0]), r"^Impact 1: end \S+ at 0 s, .*P = \S+ N·s$")
 
 
+    def test_each_is_a_data_frame_with_the_columns_of_its_table_in_their_order(self):
+        try:
+            import pandas
+        except ImportError:
+            self.skipTest("pandas is not there")
+        probe = {"camera": (0.048, 0.016, 0.0095)}
+        others = {
+            "shock": clatter.shock("phone-damped", impacts=1, probe=probe, sensitivity=False), "atlas": clatter.atlas("rod"),
+            "ground": clatter.ground("phone-damped", floor="concrete"), "truth": clatter.benchmark_truth("rod-10"),
+            "summary": clatter.sweep("rod-10", angle=[5, 10], model="discrete", summary=True),
+            "rows of impacts": clatter.sweep("phone-corner", orientation=[5, 10], model="discrete", rows="impact"),
+            "tradeoff": clatter.tradeoff("rod-45", digits=3, impacts=1), "score": clatter.measured_score("square-drops"),
+        }
+        for name, result in (self.results | others).items():
+            with self.subTest(result=name):
+                frame, lines = pandas.DataFrame(result), result.to_text("csv").splitlines()
+                header = next(line for line in lines if not line.startswith("#"))
+                self.assertEqual(list(frame.columns), header.split(","))
+                self.assertEqual(len(frame), len(result))
+                self.assertGreater(len(result), 0)
+                self.assertEqual([*result], [result[i] for i in range(len(result))])
+                self.assertEqual(result[-1], result[len(result) - 1])
+                self.assertEqual([*result[1:3]], [*result][1:3])
+                self.assertEqual(list(pandas.DataFrame(result[:1]).columns), list(frame.columns))
+                for column in frame.columns:
+                    if frame[column].dtype == float:
+                        np.testing.assert_array_equal(frame[column], result[column], err_msg=column)
+        history = self.results["with a history"].history
+        frame = pandas.DataFrame(history[10:20])
+        np.testing.assert_array_equal(frame["force_z"], history.force[10:20, 2])
+        np.testing.assert_array_equal(history["centre_z"], history["centre"][:, 2])
+        self.assertEqual((len(history[-1]), len(history[2:5])), (len(frame.columns), 3))
+        states = clatter.sequence(10).at([0.1, 0.2])
+        self.assertEqual(list(pandas.DataFrame(states)["position_z"]), list(states["position_z"]))
+        worst = clatter.report("phone-damped", impacts=1, probe=probe, drops=4, sensitivity=False)
+        self.assertEqual(pandas.DataFrame(worst)["peak_g_camera"].max(), worst[0].peak_g_camera)
+
+
 class Columns(unittest.TestCase):
     """By the names of JSON and of CSV; what there is not is told."""
 
@@ -269,6 +307,47 @@ class SweepsAsTheProgram(unittest.TestCase):
                               (lambda: clatter.shock(scene, probe={"camera": place}, stiffness=-1), "^stiffness '-1': must be"),
                               (lambda: clatter.map(over={"drop.angle_deg": (0, 60)}), "^over: must be given twice")):
             with self.assertRaisesRegex(clatter.BadInput, said):
+                refused()
+
+    def test_what_falls_short_in_a_command_is_a_warning_and_not_a_line(self):
+        with self.assertWarnsRegex(clatter.ClatterWarning, "^evaluation-limit: ") as warned:
+            shock = clatter.shock("phone-damped", probe={"a": (0, 0, 0)}, sensitivity=False, evaluation_limit=3000)
+        self.assertEqual(Path(warned.filename), Path(__file__))
+        self.assertGreater(len(shock), 0)
+        with self.assertRaisesRegex(clatter.NotComputed, "^no ground gives both numbers"):
+            clatter.ground("rod-45", contact_time=1e-3, peak_force=1e9)
+
+    def test_a_summary_is_that_of_the_rows(self):
+        drops = {"scene": "rod-10", "angle": np.linspace(1, 60, 60), "model": "discrete"}
+        summary, rows = clatter.sweep(**drops, summary=True), clatter.sweep(**drops)
+        for name in ("total_normal_impulse", "last_start"):
+            one, values = summary[name], np.sort(rows[name])
+            self.assertEqual((one.count, one.least, one.largest), (60, values[0], values[-1]))
+            self.assertAlmostEqual(one.p50, values[29], delta=one.p50_error + 2**-11 * values[29])
+        self.assertEqual(sum(summary.texts["outcome"].values()), 60)
+        listed = clatter.sweep("phone-damped", {"drop.attitude": 26, "run.impacts": 2}, model="discrete", summary=True)
+        self.assertEqual(len(listed.attitudes), 26)
+
+    def test_figures_take_other_numbers(self):
+        np.testing.assert_array_equal(clatter.figure(7, gravity_numbers=[0])["beta"], clatter.figure(7)["beta"])
+        with_gravity = clatter.figure(7, gravity_numbers=[0.5])
+        angles = clatter.angles(with_gravity["theta"].tolist(), gravity_number=0.5)
+        np.testing.assert_array_equal(with_gravity["beta_G0_5"], angles.beta_deg)
+        rods = clatter.figure(8, angles=[30, 40])
+        np.testing.assert_allclose(sorted(set(rods["theta"])), [30, 40], rtol=1e-15)
+        first = [row.V_centre for row in rods if row.impacts == 1 and row.panel == 2]
+        self.assertEqual(set(first), {clatter.angles([40]).V1[0]})
+        forces = clatter.figure(21, angle=20, impacts=2)["Fn"]
+        peaks = clatter.simulate("phone-damped", angle=20, impacts=2)["peak_force"]
+        self.assertAlmostEqual(forces.max(), peaks.max(), delta=0.01 * peaks.max())  # between two samples
+        self.assertIn("ground.stiffness", clatter.figure(14, stiffness=1e9).to_dict()["changed"])
+        for refused, words in ((lambda: clatter.figure(7, angles=[30]), "^angles: figure 7 does not have it, but gravity_numbers"),
+                               (lambda: clatter.figure(9, angle=30), "^angle: figure 9 does not have it"),
+                               (lambda: clatter.figure(14, angle=30), "^angle: must be left out where rod-sweep varies it"),
+                               (lambda: clatter.figure(16, sliding_friction=0.1), "^sliding_friction: must be left out"),
+                               (lambda: clatter.figure(8, angles=[90]), "^angles 90: must be"),
+                               (lambda: clatter.figure(7, gravity_numbers=[-1]), "^gravity_numbers -1: must be")):
+            with self.assertRaisesRegex(clatter.BadInput, words):
                 refused()
 
     def test_flags_alone_are_a_scene_for_every_call(self):

@@ -399,11 +399,54 @@ class Calls(unittest.TestCase):
         package = Path(clatter.__file__).resolve().parent
         with tempfile.TemporaryDirectory() as folder:
             bare = Path(folder, "bare")
-            shutil.copytree(package, bare / "clatter", ignore=shutil.ignore_patterns("calls.pyi", "commands.pyi", "*.so"))
+            shutil.copytree(package, bare / "clatter", ignore=shutil.ignore_patterns("calls.pyi", "commands.pyi", "evidence.pyi", "fields.pyi", "*.so"))
             for path in (package.parent, bare):
                 done = subprocess.run([sys.executable, "-m", "mypy", "--strict", "--cache-dir", Path(folder, f"cache-{path.name}"),
                                        "-p", "clatter"], capture_output=True, text=True, cwd=folder, env=dict(os.environ, MYPYPATH=path))
                 self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+
+    def test_a_wrong_field_or_type_is_found(self):
+        right = """import clatter
+run = clatter.sequence(angle=10)
+impulse: float = run[1].impulse_normal
+some: list[clatter.Impact] = run[1:3]
+peak: float = clatter.simulate("phone-damped")[0].peak_force
+counts: dict[str, dict[str, int]] = clatter.sweep("rod-10", angle=[1, 2], summary=True).texts
+"""
+        wrong = ["run[1].impulse_norml", "run.outcome + 1", "run[1].impulse_normal.upper()", "run[0].error_estimate.impulse_normal + 1",
+                 "run.accuracy.achieve", 'clatter.sequence(angle="x")', 'clatter.plan("rod-10").choice.modle', "run.at(1)[0:1] + 1"]
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder, "call.py")
+            path.write_text(right + "\n".join(wrong), encoding="utf-8")
+            done = subprocess.run([sys.executable, "-m", "mypy", "--strict", "--cache-dir", f"{folder}/cache", path], capture_output=True, text=True,
+                                  cwd=folder, env=dict(os.environ, MYPYPATH=str(Path(clatter.__file__).resolve().parents[1])))
+        lines = {int(number) for number in re.findall(r"call.py:(\d+): error", done.stdout)}
+        first = right.count("\n") + 1
+        self.assertEqual(lines, set(range(first, first + len(wrong))), done.stdout + done.stderr)
+
+    def test_fields_are_what_their_stub_says(self):
+        """Of all cases: the stub is made from a few results."""
+        kinds = {"float": float, "int": int, "str": str, "bool": bool, "Array": np.ndarray, "None": type(None), "ImpactErrors": clatter.ImpactErrors}
+        stub = ast.parse((Path(clatter.__file__).parent / "fields.pyi").read_text(encoding="utf-8"))
+        fields = {node.name: {line.target.id: ast.unparse(line.annotation).split(" | ") for line in node.body if isinstance(line, ast.AnnAssign)}
+                  for node in stub.body if isinstance(node, ast.ClassDef)}
+        fields["SimulatedImpact"] = fields["Impact"] | fields["SimulatedImpact"]
+        seen = 0
+        for case in clatter.cases():
+            for call in (clatter.sequence, clatter.simulate):
+                try:
+                    run = quietly(call, case, impacts=3)
+                except clatter.Error:
+                    continue
+                if not isinstance(run, clatter.Run):
+                    continue
+                for record in [*run, *(impact.error_estimate for impact in run), run.accuracy, run.cost, *filter(None, [getattr(run, "tail", None)])]:
+                    known = fields[type(record).__name__]
+                    for name in record._raw:
+                        with self.subTest(case=case, call=call.__name__, field=name):
+                            seen += 1
+                            self.assertIsInstance(record[name], tuple(kinds[kind] for kind in known[name]))
+        self.assertGreater(seen, 2000)
 
     def test_what_the_stubs_promise_is_there(self):
         folder = Path(clatter.__file__).resolve().parent

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "validation/output/bad_input.hpp"
 #include "validation/run/history_file.hpp"
 
 namespace clatter::validation {
@@ -46,8 +47,8 @@ std::string RunOptions::key() const {
                      static_cast<int>(area));
 }
 
-Scene scene_of_case(const std::string& name, const RunOptions& options) {
-  Scene scene = case_scene(name);
+Scene scene_of_case(const std::string& name, const RunOptions& options, const std::vector<SceneOverride>& changes) {
+  Scene scene = case_scene(name, changes);
   if (options.digits > 0) scene.accuracy.digits = options.digits;
   if (options.impacts > 0) scene.request.impacts = options.impacts;
   if (options.planar) scene.world.planar = true;
@@ -56,6 +57,10 @@ Scene scene_of_case(const std::string& name, const RunOptions& options) {
   if (options.area != numeric::AreaMeasure::surface) scene.world.ground.area = options.area;
   scene.request.error_estimates = false;
   return scene;
+}
+
+Scene CaseRuns::scene(const std::string& name, const RunOptions& options) const {
+  return scene_of_case(name, options, changes);
 }
 
 template <class Result>
@@ -73,7 +78,7 @@ const Result& CaseRuns::once(Made<Result>& made, const std::string& key, const s
 
 const numeric::Simulation& CaseRuns::run(const std::string& name, const RunOptions& options) {
   return once<numeric::Simulation>(runs_, name + options.key(), [&] {
-    const Scene scene = scene_of_case(name, options);
+    const Scene scene = this->scene(name, options);
     const numeric::Body body = scene.make_body();
     return numeric::simulate(body, scene.world, scene.start(body), scene.request, scene.accuracy);
   });
@@ -81,7 +86,7 @@ const numeric::Simulation& CaseRuns::run(const std::string& name, const RunOptio
 
 const RecordedRun& CaseRuns::history(const std::string& name, const RunOptions& options) {
   return once<RecordedRun>(histories_, name + options.key(), [&] {
-    Scene scene = scene_of_case(name, options);
+    Scene scene = this->scene(name, options);
     const numeric::Body body = scene.make_body();
     RecordedRun recorded;
     SampleList list(recorded.samples);
@@ -95,7 +100,11 @@ const RecordedRun& CaseRuns::history(const std::string& name, const RunOptions& 
 
 const std::vector<SweptSimulation>& CaseRuns::sweep(const std::string& name, const RunOptions& options) {
   return once<std::vector<SweptSimulation>>(sweeps_, name + options.key(), [&] {
-    Scene scene = scene_of_case(name, options);
+    Scene scene = this->scene(name, options);
+    for (const SceneOverride& change : changes) {
+      if (!scene.sweep && !scene_of_case(name, options, {change}).sweep)
+        throw BadInput(fmt::format("{}: must be left out where {} varies it", change.flag, name));
+    }
     scene.request.amplification = false;
     const numeric::Body body = scene.make_body();
     std::vector<SweptSimulation> swept;
@@ -112,7 +121,7 @@ const std::vector<SweptSimulation>& CaseRuns::sweep(const std::string& name, con
 
 const Comparison& CaseRuns::comparison(const std::string& name, int impacts) {
   return once<Comparison>(comparisons_, fmt::format("{}/{}", name, impacts), [&] {
-    Scene scene = scene_of_case(name, {});
+    Scene scene = this->scene(name);
     if (impacts > 0) scene.request.impacts = impacts;
     return compare_models(scene, scene.make_body());
   });
@@ -120,7 +129,7 @@ const Comparison& CaseRuns::comparison(const std::string& name, int impacts) {
 
 const std::vector<CaseRuns::SweptComparison>& CaseRuns::swept_comparison(const std::string& name) {
   return once<std::vector<SweptComparison>>(swept_comparisons_, name, [&] {
-    const Scene scene = scene_of_case(name, {});
+    const Scene scene = this->scene(name);
     const numeric::Body body = scene.make_body();
     std::vector<SweptComparison> swept;
     for (const double value : scene.sweep->values()) swept.push_back({value, compare_models(scene.at(value), body)});

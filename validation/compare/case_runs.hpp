@@ -48,6 +48,11 @@ class CaseRuns {
   /// Asked now and then by long checks; false ends them with Interrupted.
   std::function<bool()> goes_on = [] { return true; };
   struct Interrupted {};
+  /// Put into each case.
+  std::vector<SceneOverride> changes{};
+
+  /// The case's scene with the options and the changes put in.
+  [[nodiscard]] Scene scene(const std::string& name, const RunOptions& options = {}) const;
 
   const numeric::Simulation& run(const std::string& name, const RunOptions& options = {});
   const RecordedRun& history(const std::string& name, const RunOptions& options = {});
@@ -81,6 +86,8 @@ class CaseRuns {
 };
 
 /// The case's scene with the options put in.
-[[nodiscard]] Scene scene_of_case(const std::string& name, const RunOptions& options);
+/// @param changes  in place of what the case says
+[[nodiscard]] Scene scene_of_case(const std::string& name, const RunOptions& options,
+                                  const std::vector<SceneOverride>& changes = {});
 
 }  // namespace clatter::validation

@@ -3,6 +3,7 @@
 // stiff ground as points.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <set>
@@ -73,12 +74,24 @@ struct Wanted {
   bool beta = false, gamma = false;
   int impulses = 0;
   std::vector<double> gravity_numbers{0};
+
+  /// With these in place of the paper's, if there are any.
+  [[nodiscard]] Wanted with(const std::vector<double>& others) const {
+    Wanted wanted = *this;
+    if (!others.empty()) wanted.gravity_numbers = others;
+    return wanted;
+  }
 };
 
-std::string suffix(double gravity_number) { return gravity_number == 0 ? "" : gravity_number < 1 ? "_G0_1" : "_G9_81"; }
+/// The end of columns' names: "" without gravity, else _G0_1 and the like.
+std::string suffix(double gravity_number) {
+  std::string text = gravity_number == 0 ? "" : fmt::format("_G{}", gravity_number);
+  std::replace(text.begin(), text.end(), '.', '_');
+  return text;
+}
 
 std::string words(double gravity_number) {
-  return gravity_number == 0 ? "no gravity" : gravity_number < 1 ? "G = 0.1" : "G = 9.81";
+  return gravity_number == 0 ? "no gravity" : fmt::format("G = {}", gravity_number);
 }
 
 struct ShownNumber {
@@ -179,30 +192,33 @@ Figure discrete_figure(int number, const std::string& title, const Wanted& wante
 
 }  // namespace
 
-Figure figure_second_angle() {
-  return discrete_figure(7, "contact angle of the second impact over that of the first", {.beta = true},
+Figure figure_second_angle(const std::vector<double>& gravity_numbers) {
+  return discrete_figure(7, "contact angle of the second impact over that of the first",
+                         Wanted{.beta = true}.with(gravity_numbers),
                          {.y_label = "contact angle β", .y = {0, 90}, .legend_place = "upper left"});
 }
 
-Figure figure_two_impulses() {
-  return discrete_figure(9, "normal impulses of the first and the second impact", {.impulses = 2},
+Figure figure_two_impulses(const std::vector<double>& gravity_numbers) {
+  return discrete_figure(9, "normal impulses of the first and the second impact",
+                         Wanted{.impulses = 2}.with(gravity_numbers),
                          {.y_label = "normal impulse P₁, P₂", .y = {0, 1.2}, .legend_place = "lower left"});
 }
 
-Figure figure_both_angles() {
-  return discrete_figure(10, "contact angles of the second and the third impact", {.beta = true, .gamma = true},
+Figure figure_both_angles(const std::vector<double>& gravity_numbers) {
+  return discrete_figure(10, "contact angles of the second and the third impact",
+                         Wanted{.beta = true, .gamma = true}.with(gravity_numbers),
                          {.y_label = "contact angle β, γ", .y = {0, 90}, .legend_place = "upper left"});
 }
 
-Figure figure_angles_with_gravity() {
+Figure figure_angles_with_gravity(const std::vector<double>& gravity_numbers) {
   return discrete_figure(11, "contact angles with and without gravity, G = g L/v_n^2",
-                         {.beta = true, .gamma = true, .gravity_numbers = {0, 0.1, 9.81}},
+                         Wanted{.beta = true, .gamma = true, .gravity_numbers = {0, 0.1, 9.81}}.with(gravity_numbers),
                          {.y_label = "contact angle β, γ", .y = {0, 90}, .legend_place = "beside"});
 }
 
-Figure figure_impulses_with_gravity() {
+Figure figure_impulses_with_gravity(const std::vector<double>& gravity_numbers) {
   return discrete_figure(12, "normal impulses with and without gravity, G = g L/v_n^2",
-                         {.impulses = 3, .gravity_numbers = {0, 0.1, 9.81}},
+                         Wanted{.impulses = 3, .gravity_numbers = {0, 0.1, 9.81}}.with(gravity_numbers),
                          {.y_label = "normal impulse P₁, P₂, P₃", .y = {0, no_number}, .legend_place = "beside"});
 }
 

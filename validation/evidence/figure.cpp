@@ -32,14 +32,17 @@ const std::vector<int>& figure_numbers() {
   return numbers;
 }
 
-Figure make_figure(int number, CaseRuns& case_runs) {
+namespace {
+
+Figure made(int number, CaseRuns& case_runs, const FigureParameters& parameters) {
+  const std::vector<double>& gravity_numbers = parameters.gravity_numbers;
   switch (number) {
-    case 7: return figure_second_angle();
-    case 8: return figure_rod_positions();
-    case 9: return figure_two_impulses();
-    case 10: return figure_both_angles();
-    case 11: return figure_angles_with_gravity();
-    case 12: return figure_impulses_with_gravity();
+    case 7: return figure_second_angle(gravity_numbers);
+    case 8: return figure_rod_positions(parameters.angles_deg);
+    case 9: return figure_two_impulses(gravity_numbers);
+    case 10: return figure_both_angles(gravity_numbers);
+    case 11: return figure_angles_with_gravity(gravity_numbers);
+    case 12: return figure_impulses_with_gravity(gravity_numbers);
     case 14: return figure_rod_over_angle(case_runs);
     case 15: return figure_rod_over_friction(case_runs);
     case 16: return figure_rod_contact(case_runs);
@@ -54,10 +57,52 @@ Figure make_figure(int number, CaseRuns& case_runs) {
   }
 }
 
+/// @throws BadInput for what the figure does not have, or no figure of that kind.
+void check(int number, const CaseRuns& case_runs, const FigureParameters& parameters) {
+  const auto refuse = [&](const std::string& name) {
+    const char* const has = number == 8   ? "angles"
+                            : number < 14 ? "gravity_numbers"
+                                          : "keys of scenes, as for simulate()";
+    throw BadInput(fmt::format("{}: figure {} does not have it, but {}", name, number, has));
+  };
+  if (!parameters.angles_deg.empty() && number != 8) refuse("angles");
+  if (!parameters.gravity_numbers.empty() && (number == 8 || number > 12)) refuse("gravity_numbers");
+  if (!case_runs.changes.empty() && number < 14) refuse(case_runs.changes[0].flag);
+  for (const SceneOverride& change : case_runs.changes) {
+    if (number == 16 && change.key.ends_with("_friction"))
+      throw BadInput(fmt::format("{}: must be left out, as figure 16 shows four frictions", change.flag));
+  }
+  for (const double angle : parameters.angles_deg) {
+    if (!(angle > 0 && angle < 90))
+      throw BadInput(fmt::format("angles {}: must be greater than 0 and less than 90 degrees", angle));
+  }
+  for (const double gravity : parameters.gravity_numbers) {
+    if (!(gravity >= 0 && gravity < 1e9))
+      throw BadInput(fmt::format("gravity_numbers {}: must be at least 0", gravity));
+  }
+  if (parameters.gravity_numbers.size() > 3) throw BadInput("gravity_numbers: must be three at most");
+}
+
+}  // namespace
+
+Figure make_figure(int number, CaseRuns& case_runs, const FigureParameters& parameters) {
+  check(number, case_runs, parameters);
+  Figure figure = made(number, case_runs, parameters);
+  std::vector<std::string> words;
+  if (!parameters.angles_deg.empty()) words.push_back(fmt::format("angles {}", fmt::join(parameters.angles_deg, ", ")));
+  if (!parameters.gravity_numbers.empty())
+    words.push_back(fmt::format("gravity_numbers {}", fmt::join(parameters.gravity_numbers, ", ")));
+  for (const SceneOverride& change : case_runs.changes) words.push_back(fmt::format("{} {}", change.key, change.text));
+  figure.changed = fmt::format("{}", fmt::join(words, "; "));
+  return figure;
+}
+
 Report figure_report(const Figure& figure) {
   Report report;
   report.title = fmt::format("Figure {}: {}", figure.number, figure.title);
-  report.head = {"scene: " + figure.scene, "command: " + figure.command(), std::string("clatter ") + version};
+  report.head = {"scene: " + figure.scene,
+                 figure.changed.empty() ? "command: " + figure.command() : "changed: " + figure.changed,
+                 std::string("clatter ") + version};
   report.remarks = report.head;
   report.explains_columns = true;
   Value::List plots;
@@ -72,9 +117,10 @@ Report figure_report(const Figure& figure) {
                                 {"figure", figure.number},
                                 {"title", figure.title},
                                 {"scene", figure.scene},
-                                {"command", figure.command()},
+                                {"command", text_or_nothing(figure.changed.empty() ? figure.command() : "")},
                                 {"plots", plots},
                                 {"rows", row_objects(report.grid)}};
+  if (!figure.changed.empty()) report.fields["changed"] = figure.changed;
   return report;
 }
 

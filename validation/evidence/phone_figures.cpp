@@ -6,6 +6,7 @@
 
 #include "analytic/plane/sequence.hpp"
 #include "validation/evidence/figure.hpp"
+#include "validation/output/bad_input.hpp"
 #include "validation/run/discrete_scene.hpp"
 
 namespace clatter::validation {
@@ -145,7 +146,8 @@ Figure figure_phone_energies(CaseRuns& case_runs) {
                             {"E_rotation", "J", "rotational kinetic energy"},
                             {"E_potential", "J", "potential energy"}}};
   const RecordedRun& recorded = case_runs.history("phone-damped", phone_case(true).options);
-  const numeric::ImpactNumbers& second = recorded.run.impacts.at(1).value;
+  if (recorded.run.impacts.size() < 2) throw BadInput("figure 23: this drop has no second impact");
+  const numeric::ImpactNumbers& second = recorded.run.impacts[1].value;
   const double last = second.start + second.duration + 1e-3;
   for (const numeric::HistorySample& s : recorded.samples) {
     if (s.time < 0 || s.time > last) continue;
@@ -165,9 +167,10 @@ Figure figure_phone_over_angle(CaseRuns& case_runs) {
                 .title = "first impact of the damped phone over the contact angle",
                 .scene = "phone-sweep",
                 .columns = over_angle_columns};
-  const Scene scene = scene_of_case(name, {});
+  const Scene scene = case_runs.scene(name);
   for (const SweptSimulation& swept : case_runs.sweep(name)) {
-    const numeric::ImpactRecord& first = swept.run.impacts.at(0);
+    if (swept.run.impacts.empty()) continue;
+    const numeric::ImpactRecord& first = swept.run.impacts[0];
     const numeric::ImpactNumbers& n = first.value;
     const auto discrete = impact_sequence(std::get<analytic::Drop>(discrete_drop(scene.at(swept.value))),
                                           {.impacts = 1, .amplification = false})

@@ -22,8 +22,13 @@ using Style = FigureCurve::Style;
 constexpr int instants = 9;                                 // in each panel, both ends of the flight included
 constexpr double turned_beyond_upright = analytic::pi / 6;  // at the last instant of a rod that takes off
 
-/// Two cases of the paper's (a): the centre still moves down after impact 1 below 54.7356°, and up above it (E7).
-std::vector<std::pair<std::string, Angle>> panels() {
+/// Two cases of the paper's (a): the centre still moves down after impact 1 below 54.7356°, and up above it (E7); or
+/// these.
+std::vector<std::pair<std::string, Angle>> panels(const std::vector<double>& angles_deg) {
+  std::vector<std::pair<std::string, Angle>> given;
+  for (const double angle : angles_deg)
+    given.emplace_back(fmt::format("({})", given.size() + 1), Angle::from_degrees(angle));
+  if (!given.empty()) return given;
   const Angle fold = Angle::from_radians(regime_boundary(analytic::ImpactNumber::second, {}).theta);
   return {{"(a1)", Angle::from_degrees(45)},
           {"(a2)", Angle::from_degrees(56.5)},
@@ -110,13 +115,13 @@ const std::vector<FigureColumn> position_columns{{"panel", "1", "1: (a1), 2: (a2
 
 }  // namespace
 
-Figure figure_rod_positions() {
+Figure figure_rod_positions(const std::vector<double>& angles_deg) {
   Figure figure{.number = 8,
                 .title = "positions of the rod from the first impact to the second, below, at and above the fold",
                 .scene = "thin rod, m = L = |v_n| = 1, omega = 0, e = 1, no friction, no gravity; discrete model",
                 .columns = position_columns};
   double number = 1;
-  for (const auto& [letter, theta] : panels()) {
+  for (const auto& [letter, theta] : panels(angles_deg)) {
     add_rows(figure, number, theta);
     add_panel(figure, number, letter);
     ++number;
@@ -152,12 +157,12 @@ FirstImpact of(const numeric::Simulation& run) {
 
 analytic::Drop planar_drop_of(const Scene& scene) { return std::get<analytic::Drop>(discrete_drop(scene)); }
 
-/// The thin rod of Eq. 9.
-FirstImpact thin_rod(double angle_deg, const analytic::ImpactLaw& law) {
-  return of({.body = analytic::make_rod({}),
-             .inclination = analytic::Angle::from_degrees(angle_deg),
-             .velocity = {.normal = -1},
-             .law = law});
+/// The thin rod of Eq. 9 in the scene's place.
+FirstImpact thin_rod(const Scene& scene, const analytic::ImpactLaw& law) {
+  analytic::Drop drop = planar_drop_of(scene);
+  drop.body = analytic::make_rod({.mass = scene.body.mass, .length = scene.body.length, .radius = 0});
+  drop.law = law;
+  return of(drop);
 }
 
 struct ShownRodNumber {
@@ -237,12 +242,13 @@ Figure figure_rod_over_angle(CaseRuns& case_runs) {
   figure.plots[1].y = {-0.2, 4};
   figure.plots[2].y = {0, 2.1};
   figure.plots[3].y = {-0.05, 0.05};  // the losses are zero to nine digits
-  const Scene scene = scene_of_case(name, {});
+  const Scene scene = case_runs.scene(name);
+  const auto thin = [&](double angle) { return thin_rod(scene.at(angle), planar_drop_of(scene.at(angle)).law); };
   for (const SweptSimulation& swept : case_runs.sweep(name)) {
     add_row(figure, swept.value, numbers,
-            {thin_rod(swept.value, {}), of(planar_drop_of(scene.at(swept.value))), of(swept.run)});
+            {thin(swept.value), of(planar_drop_of(scene.at(swept.value))), of(swept.run)});
     // The limit of small angles, beside the flat landing: the jump is one of the models, not of the drawing.
-    if (swept.value == 0) add_row(figure, 1e-9, numbers, {thin_rod(1e-9, {}), of(planar_drop_of(scene.at(1e-9))), {}});
+    if (swept.value == 0) add_row(figure, 1e-9, numbers, {thin(1e-9), of(planar_drop_of(scene.at(1e-9))), {}});
   }
   return figure;
 }
@@ -262,14 +268,15 @@ Figure figure_rod_over_friction(CaseRuns& case_runs) {
   std::swap(figure.plots[1], figure.plots[2]);  // the caption's (b) is Ω, the text's Vₜ
   letter(figure, {"(a)", "(b) caption", "(b) text", "(c)", "(d)"});
   figure.columns.push_back({"ratio_continuous", "1", "impulse ratio that came out of the continuous model"});
-  const Scene scene = scene_of_case(name, {});
+  const Scene scene = case_runs.scene(name);
   for (const SweptSimulation& swept : case_runs.sweep(name)) {
     const analytic::ImpactLaw as_given{.friction = analytic::FrictionKind::impulse_ratio,
                                        .friction_value = swept.value};
     add_row(figure, swept.value, numbers,
-            {thin_rod(scene.angle_deg, as_given), of(planar_drop_of(scene.at(swept.value))), of(swept.run)});
-    const numeric::Vector3& p = swept.run.impacts[0].value.impulse;
-    figure.rows.back().push_back(p.x() / p.z());
+            {thin_rod(scene.at(swept.value), as_given), of(planar_drop_of(scene.at(swept.value))), of(swept.run)});
+    const bool strikes = !swept.run.impacts.empty();
+    const numeric::Vector3 p = strikes ? swept.run.impacts[0].value.impulse : numeric::Vector3::Zero();
+    figure.rows.back().push_back(strikes ? p.x() / p.z() : no_number);
   }
   return figure;
 }

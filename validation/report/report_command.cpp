@@ -689,6 +689,7 @@ bool gives_attitude(const ReportInput& input) {
 
 bool is_of_box(const ReportInput& input) {
   const SceneValues values = scene_values(input.scene.source);
+  if (is_given(input.scene, "--mesh")) return false;
   const bool is_typed = is_given(input.scene, "--body");
   return (is_typed                   ? input.scene.texts.at("--body")
           : values.has("body.shape") ? values.text("body.shape")

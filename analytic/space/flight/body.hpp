@@ -176,6 +176,14 @@ struct Cylinder {
 /// @throws std::domain_error for a length that is not above 0 or a radius below 0.
 [[nodiscard]] Body cylinder(double mass, const Cylinder& shape);
 
+/// The box and the rod of the planar model, by the same sizes.
+[[nodiscard]] inline Body make_box(const BoxSize& size) {
+  return box(size.mass, {.size = {size.length, size.width, size.thickness}});
+}
+[[nodiscard]] inline Body make_rod(const RodSize& size) {
+  return cylinder(size.mass, {.length = size.length, .radius = size.radius});
+}
+
 /// A uniform ellipsoid: I = m/5 diag(b² + c², a² + c², a² + b²).
 /// @throws std::domain_error for a semiaxis a, b, c that is not above 0, or below 1e-9 of the largest.
 [[nodiscard]] Body ellipsoid(double mass, const Vector3& semiaxes);

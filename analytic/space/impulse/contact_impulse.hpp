@@ -25,6 +25,11 @@ struct Law {
   /// Unit horizontal direction in which P_t of FrictionKind::impulse_ratio acts: P_t = μ_i P_n · direction.
   Vector2 ratio_direction = Vector2::UnitX();
 
+  /// The law of a drop in the plane: drop.law = {.restitution = 0.8}.
+  Law& operator=(const ImpactLaw& other) {
+    law = other;
+    return *this;
+  }
   /// @throws std::domain_error naming the field, its value and what is allowed.
   void validate() const;
 };

@@ -42,7 +42,7 @@ struct ContactVelocity {
 [[nodiscard]] ContactVelocity contact_velocity(const State& state, const Vector3& place);
 
 /// The impact of the corner at `place` (body frame).  A corner that does not approach gets no impulse.  Coulomb's law
-/// along its path: impulse_path.hpp; restitution laws and their rule for a second compression: path_progress.hpp.
+/// along its path: impulse_path.hpp.
 /// Accuracy: 1e-13 of |P|, times what rounding of the state does.
 /// @throws OutsideModelError where the law admits no bounded impulse; NumericalError where a number could not be had;
 ///         std::domain_error as ImpactLaw::validate().

@@ -2,7 +2,7 @@
 // The impulse of one corner with Coulomb friction: the path of Keller and Routh in impulse space.
 //
 // The path starts with slip or without, and has at most two parts:
-//   slip      along a straight line, if its direction is invariant (slip_field.hpp) to rounding; otherwise slip that
+//   slip      along a straight line, if its direction is invariant to rounding; otherwise slip that
 //             turns (impulse_path.hpp)
 //   after it  where slip has stopped, or was zero at the start: the corner sticks if |A⁻¹b| <= μ; otherwise slip goes
 //             on in the direction s = (μA + f)⁻¹ b, f > 0, which is the one invariant direction that leads outwards.
@@ -15,14 +15,14 @@
 
 namespace clatter::analytic::space {
 
-/// The impulse of an approaching corner (v_n < 0) by `law`; Moreau's: moreau_contact.hpp.
+/// The impulse of an approaching corner (v_n < 0) by `law`; Moreau's by its own rule.
 /// Accuracy: 1e-13 of |P|, times what rounding of W and v does; 1e-10 of their size for the slopes.
 /// @throws OutsideModelError for an impulse ratio at or beyond jamming, c + μ_i b·d <= 0; NumericalError if a number
 ///         overflows or a path cannot be resolved.
 [[nodiscard]] ContactImpulse contact_impulse(const Contact& contact, const Law& law, ImpulseSlopes* slopes = nullptr);
 
 /// A face that lands and rebounds as a whole: its normal motion goes over into −e times itself in step with the normal
-/// impulse p, whatever friction does; where all of the face slips in one direction (face_friction.hpp otherwise),
+/// impulse p, whatever friction does; where all of the face slips in one direction,
 /// friction acts where the centre of mass is above the ground and slows the slip there,
 ///     dv_t/dp = drift + (dP_t/dp)/m,   du/dp = 1/m.
 struct FaceContact {

@@ -13,7 +13,7 @@
 // Where R = R₀ + S f, the x̄ that (2) asks for, is beyond an end while R₀, that without friction, is not, the ground
 // pushes at
 //     x̂ = R₀ + λ S f,   |x̂| <= 1,                                                                        (3)
-// as face_pressure.hpp has it: λ <= 1 is the largest such that λ by the largest slip so far is no larger than before,
+// as on a face: λ <= 1 is the largest such that λ by the largest slip so far is no larger than before,
 // and friction is that of the linear pressure with its centre at R₀ + λ² S f, no nearer to an end than η of the edge's
 // half.  u goes on as if the push were at R, the couple of the rest, R − x̂, turns the edge out of (2), and the work
 // counts φ(x̂).  An edge that sticks is pushed at the end that is nearest to R.  A solution of (3) goes on from the last

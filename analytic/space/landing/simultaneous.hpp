@@ -9,8 +9,8 @@
 //          with that point as a corner would, friction and law included.  If friction then leaves one of the two
 //          approaching, the edge does not rebound as a whole.
 //   face   V_z, ω_x, ω_y → −e times themselves (Eq. 10 in space); ω_z changes through the inertia's off-diagonal
-//          elements and by friction, which acts all over the polygon of the corners under a linear pressure
-//          (face_friction.hpp).  The pressure point (−N_y, N_x)/P_z from the centre of mass, N the moment of the
+//          elements and by friction, which acts all over the polygon of the corners under a linear pressure.
+//          The pressure point (−N_y, N_x)/P_z from the centre of mass, N the moment of the
 //          normal impulses, must lie inside the polygon.  Where friction alone asks for pushes outside it, they act
 //          at the polygon's boundary, and the rest of their moment tilts the body; what then still approaches strikes
 //          as it would on its own; so do edges (edge_friction.hpp) and rims.  A face that slides straight inside
@@ -25,7 +25,7 @@
 //
 // What small tilts make of it: tilted_outcomes.hpp.
 //
-// The rim of a round end that lies level is a face with a full circle of touching points: level_rim.hpp.
+// The rim of a round end that lies level is a face with a full circle of touching points.
 #pragma once
 
 #include <optional>

@@ -82,9 +82,8 @@ class StrikingBody {
   /// V_z, ω_x, ω_y → −e times themselves, with friction below the centre of mass; nothing if that does not come down.
   /// @param depth  of the ground below the centre of mass [m]
   [[nodiscard]] std::optional<FaceRebound> face_rebound(double depth) const;
-  /// The same with friction all over the area (face_friction.hpp), from below the centre of mass; nothing if the area
-  /// has no pressure for it.  Under every law but Newton's e is the largest without a gain of energy
-  /// (restitution_without_gain.hpp).
+  /// The same with friction all over the area, from below the centre of mass; nothing if the area
+  /// has no pressure for it.  Under every law but Newton's e is the largest without a gain of energy.
   [[nodiscard]] std::optional<FaceRebound> face_rebound(double depth, const ContactArea& area) const;
   /// The edge between two places at one height, as (1) of edge_friction.hpp has it.
   [[nodiscard]] EdgeContact edge_contact(const Vector3& from, const Vector3& to) const;

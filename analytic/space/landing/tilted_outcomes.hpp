@@ -13,7 +13,7 @@
 // same time for all tilts of a sector, as those of a plastic landing or of a rattling edge in the end do, strike by the
 // rules of strike_together(): the tilt does not say in which order.
 //
-// The tilts of a round end that lies level, whose outcomes vary continuously, are sampled (level_rim.hpp).
+// The tilts of a round end that lies level, whose outcomes vary continuously, are sampled.
 #pragma once
 
 #include <span>

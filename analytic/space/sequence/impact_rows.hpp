@@ -2,9 +2,11 @@
 // A drop in space, the rows of its impact sequence, and the units in which that is computed.
 #pragma once
 
+#include <cmath>
 #include <limits>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "analytic/plane/impact_rows.hpp"
@@ -29,6 +31,19 @@ struct Drop {
   /// @throws std::domain_error naming the field, its value and what is allowed.
   void validate() const;
 };
+
+/// A drop of the plane as one in space: the inclination α is a turn by −α about y, V_t, V_n and Ω are V_x, V_z and ω_y.
+/// @param body  in space, with the planar one as its outline in the plane y = 0: make_box() and make_rod() of one size
+[[nodiscard]] inline Drop in_space(const analytic::Drop& drop, Body body) {
+  const double half = drop.inclination.radians / 2;
+  return {.body = std::move(body),
+          .attitude = {std::cos(half), 0, -std::sin(half), 0},
+          .velocity = {drop.velocity.tangential, 0, drop.velocity.normal},
+          .angular_velocity = {0, drop.velocity.angular, 0},
+          .gravity = drop.gravity,
+          .gravity_along = drop.gravity_along,
+          .law = {.law = drop.law}};
+}
 
 /// Translational, rotational and potential energy, zero at the ground below the first touch's centre of mass [J].
 [[nodiscard]] double mechanical_energy(const Drop& drop, const State& state);
@@ -67,6 +82,15 @@ struct ImpactRow {
   double amplification = 0;
   RowErrors error;      ///< all unknown without SequenceOptions::amplification
   FirstContact flight;  ///< that led here; empty for the first row of a drop without a release
+
+  // As in the plane.
+
+  /// P, world frame [N·s].
+  [[nodiscard]] Vector3 impulse() const { return impact.impulse; }
+  /// V′ of the centre of mass, world frame [m/s].
+  [[nodiscard]] Vector3 velocity_after() const { return impact.velocity_after; }
+  /// ω′, world frame [rad/s].
+  [[nodiscard]] Vector3 angular_velocity_after() const { return impact.angular_velocity_after; }
 };
 
 [[nodiscard]] State state_after(const ImpactRow& row);
@@ -136,7 +160,7 @@ enum class ContactEnd {
   open,      ///< the law leaves open how it goes on, or friction no longer holds a corner that stuck
 };
 
-/// The motion of a body one or two corners of which stay on the ground (sustained_contact.hpp).
+/// The motion of a body one or two corners of which stay on the ground.
 struct SustainedContact {
   std::size_t rows = 0;      ///< that come before
   double begin = 0;          ///< time since the first impact [s]
@@ -164,7 +188,7 @@ struct Rest {
   double latest = 0;
 };
 
-/// What the body does after its last impact and contact (last_motion.hpp).
+/// What the body does after its last impact and contact.
 struct LastMotion {
   enum class Kind {
     rests,   ///< it does not move

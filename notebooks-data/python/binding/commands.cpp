@@ -6,6 +6,7 @@
 
 #include "binding.hpp"
 #include "validation/command/options.hpp"
+#include "validation/output/said.hpp"
 #include "validation/program/parser.hpp"
 
 namespace clatter::python {
@@ -26,24 +27,26 @@ Command made(const std::string& name) {
   return command;
 }
 
-/// (report or None, exit status)
+/// (report or None, what it says beside that: why it falls short)
 py::tuple run_command(const std::string& name, const std::vector<std::string>& words) {
   const auto work = [name, words](const Watch&) {
     const std::vector<Command> commands{made(name)};
     std::vector<std::string> line{name};
     line.insert(line.end(), words.begin(), words.end());
     const validation::CaughtReport caught;
-    const int status = parse_line(commands, line).command->run();
-    return std::pair(caught.report(), status);
+    const validation::CaughtWords said;
+    parse_line(commands, line).command->run();
+    return std::pair(caught.report(), said.words());
   };
-  auto [report, status] = run_interruptible(work);
-  return py::make_tuple(report ? py::cast(kept(std::move(*report))) : py::none(), status);
+  auto [report, said] = run_interruptible(work);
+  return py::make_tuple(report ? py::cast(kept(std::move(*report))) : py::none(), said);
 }
 
 }  // namespace
 
 void add_commands(py::module_& module) {
-  module.def("run_command", &run_command, py::arg("name"), py::arg("words"), "What a command says, and its status.");
+  module.def("run_command", &run_command, py::arg("name"), py::arg("words"),
+             "What a command says, and what it says beside that.");
 }
 
 }  // namespace clatter::python

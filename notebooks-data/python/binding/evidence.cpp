@@ -133,15 +133,16 @@ Report extremes(const std::vector<std::string>& only, bool quick, std::uint64_t 
   return kept(run_interruptible(work, progress));
 }
 
-Report figure(int number) {
+Report figure(int number, const validation::FigureParameters& parameters, const NamedTexts& changes) {
   const std::vector<int>& known = validation::figure_numbers();
   if (std::find(known.begin(), known.end(), number) == known.end()) {
     throw validation::BadInput(fmt::format("figure {}: there is none; there are {}", number, fmt::join(known, ", ")));
   }
-  return run_interruptible([number](const Watch& watch) {
+  return run_interruptible([number, parameters, changes](const Watch& watch) {
     validation::CaseRuns case_runs;
     case_runs.goes_on = watch;
-    return kept(figure_report(validation::make_figure(number, case_runs)));
+    case_runs.changes = validation::scene_overrides(changes);
+    return kept(figure_report(validation::make_figure(number, case_runs, parameters)));
   });
 }
 
@@ -161,7 +162,14 @@ void add_evidence_functions(py::module_& module) {
              py::arg("files"), py::arg("options"), py::arg("progress"), "Others' runs of a scene, scored.");
   module.def("extremes", &extremes, py::arg("only"), py::arg("quick"), py::arg("seed"), py::arg("seconds"),
              py::arg("progress"), "The map of what holds.");
-  module.def("figure", &figure, py::arg("number"), "The data of a figure of the paper.");
+  module.def(
+      "figure",
+      [](int number, const std::vector<double>& angles, const std::vector<double>& gravity_numbers,
+         const NamedTexts& changes) {
+        return figure(number, {angles, gravity_numbers}, changes);
+      },
+      py::arg("number"), py::arg("angles"), py::arg("gravity_numbers"), py::arg("changes"),
+      "The data of a figure of the paper, or of one like it.");
 }
 
 }  // namespace clatter::python

@@ -54,6 +54,18 @@ py::object rows_of(const Report& report) {
   return to_python(run_interruptible([made = report.made](const Watch&) { return row_objects(made().grid); }));
 }
 
+/// The cells of CSV by their columns, in its order.
+py::dict columns_of(const Report& report) {
+  const validation::Grid grid = run_interruptible([made = report.made](const Watch&) { return made().grid; });
+  py::dict columns;
+  for (std::size_t k = 0; k < grid.columns.size(); ++k) {
+    py::list values;
+    for (const validation::Row& row : grid.rows) values.append(k < row.size() ? to_python(row[k].value) : py::none());
+    columns[py::str(grid.columns[k].name)] = values;
+  }
+  return columns;
+}
+
 std::string html_of(const Report& report) {
   return run_interruptible([made = report.made](const Watch&) { return validation::html_table(made()); });
 }
@@ -105,6 +117,7 @@ void add_reports(py::module_& module) {
   py::class_<Report>(module, "Report", "What a run came to.")
       .def("data", &data_of, "The program's JSON as Python objects.")
       .def("rows", &rows_of, "The rows of its CSV as Python objects.")
+      .def("columns", &columns_of, "The cells of its CSV by their columns.")
       .def("text", &text_of, py::arg("format"), py::arg("ascii"), "What the program prints with --format.")
       .def("html", &html_of, "The table as an element of an HTML page.");
   module.def("keys", &keys, "The keys of scenes that are arguments: their names, kinds, units, what is allowed.");

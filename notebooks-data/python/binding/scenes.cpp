@@ -18,6 +18,7 @@
 #include "validation/run/history_file.hpp"
 #include "validation/simulate/simulation_report.hpp"
 #include "validation/sweep/rows.hpp"
+#include "validation/sweep/summary.hpp"
 #include "validation/sweep/sweep_run.hpp"
 
 namespace clatter::python {
@@ -187,17 +188,17 @@ py::tuple tradeoff(const std::string& name, const std::optional<std::string>& te
   return py::cast(run_interruptible(work, progress));
 }
 
-/// All rows on all cores.
-std::string swept_rows(const validation::SweepPlan& plan, const Watch& watch) {
+/// All rows on all cores, some at a time.
+void sweep_rows(const validation::SweepPlan& plan, const Watch& watch,
+                const std::function<void(const std::string&)>& take) {
   const validation::SweepBody body =
       plan.body_values.empty() ? make_sweep_body(plan, plan.scene) : validation::SweepBody{};
   validation::RangeQueue queue({0, plan.points.count()}, range_size(plan));
-  std::string rows;
   std::size_t done = 0;
   const auto count = static_cast<std::size_t>(plan.points.count());
   validation::SweepHooks hooks;
   hooks.write = [&](const validation::RangeRows& some) {
-    rows += some.text;
+    take(some.text);
     done += static_cast<std::size_t>(some.scenes);
     watch.tell(done, count);
   };
@@ -205,25 +206,46 @@ std::string swept_rows(const validation::SweepPlan& plan, const Watch& watch) {
   hooks.stop = [&] { return !watch(); };
   const int threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
   run_on_threads(queue, threads, runners_of(plan, body), hooks);
-  return rows;
+}
+
+/// The rows of a sweep, or with `summary` what they are together.
+validation::Report swept(const validation::SweepPlan& plan, bool summary, const Watch& watch,
+                         validation::ShortfallCount& shortfalls) {
+  validation::Report report = plan.report();
+  std::string rows;
+  std::optional<validation::Summary> together;
+  if (summary) together.emplace(plan.layout, plan.points);
+  sweep_rows(plan, watch, [&](const std::string& some) {
+    shortfalls.add(some);
+    if (together) together->add(some);
+    else rows += some;
+  });
+  if (together) {
+    report.grid.columns = validation::Summary::columns();
+    together->fill(
+        report, [&](long long index) { return plan.command_of(index); },
+        [&](long long place) { return plan.attitude_name(place); });
+  } else {
+    report.grid.rows = validation::read_csv_rows(rows);
+  }
+  report.fields["rows"] = row_objects(report.grid);
+  return report;
 }
 
 /// (report, how many scenes fall short and why the first, or "")
 py::tuple sweep(const std::string& name, const std::optional<std::string>& text, const std::vector<std::string>& sets,
-                const NamedTexts& options, const py::object& progress) {
+                const NamedTexts& options, bool summary, const py::object& progress) {
   validation::SweepRequest request;
+  request.summary = summary;
   request.file = name;
   request.text = text;
   request.sets = sets;
   take(sweep_arguments(request), options);
   const auto work = [request](const Watch& watch) {
-    const validation::SweepPlan plan = validation::read_sweep_plan(request);
-    const std::string rows = swept_rows(plan, watch);
+    validation::SweepPlan plan = validation::read_sweep_plan(request);
+    plan.packed = request.summary;
     validation::ShortfallCount shortfalls(plan.layout, plan.packed);
-    shortfalls.add(rows);
-    validation::Report report = plan.report();
-    report.grid.rows = validation::read_csv_rows(rows);
-    report.fields["rows"] = row_objects(report.grid);
+    validation::Report report = swept(plan, request.summary, watch, shortfalls);
     return std::pair(kept(std::move(report)), shortfalls.found().first());
   };
   return py::cast(run_interruptible(work, progress));
@@ -247,8 +269,8 @@ void add_scene_functions(py::module_& module) {
              "The smallest model that serves.");
   module.def("tradeoff", &tradeoff, py::arg("name"), py::arg("text"), py::arg("changes"), py::arg("progress"),
              "Cost against error.");
-  module.def("sweep", &sweep, py::arg("name"), py::arg("text"), py::arg("sets"), py::arg("options"),
-             py::arg("progress"), "Many scenes, a row each.");
+  module.def("sweep", &sweep, py::arg("name"), py::arg("text"), py::arg("sets"), py::arg("options"), py::arg("summary"),
+             py::arg("progress"), "Many scenes, a row each, or what they are together.");
   module.def("cases", &cases, "Texts of the scene files that the program carries, by name.");
 }
 

@@ -27,19 +27,22 @@ from clatter.commands import atlas, ground, map, report, shock
 from clatter.errors import BadArgument, BadInput, ClatterWarning, Error, NotComputed, OutsideModel
 from clatter.evidence import (benchmark_list, benchmark_score, benchmark_show, benchmark_truth, extremes, figure, measured_fit,
                               measured_predict, measured_score, verify)
-from clatter.findings import Explanation, Gradient, Measured, Plan, Problem, Rows, Scored, Table, Tradeoff
-from clatter.records import History, Impact, Record
+from clatter.fields import Accuracy, Check, Choice, Cost, Equation, Impact, ImpactErrors, Rung, SimulatedImpact, Step, Tail
+from clatter.findings import Explanation, Gradient, Measured, Plan, Problem, Ranking, Rows, Scored, Summary, Table, Tradeoff
+from clatter.records import History, Record
 from clatter.results import Comparison, ComparisonSweep, Result, Run, Sequence, Simulation, States, Sweep, Verification
 from clatter.scenes import case, cases
 
 __version__ = _clatter.version
 __all__ = [
-    "Angles", "BadArgument", "BadInput", "ClatterWarning", "Comparison", "ComparisonSweep", "Error", "Explanation", "Gradient",
-    "History", "Impact", "Measured", "NotComputed", "OutsideModel", "Plan", "Problem", "Record", "Result", "Rows", "Run",
-    "Scored", "Sequence", "Simulation", "States", "Sweep", "Table", "Tradeoff", "Verification", "angles", "atlas", "benchmark_list",
-    "benchmark_score", "benchmark_show", "benchmark_truth", "case", "cases", "compare", "compare_against", "explain",
-    "extremes", "figure", "gradient", "ground", "map", "measured_fit", "measured_predict", "measured_score", "plan", "regimes", "report",
-    "sequence", "shock", "simulate", "sweep", "tradeoff", "verify",
+    "Accuracy", "Angles", "BadArgument", "BadInput", "Check", "Choice", "ClatterWarning", "Comparison",
+    "ComparisonSweep", "Cost", "Equation", "Error", "Explanation", "Gradient", "History", "Impact", "ImpactErrors",
+    "Measured", "NotComputed", "OutsideModel", "Plan", "Problem", "Ranking", "Record", "Result", "Rows", "Run",
+    "Rung", "Scored", "Sequence", "SimulatedImpact", "Simulation", "States", "Step", "Summary", "Sweep", "Table",
+    "Tail", "Tradeoff", "Verification", "angles", "atlas", "benchmark_list", "benchmark_score", "benchmark_show",
+    "benchmark_truth", "case", "cases", "compare", "compare_against", "explain", "extremes", "figure", "gradient",
+    "ground", "map", "measured_fit", "measured_predict", "measured_score", "plan", "regimes", "report", "sequence",
+    "shock", "simulate", "sweep", "tradeoff", "verify",
 ]
 
 

@@ -3,15 +3,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any
+import functools
+from collections.abc import Iterator, Mapping
+from typing import TYPE_CHECKING, Any, overload
 
 from clatter import _clatter
 from clatter.arguments import Progress, checked, is_list, is_number, plain, shown, texts_of
 from clatter.arrays import Array, frozen, numpy_for, same_arrays
 from clatter.errors import BadArgument
 from clatter.findings import Rows
-from clatter.records import absent
+from clatter.records import Record, absent, as_array
 from clatter.results import Report
 from clatter.scenes import called
 
@@ -83,8 +84,23 @@ class Angles:
     def __len__(self) -> int:
         return len(self.theta_deg)
 
-    def __getitem__(self, name: str) -> Array:
+    def __iter__(self) -> Iterator[Record]:
+        return iter(self[:])
+
+    @overload
+    def __getitem__(self, name: int) -> Record: ...
+    @overload
+    def __getitem__(self, name: slice) -> list[Record]: ...
+    @overload
+    def __getitem__(self, name: str) -> Array: ...
+    def __getitem__(self, name: int | slice | str) -> Record | list[Record] | Array:
+        """An array by its name, the numbers of one angle, or those of some."""
+        if not isinstance(name, str):
+            rows = self._rows[name]
+            return [Record(row) for row in rows] if isinstance(rows, list) else Record(rows)
         array: Array | None = getattr(self, name, None) if name in type(self).__annotations__ else None
+        if array is None and self._rows and name in self._rows[0]:
+            array = as_array([row[name] for row in self._rows])
         if array is None:
             raise KeyError(absent(name, self._arrays()))
         return array
@@ -97,6 +113,12 @@ class Angles:
     def to_text(self, format: str = "table", *, ascii: bool = False) -> str:
         """What the program prints with --format `format`: table, csv, json, markdown or latex."""
         return self._report.text(format, ascii)
+
+    @functools.cached_property
+    def _rows(self) -> list[dict[str, Any]]:
+        """Those of the table; of a batch what it has."""
+        columns = self._report.columns() if self._given is None else {one: list(array) for one, array in self._arrays().items()}
+        return [dict(zip(columns, row)) for row in zip(*columns.values())]
 
     def _summary(self) -> str:
         return f"Angles for {len(self)} values of θ, {self.theta_deg[0]}° to {self.theta_deg[-1]}°; to_text() shows them"

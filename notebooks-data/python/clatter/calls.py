@@ -11,7 +11,7 @@ from clatter.arguments import KEYS, AnyKey, DiscreteKey, Path, Progress, Scene, 
 from clatter.arrays import numpy_for
 from clatter.errors import BadArgument, ClatterWarning, NotComputed
 from clatter.evidence import listed
-from clatter.findings import Explanation, Gradient, Plan, Rows, Scored, Tradeoff
+from clatter.findings import Explanation, Gradient, Plan, Rows, Scored, Summary, Tradeoff
 from clatter.records import History
 from clatter.results import Comparison, ComparisonSweep, Sequence, Simulation, Sweep
 from clatter.scenes import called, scene_text
@@ -154,9 +154,11 @@ def sweep(
     columns: str | Iterable[str] | None = None,
     errors: bool = True,
     require_digits: bool = False,
+    summary: bool = False,
+    rank_by: str | None = None,
     progress: Progress | None = None,
     **changes: SweptKey,
-) -> Rows:
+) -> Rows | Summary:
     """Many scenes that differ in the values of a few keys, computed on all cores.
 
     scene: a scene file, the name of one of cases(), or a dict like case(name).
@@ -169,6 +171,8 @@ def sweep(
     random: so many scenes with values at random, which depend on seed (1).  scatter [°]: turns attitudes at random, about
     those of values or the scene's own.  columns: more of them with rows of scenes, as "hardest_impulse_normal" or
     "impulse_normal_2".  errors: without them at half the cost.
+    summary: percentiles and extremes of each number, however many scenes there are, in place of their rows: a Summary; of
+    listed attitudes also which is the worst, by the column rank_by.
     progress(done, of): of the scenes.
     Raises BadInput; NotComputed if require_digits and a scene has fewer; warns of scenes that fall short.  A scene that is
     refused or outside the model is a row with its outcome and reason.
@@ -185,13 +189,14 @@ def sweep(
     sets += [] if errors else ["run.errors=false"]
     sets += ["run.require_digits=true"] if require_digits else []
     names = columns if columns is None or isinstance(columns, str) else ",".join(columns)
-    options = texts_of({"random": random, "seed": seed, "scatter": scatter, "model": model, "rows": rows, "columns": names})
+    options = texts_of({"random": random, "seed": seed, "scatter": scatter, "model": model, "rows": rows, "columns": names,
+                        "rank_by": rank_by})
     name, text, _ = scene_text(scene, {})
-    report, shortfall = called(_clatter.sweep, name, text, sets, options, progress)
+    report, shortfall = called(_clatter.sweep, name, text, sets, options, summary, progress)
     if shortfall and require_digits:
         raise NotComputed(shortfall)
     _warn([shortfall] if shortfall else [])
-    return Rows(report)
+    return Summary(report) if summary else Rows(report)
 
 
 @checked

@@ -7,6 +7,7 @@ import os
 import re
 import tempfile
 import tomllib
+import warnings
 from collections.abc import Iterable, Mapping
 from pathlib import Path as FilePath
 from typing import Any
@@ -14,8 +15,8 @@ from typing import Any
 from clatter import _clatter
 from clatter.arguments import KEYS, AnyKey, Path, Probes, Scene, Swept, checked, shown, swept_text, text_of, texts_of
 from clatter.arrays import Array, numpy_for
-from clatter.errors import BadArgument, BadInput
-from clatter.findings import Table
+from clatter.errors import BadArgument, BadInput, ClatterWarning, NotComputed
+from clatter.findings import Ranking, Table
 from clatter.results import Report
 from clatter.scenes import called, cases, scene_text, toml_lines
 
@@ -58,9 +59,13 @@ def _run(command: str, scene: Scene | float | None, changes: Mapping[str, Any], 
         if scene is not None or without_flag:
             words.append(_file_of({} if scene is None else scene, without_flag, folder))
         try:
-            report, _ = called(_clatter.run_command, command, words)
+            report, said = called(_clatter.run_command, command, words)
         except BadInput as error:
             raise BadInput(re.sub(re.escape(folder) + r"/scene\.toml(:\d+:\d+)?: ", "", str(error))) from None
+    if said and report is not None and command != "report" and not report.rows():
+        raise NotComputed("; ".join(said))
+    for reason in said:
+        warnings.warn(reason, ClatterWarning, stacklevel=4)
     return report
 
 
@@ -110,7 +115,7 @@ def shock(
     model: "discrete" or "continuous".  rows: "impact", "spectrum" or "pulse"; to_dict() has all.  rate [Hz]: rows are the
     history.  part: "HZ:G", "G" or "G:MS", what the part at the probe bears.  first: so many impacts are the first ones.
     measured: accelerations of a logger (CSV) in place of a drop; its column and unit; against: a scene beside it.
-    Raises BadInput, OutsideModel, NotComputed.
+    Raises BadInput, OutsideModel, NotComputed; warns of a run that ended early.
 
     >>> clatter.shock("phone-damped", probe={"camera": (0.048, 0.016, 0.0095)}, impacts=1)["peak"]
     """
@@ -166,18 +171,18 @@ def report(
     scatter: float | None = None,
     rank_by: str | None = None,
     **changes: AnyKey,
-) -> Table | None:
+) -> Ranking | None:
     """The worst of all attitudes of a drop, and what it does: as a result, or, with output, as the page FILE.html (nothing is
     returned then).
 
     Arguments as for shock(); drops and scatter [°]: of the random attitudes; rank_by: a column of sweep()'s rows.
-    Raises BadInput, OutsideModel, NotComputed.
+    Raises BadInput, OutsideModel, NotComputed; warns of a run that ended early.
     """
     options = {"model": model, "axis": axis, "quality": quality, "frequencies": frequencies, "first": first,
                "severity": severity, "part": part, "no_sensitivity": not sensitivity, "drops": drops, "scatter": scatter,
                "rank_by": rank_by, "output": output and os.fspath(output), "format": None if output else "json"}
     made = _run("report", scene, changes, _probes(probe) + _options(options))
-    return None if made is None else Table(made)
+    return None if made is None else Ranking(made)
 
 
 @checked
@@ -210,7 +215,7 @@ def map(
     over: two keys of the scene file with their ranges, {"drop.angle_deg": (0, 60), "impact.restitution": "0.1:1:log"},
     across and upward.  values: of other keys, as for sweep(), with samples ranges, too.  quantity: "impacts", "total",
     "loss" ..., with samples "NAME=CLASS", the share of that class; then the last axis is share, least and most (Wilson's).
-    Raises BadInput.
+    Raises BadInput; warns of pixels that could not be computed.
     """
     numpy = numpy_for("map()")
     words = [f"--quantity={quantity}", "--size=" + "x".join(str(int(side)) for side in size)]

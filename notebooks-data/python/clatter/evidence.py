@@ -7,11 +7,11 @@ import os
 from collections.abc import Iterable
 
 from clatter import _clatter
-from clatter.arguments import Path, Progress, checked, shown, texts_of
+from clatter.arguments import AnyKey, Path, Progress, checked, shown, texts_of
 from clatter.errors import BadInput
 from clatter.findings import Measured, Problem, Scored, Table
 from clatter.results import Verification
-from clatter.scenes import called
+from clatter.scenes import called, scene_text
 
 _MOST_SECONDS = 3600.0
 
@@ -147,13 +147,25 @@ def extremes(
 
 
 @checked
-def figure(number: int) -> Table:
-    """The data of a figure of the paper: 7 to 12, 14 to 17, 19 to 24.
+def figure(
+    number: int,
+    *,
+    angles: Iterable[float] | None = None,
+    gravity_numbers: Iterable[float] | None = None,
+    **changes: AnyKey,
+) -> Table:
+    """The data of a figure of the paper, 7 to 12, 14 to 17, 19 to 24, or of one like it with other numbers.
 
-    >>> clatter.figure(7).column("theta_deg")[:3]
-    array([0. , 0.1, 0.2])
+    angles [°]: of the rods of figure 8.  gravity_numbers: one to three G = g L/v_n², of figures 7 and 9 to 12.  The drops of
+    figures 14 to 24 take the keys of scenes, but for what the figure itself varies.
+    Raises BadInput for a number that the figure does not have.
+
+    >>> clatter.figure(7)["theta"][:3]
+    array([0.  , 0.25, 0.5 ])
+    >>> clatter.figure(21, angle=20, impacts=2)["Fn"].max()
     """
-    return Table(called(_clatter.figure, number))
+    texts = scene_text(None, changes).changes
+    return Table(called(_clatter.figure, number, list(angles or []), list(gravity_numbers or []), texts))
 
 
 @checked

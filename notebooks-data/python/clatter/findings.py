@@ -1,85 +1,81 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What explanations, plans, studies of cost, sweeps, regimes, measurements and scores return."""
 
-from collections.abc import Iterator
-from typing import Any, overload
+import functools
+from typing import Any
 
-from clatter.arrays import Array
-from clatter.records import Record, column_of
-from clatter.results import Report, Result, given_again
+from clatter.fields import Choice, Rung, Step
+from clatter.records import Record
+from clatter.results import Report, Result, given_again, named_row
 
 
-class Explanation(Result):
-    """How an impact came about; `steps` holds records with title, text and equations, each of these a record with name,
-    symbolic, numeric, tex, words, value, error and unit."""
+class Explanation(Result[Record]):
+    """How an impact came about: a row for each equation.  `steps` holds records with title, text and equations, each of these
+    a record with name, symbolic, numeric, tex, words, value, error and unit."""
 
     def __init__(self, report: Report) -> None:
         super().__init__(report)
-        self.steps = [Record({**step, "equations": [Record(e) for e in step["equations"]]}) for step in self._data["steps"]]
+        self.steps = [Step(step) for step in self._data["steps"]]
 
     @property
     def impact(self) -> int:
         """Its number, from 1."""
         return int(self._data["impact"])
 
-    def __len__(self) -> int:
-        return len(self.steps)
+    def __getitem__(self, index: Any) -> Any:
+        """The values of the step of this title by their names, explanation["Eq. 8"]["P_n"], or as in any result."""
+        if isinstance(index, str) and index not in self.columns:
+            for step in self.steps:
+                if step["title"] == index:
+                    return {equation["name"]: equation["value"] for equation in step["equations"]}
+            raise KeyError(index)
+        return super().__getitem__(index)
 
-    def __getitem__(self, title: str) -> dict[str, float | None]:
-        """The values of the step of this title by their names."""
-        for step in self.steps:
-            if step["title"] == title:
-                return {e["name"]: e["value"] for e in step["equations"]}
-        raise KeyError(title)
 
-
-class Plan(Result):
+class Plan(Result[Rung]):
     """The models that could run a scene: `rungs` holds a record for each with its error and cost, `choice` the chosen
     one with its command."""
 
+    _row_class = Rung
+
     def __init__(self, report: Report) -> None:
         super().__init__(report)
-        self.rungs = [Record(rung) for rung in self._data["rungs"]]
-        self.choice = Record(self._data["choice"])
+        self.choice = Choice(self._data["choice"])
 
-    def __len__(self) -> int:
-        return len(self.rungs)
+    @property
+    def rungs(self) -> list[Rung]:
+        """The rows."""
+        return self.rows
 
-    def __getitem__(self, model: str) -> Record:
-        """The entry of a model: plan["discrete"]."""
-        for rung in self.rungs:
-            if rung["model"] == model:
-                return rung
-        raise KeyError(model)
+    def _objects(self) -> list[dict[str, Any]]:
+        rungs: list[dict[str, Any]] = self._data["rungs"]
+        return rungs
+
+    def __getitem__(self, index: Any) -> Any:
+        """The entry of a model, plan["discrete"], or as in any result."""
+        return named_row(self, "model", index)
 
 
-class Tradeoff(Result):
+class Tradeoff(Result[Record]):
     """What accuracy costs: `points` holds a record for each model and setting with seconds, evaluations and error."""
 
-    def __init__(self, report: Report) -> None:
-        super().__init__(report)
-        self.points = [Record(point) for point in self._data["points"]]
+    @property
+    def points(self) -> list[Record]:
+        """The rows."""
+        return self.rows
+
+    def _objects(self) -> list[dict[str, Any]]:
+        points: list[dict[str, Any]] = self._data["points"]
+        return points
 
     @property
     def front(self) -> list[Record]:
         """The points that nothing beats in both cost and error."""
         return [point for point in self.points if point["front"]]
 
-    def column(self, name: str) -> Array:
-        """One value of each point; NaN where there is none."""
-        return column_of(self._data["points"], name)
 
-    def __len__(self) -> int:
-        return len(self.points)
-
-
-class Table(Result):
+class Table(Result[Record]):
     """Rows of CSV; `rows` holds a record for each."""
-
-    def __init__(self, report: Report) -> None:
-        super().__init__(report)
-        self._rows = report.rows()
-        self.rows = [Record(row) for row in self._rows]
 
     @property
     def scene(self) -> dict[str, Any]:
@@ -87,24 +83,6 @@ class Table(Result):
         if "scene" not in self._data:
             raise AttributeError("these rows are not of one scene; to_dict() tells what there is")
         return given_again(self._data["scene"])
-
-    def column(self, name: str) -> Array:
-        """One value of each row, vectors as rows; NaN where there is none.  NAME_error is its error, NAME_z a vector's part."""
-        return column_of(self._rows, name)
-
-    def __len__(self) -> int:
-        return len(self.rows)
-
-    def __iter__(self) -> Iterator[Record]:
-        return iter(self.rows)
-
-    @overload
-    def __getitem__(self, index: int) -> Record: ...
-    @overload
-    def __getitem__(self, index: str) -> Array: ...
-    def __getitem__(self, index: int | str) -> Record | Array:
-        """The record of a row, or a column by its name."""
-        return self.column(index) if isinstance(index, str) else self.rows[index]
 
 
 class Gradient(Table):
@@ -153,6 +131,38 @@ class Scored(Table):
 
     def _beside(self) -> tuple[Any, ...]:
         return (self.is_met,)
+
+
+class Summary(Table):
+    """What many scenes are together: a row for each number, with count, least, p1, p5, p25, p50, p75, p95, p99, largest and the
+    commands of the extremes; summary["energy_loss"] is that of a number, summary["p50"] a column."""
+
+    @property
+    def texts(self) -> dict[str, dict[str, int]]:
+        """How often each text occurs, by the column: outcome ..."""
+        return {name: dict(counts) for name, counts in self._data.get("texts", {}).items()}
+
+    @property
+    def attitudes(self) -> list[Record]:
+        """The largest of each number at each listed attitude, the worst first; empty without a list."""
+        return [Record(one) for one in self._data.get("attitudes", [])]
+
+    def __getitem__(self, index: Any) -> Any:
+        """A number's row, a column, or as in any result."""
+        return named_row(self, "quantity", index)
+
+
+class Ranking(Table):
+    """The worst of all attitudes of a drop: a row for each attitude, the worst first; to_dict() has all that was found."""
+
+    def _objects(self) -> list[dict[str, Any]]:
+        attitudes: list[dict[str, Any]] = self._data.get("attitudes", [])
+        return attitudes
+
+    @functools.cached_property
+    def _columns(self) -> dict[str, list[Any]]:
+        rows = [{name: value["largest"] if isinstance(value, dict) else value for name, value in one.items()} for one in self._objects()]
+        return {name: [row.get(name) for row in rows] for name in dict.fromkeys(name for row in rows for name in row)}
 
 
 class Rows(Table):

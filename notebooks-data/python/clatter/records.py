@@ -2,7 +2,7 @@
 """Small objects over the program's JSON: each name of the JSON is an attribute."""
 
 from collections.abc import Iterable, Iterator, Mapping
-from typing import Any
+from typing import TYPE_CHECKING, Any, overload
 
 from clatter.arrays import Array, frozen, numbers, same_arrays, words
 
@@ -43,40 +43,74 @@ def value_of(row: JsonObject, name: str) -> Any:
     raise KeyError(absent(name, row))
 
 
+def flat(row: JsonObject) -> dict[str, Any]:
+    """A row as columns of numbers: a vector's parts as NAME_x, NAME_y, NAME_z, Euler parameters as NAME_q0 ..., errors as
+    NAME_error."""
+    columns: dict[str, Any] = {}
+    for name, value in row.items():
+        if isinstance(value, dict):
+            is_error = name == "error_estimate"
+            columns |= {f"{key}_error" if is_error else f"{name}_{key}": part for key, part in flat(value).items()}
+        elif isinstance(value, (list, tuple)) or getattr(value, "ndim", 0) == 1:
+            parts = "xyz" if len(value) == 3 else [f"q{i}" for i in range(len(value))]
+            columns |= {f"{name}_{part}": number for part, number in zip(parts, value)}
+        else:
+            columns[name] = value
+    return columns
+
+
 def column_of(rows: Iterable[JsonObject], name: str) -> Array:
     """A value of each row, vectors as rows; NaN where there is none."""
     return as_array([value_of(row, name) for row in rows])
 
 
-class Record(Mapping[str, Any]):
+class Values(dict[str, Any]):
     """Values by name, as `record.name` or `record["name"]`; vectors are arrays, what a model has no value for is None.
 
-    A record cannot be changed; records of the same values are equal.
+    A record cannot be changed; records of the same values are equal.  A row of a table has its columns as keys, in their
+    order, and its vectors and errors by their names besides.
     """
 
-    __slots__ = ("_raw", "_values")
+    __slots__ = ("_raw",)
     _raw: dict[str, Any]
-    _values: dict[str, Any]
 
-    def __init__(self, data: JsonObject) -> None:
+    def __init__(self, data: JsonObject, columns: JsonObject | None = None) -> None:
+        super().__init__({name: self._converted(name, value) for name, value in data.items()} if columns is None else columns)
         object.__setattr__(self, "_raw", dict(data))
-        object.__setattr__(self, "_values", {name: self._converted(value) for name, value in data.items()})
 
-    @staticmethod
-    def _converted(value: Any) -> Any:
+    @classmethod
+    def _converted(cls, name: str, value: Any) -> Any:
         if isinstance(value, dict):
             return Record(value)
-        if isinstance(value, list) and value and all(isinstance(item, (int, float)) for item in value):
-            return frozen(numbers(value))
+        if isinstance(value, list) and value and all(item is None or isinstance(item, (int, float)) for item in value):
+            return frozen(numbers(float("nan") if item is None else item for item in value))
         return value
 
-    def __getattr__(self, name: str) -> Any:
-        if name.startswith("_"):
-            raise AttributeError(name)
-        try:
-            return self._values[name]
-        except KeyError:
-            raise AttributeError(absent(name, self._values)) from None
+    def __missing__(self, name: str) -> Any:
+        if name in self._raw:
+            return self._converted(name, self._raw[name])
+        raise KeyError(absent(name, self))
+
+    if not TYPE_CHECKING:
+        def __getattr__(self, name: str) -> Any:
+            if name.startswith("_"):
+                raise AttributeError(name)
+            try:
+                return self[name]
+            except KeyError:
+                raise AttributeError(absent(name, self)) from None
+
+    def __contains__(self, name: object) -> bool:
+        return super().__contains__(name) or name in self._raw
+
+    def get(self, name: str, default: Any = None) -> Any:
+        """The value of that name, or what is given in its place."""
+        return self[name] if name in self else default
+
+    def _refused(self, *_: Any, **__: Any) -> Any:
+        raise TypeError(f"{type(self).__name__} cannot be changed")
+
+    __delitem__ = __setitem__ = __ior__ = clear = pop = popitem = setdefault = update = _refused  # type: ignore[assignment]
 
     def __setattr__(self, name: str, value: Any) -> None:
         raise AttributeError(f"{name}: {type(self).__name__} cannot be changed")
@@ -84,48 +118,28 @@ class Record(Mapping[str, Any]):
     def __delattr__(self, name: str) -> None:
         raise AttributeError(f"{name}: {type(self).__name__} cannot be changed")
 
-    def __getitem__(self, name: str) -> Any:
-        if name not in self._values:
-            raise KeyError(absent(name, self._values))
-        return self._values[name]
-
-    def __iter__(self) -> Iterator[str]:
-        return iter(self._values)
-
-    def __len__(self) -> int:
-        return len(self._values)
-
     def __eq__(self, other: object) -> bool:
-        return self._raw == (other._raw if isinstance(other, Record) else other)
+        return self._raw == (other._raw if isinstance(other, Values) else other)
+
+    def __ne__(self, other: object) -> bool:
+        return not self == other
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return type(self), (self._raw,)
+        return type(self), (self._raw, dict(self))
 
     def __dir__(self) -> list[str]:
-        return [*super().__dir__(), *self._values]
+        return [*super().__dir__(), *self, *self._raw]
 
     def __repr__(self) -> str:
-        return f"{type(self).__name__}({', '.join(f'{name}={value!r}' for name, value in self._values.items())})"
+        return f"{type(self).__name__}({', '.join(f'{name}={value!r}' for name, value in self.items())})"
 
 
-class Impact(Record):
-    """One impact, SI units, world frame (x right, z up).
-
-    n, start, duration, end ("a", "b", "both" ...), inclination_deg, contact_angle_deg, approach_speed, restitution,
-    impulse_normal, impulse_tangential, impulse_ratio, mode, peak_force, peak_time, velocity_after (3),
-    angular_velocity_after (3), energy_before, energy_after, energy_loss, error_estimate (a record), amplification,
-    predictable.  In space and from the continuous model also touches, impulse (3), and in space corners, place (3) and
-    attitude (4); from the continuous model indentation, work_damping, work_friction, work_released, submerged, local_slip, energy_stored,
-    ledger_gap.  An error is a bound by the discrete model, an estimate by the continuous one, None where it is not known.  start counts from the first touch, peak_time from the impact's start.
-    """
-
+class Record(Values):
+    __doc__ = Values.__doc__
     __slots__ = ()
 
-    def __repr__(self) -> str:
-        return f"Impact {self.n}: end {self.end} at " + ", ".join(
-            [f"{self.start:.6g} s",
-             *([] if self.get("contact_angle_deg") is None else [f"{self.contact_angle_deg:.6g}°"]),
-             f"P = {self.impulse_normal:.6g} N·s"])
+    if TYPE_CHECKING:
+        def __getattr__(self, name: str) -> Any: ...
 
 
 class History:
@@ -163,6 +177,32 @@ class History:
 
     def __len__(self) -> int:
         return len(self.time)
+
+    def __iter__(self) -> Iterator[Record]:
+        return (self[i] for i in range(len(self)))
+
+    @overload
+    def __getitem__(self, index: int) -> Record: ...
+    @overload
+    def __getitem__(self, index: slice) -> "History": ...
+    @overload
+    def __getitem__(self, index: str) -> Array: ...
+    def __getitem__(self, index: int | slice | str) -> "Record | History | Array":
+        """A sample, some of them, or an array by its name, history["force"], or that of a vector's part, history["force_z"]."""
+        arrays = vars(self)
+        if isinstance(index, slice):
+            return History({name: array[index] for name, array in arrays.items()})
+        if isinstance(index, str):
+            whole, _, part = index.rpartition("_")
+            if index not in arrays and part in ("x", "y", "z") and getattr(arrays.get(whole), "ndim", 1) == 2:
+                column: Array = arrays[whole][:, "xyz".index(part)]
+                return column
+            if index not in arrays:
+                raise KeyError(absent(index, arrays))
+            array: Array = arrays[index]
+            return array
+        row = {name: array[index].tolist() for name, array in arrays.items()}
+        return Record(row, flat(row))
 
     def __repr__(self) -> str:
         if not len(self):

@@ -7,14 +7,17 @@ import copy
 import copyreg
 import functools
 from collections.abc import Iterable, Iterator, Mapping
-from typing import Any, Protocol, overload
+from typing import Any, Generic, Protocol, TypeVar, overload
 
 from clatter import _clatter
 from clatter.arguments import checked
 from clatter.arrays import Array
 from clatter.errors import BadInput
-from clatter.records import History, Impact, Record, absent, as_array, column_of, value_of
+from clatter.fields import Accuracy, Check, Cost, Impact, SimulatedImpact, Tail
+from clatter.records import History, Record, Values, absent, as_array, column_of, flat, value_of
 
+Row = TypeVar("Row", bound=Values)
+OneImpact = TypeVar("OneImpact", bound=Impact)
 _FORMATS = ("table", "csv", "json", "markdown", "latex")
 
 
@@ -23,6 +26,7 @@ class Report(Protocol):
 
     def data(self) -> dict[str, Any]: ...
     def rows(self) -> list[dict[str, Any]]: ...
+    def columns(self) -> dict[str, list[Any]]: ...
     def text(self, format: str, ascii: bool) -> str: ...
     def html(self) -> str: ...
 
@@ -30,14 +34,18 @@ class Report(Protocol):
 class KeptReport:
     """What a pickled report said: all of it, without the run."""
 
-    def __init__(self, data: dict[str, Any], rows: list[dict[str, Any]], texts: Mapping[tuple[str, bool], str], html: str) -> None:
-        self._data, self._rows, self._texts, self._html = data, rows, texts, html
+    def __init__(self, data: dict[str, Any], rows: list[dict[str, Any]], columns: dict[str, list[Any]],
+                 texts: Mapping[tuple[str, bool], str], html: str) -> None:
+        self._data, self._rows, self._columns, self._texts, self._html = data, rows, columns, texts, html
 
     def data(self) -> dict[str, Any]:
         return copy.deepcopy(self._data)
 
     def rows(self) -> list[dict[str, Any]]:
         return copy.deepcopy(self._rows)
+
+    def columns(self) -> dict[str, list[Any]]:
+        return copy.deepcopy(self._columns)
 
     def text(self, format: str, ascii: bool) -> str:
         if format not in _FORMATS:
@@ -52,17 +60,20 @@ def _keep(report: _clatter.Report) -> tuple[Any, tuple[Any, ...]]:
     texts = {(form, False): report.text(form, False) for form in _FORMATS}
     plain = {(form, True): report.text(form, True) for form in _FORMATS}
     texts |= {(form, ascii): text for (form, ascii), text in plain.items() if text != texts[form, False]}
-    return KeptReport, (report.data(), report.rows(), texts, report.html())
+    return KeptReport, (report.data(), report.rows(), report.columns(), texts, report.html())
 
 
 copyreg.pickle(_clatter.Report, _keep)
 
 
-class Result:
-    """A result that shows itself as the program's table: as text, and in a notebook as HTML.
+class Result(Generic[Row]):
+    """A result is the program's table: it shows itself as that, len(x) are its rows, x[0], x[-1], x[1:3] and a loop give them,
+    x["impulse_normal"] is a column as an array, and pandas.DataFrame(x) the whole.
 
     Results can be pickled and copied; those of the same content are equal.
     """
+
+    _row_class: type[Values] = Record
 
     def __init__(self, report: Report) -> None:
         self._report = report
@@ -71,6 +82,48 @@ class Result:
     def _data(self) -> dict[str, Any]:
         """The program's JSON, made when it is first asked for."""
         return self._report.data()
+
+    @functools.cached_property
+    def _columns(self) -> dict[str, list[Any]]:
+        return self._report.columns()
+
+    def _objects(self) -> list[dict[str, Any]]:
+        """The rows as JSON has them, vectors as lists."""
+        return self._report.rows()
+
+    @functools.cached_property
+    def rows(self) -> list[Row]:
+        """A record for each, whose keys are the columns."""
+        names, objects = list(self._columns), self._objects()
+        rows = zip(objects, zip(*self._columns.values()))
+        return [self._row_class(one, dict(zip(names, row))) for one, row in rows]  # type: ignore[misc]
+
+    @property
+    def columns(self) -> list[str]:
+        """Their names, in the order of the table (its CSV)."""
+        return list(self._columns)
+
+    def column(self, name: str) -> Array:
+        """One value of each row, vectors as rows; NaN where there is none.  NAME_error is its error, NAME_z a vector's part."""
+        if name in self._columns:
+            return as_array(self._columns[name][:len(self)])
+        return column_of(self._objects(), name)
+
+    def __len__(self) -> int:
+        return len(self.rows)
+
+    def __iter__(self) -> Iterator[Row]:
+        return iter(self.rows)
+
+    @overload
+    def __getitem__(self, index: int) -> Row: ...
+    @overload
+    def __getitem__(self, index: slice) -> list[Row]: ...
+    @overload
+    def __getitem__(self, index: str) -> Array: ...
+    def __getitem__(self, index: int | slice | str) -> Row | list[Row] | Array:
+        """A row, some of them, or a column by its name."""
+        return self.column(index) if isinstance(index, str) else self.rows[index]
 
     def _beside(self) -> tuple[Any, ...]:
         """What it was made from beside the report."""
@@ -135,19 +188,35 @@ class States:
         return len(self._rows)
 
     def __iter__(self) -> Iterator[Record]:
-        return (Record(row) for row in self._rows)
+        return iter(self[:])
 
-    def __getitem__(self, index: str) -> Array:
-        return self.column(index)
+    @overload
+    def __getitem__(self, index: int) -> Record: ...
+    @overload
+    def __getitem__(self, index: slice) -> list[Record]: ...
+    @overload
+    def __getitem__(self, index: str) -> Array: ...
+    def __getitem__(self, index: int | slice | str) -> Record | list[Record] | Array:
+        """The state at a time, some of them, or a column by its name."""
+        if isinstance(index, str):
+            return self.column(index)
+        rows = self._rows[index]
+        return [Record(row, flat(row)) for row in rows] if isinstance(rows, list) else Record(rows, flat(rows))
 
 
-class Run(Result):
+class Run(Result[OneImpact]):
     """A sequence of impacts: len(run), run[0], for impact in run."""
 
-    @functools.cached_property
-    def impacts(self) -> list[Impact]:
+    _row_class = Impact
+
+    def _objects(self) -> list[dict[str, Any]]:
+        impacts: list[dict[str, Any]] = self._data["impacts"]  # the table may end with the sum of those that follow
+        return impacts
+
+    @property
+    def impacts(self) -> list[OneImpact]:
         """A record for each."""
-        return [Impact(impact) for impact in self._data["impacts"]]
+        return self.rows
 
     @property
     def outcome(self) -> str:
@@ -177,18 +246,14 @@ class Run(Result):
         return None if reason is None else str(reason)
 
     @property
-    def cost(self) -> Record:
+    def cost(self) -> Cost:
         """force_evaluations, root_evaluations."""
-        return Record(self._data["cost"])
+        return Cost(self._data["cost"])
 
     @property
-    def accuracy(self) -> Record:
+    def accuracy(self) -> Accuracy:
         """Relative error asked and achieved."""
-        return Record(self._data["accuracy"])
-
-    def column(self, name: str) -> Array:
-        """One value of each impact, vectors as rows; NaN where there is none.  NAME_error is its error, NAME_z a vector's part."""
-        return column_of(self._data["impacts"], name)
+        return Accuracy(self._data["accuracy"])
 
     @property
     def states(self) -> States:
@@ -204,38 +269,25 @@ class Run(Result):
 
         wanted = [float(times)] if isinstance(times, (int, float)) else [float(time) for time in times]
         asked = sorted(set(wanted))
-        again: Result = simulate(self.scene, at=asked) if isinstance(self, Simulation) else sequence(self.scene, at=asked)
+        is_simulated = issubclass(self._row_class, SimulatedImpact)
+        again: Result[Any] = simulate(self.scene, at=asked) if is_simulated else sequence(self.scene, at=asked)
         told = {row["time"]: row for row in again.to_dict()["states"]}
         return States([told[time] for time in wanted])
 
-    def __len__(self) -> int:
-        return len(self.impacts)
 
-    def __iter__(self) -> Iterator[Impact]:
-        return iter(self.impacts)
-
-    @overload
-    def __getitem__(self, index: int) -> Impact: ...
-    @overload
-    def __getitem__(self, index: slice) -> list[Impact]: ...
-    @overload
-    def __getitem__(self, index: str) -> Array: ...
-    def __getitem__(self, index: int | slice | str) -> Impact | list[Impact] | Array:
-        """An impact, some of them, or a column by its name: run["impulse_normal"]."""
-        return self.column(index) if isinstance(index, str) else self.impacts[index]
-
-
-class Sequence(Run):
+class Sequence(Run[Impact]):
     """An impact sequence of the discrete model."""
 
     @property
-    def tail(self) -> Record | None:
+    def tail(self) -> Tail | None:
         """The infinitely many impacts that follow the last one, summed up; None if there are none."""
-        return Record(self._data["tail"]) if "tail" in self._data else None
+        return Tail(self._data["tail"]) if "tail" in self._data else None
 
 
-class Simulation(Run):
+class Simulation(Run[SimulatedImpact]):
     """A run of the continuous model."""
+
+    _row_class = SimulatedImpact
 
     def __init__(self, report: Report, history: History | None) -> None:
         super().__init__(report)
@@ -262,8 +314,8 @@ class Simulation(Run):
         return float(self._data["energy_start"])
 
 
-class Sweep(Result):
-    """A scene for each value of one quantity."""
+class Sweep(Result[Record]):
+    """A scene for each value of one quantity: a row for each impact, `runs` holds a record for each value, `values` these."""
 
     def __init__(self, report: Report) -> None:
         super().__init__(report)
@@ -271,17 +323,17 @@ class Sweep(Result):
         self.runs = [Record(run) for run in self._data["runs"]]
         self.values = as_array([run[self.quantity] for run in self._data["runs"]])
 
-    def __len__(self) -> int:
-        return len(self.runs)
-
     def column(self, name: str, impact: int = 1) -> Array:
-        """A value of impact number `impact` of each run; NaN where a run has no such impact."""
+        """A value of impact number `impact` of each run; NaN where a run has no such impact.  sweep[name] is of every row."""
         rows = [run["impacts"] for run in self._data["runs"]]
         return as_array([value_of(row[impact - 1], name) if len(row) >= impact else None for row in rows])
 
+    def __getitem__(self, index: Any) -> Any:
+        return super().column(index) if isinstance(index, str) else self.rows[index]
 
-class Comparison(Result):
-    """Both models over one scene.
+
+class Comparison(Result[Record]):
+    """Both models over one scene: a row for each quantity of each impact.
 
     impacts: records with n, comparable, predictable, reason, discrete_end, continuous_end, contact_time, limit_is_discrete and
     numbers: by quantity (start, contact_angle_deg, impulse_normal ...) discrete, continuous, deviation and the error of
@@ -300,22 +352,22 @@ class Comparison(Result):
         """Whether the limit of ever stiffer ground is the discrete value, wherever there is one."""
         return bool(self._data["agrees"])
 
-    def __len__(self) -> int:
-        return len(self.impacts)
-
-    def column(self, quantity: str, name: str) -> Array:
-        """One number of each impact: column("impulse_normal", "deviation"); NaN where it was not compared or is not known."""
+    def column(self, name: str, number: str | None = None) -> Array:
+        """One number of each impact: column("impulse_normal", "deviation"); NaN where it was not compared or is not known.
+        Of one name the table's column."""
+        if number is None:
+            return super().column(name)
         numbers = [impact["numbers"] for impact in self._data["impacts"]]
         quantities = dict.fromkeys(key for of in numbers for key in of)
-        names = dict.fromkeys(key for of in numbers for number in of.values() for key in number)
-        for known, asked in ((quantities, quantity), (names, name)):
+        names = dict.fromkeys(key for of in numbers for one in of.values() for key in one)
+        for known, asked in ((quantities, name), (names, number)):
             if numbers and asked not in known:
                 raise KeyError(absent(asked, known))
-        return as_array([of.get(quantity, {}).get(name) for of in numbers])
+        return as_array([of.get(name, {}).get(number) for of in numbers])
 
 
-class ComparisonSweep(Result):
-    """A comparison for each value of one quantity; `runs` holds a record for each."""
+class ComparisonSweep(Result[Record]):
+    """A comparison for each value of one quantity: the rows of each, and `runs` holds a record for each."""
 
     def __init__(self, report: Report) -> None:
         super().__init__(report)
@@ -328,16 +380,20 @@ class ComparisonSweep(Result):
         """All of them agree."""
         return bool(self._data["agrees"])
 
-    def __len__(self) -> int:
-        return len(self.runs)
 
-
-class Verification(Result):
+class Verification(Result[Check]):
     """Checks with their verdicts; `checks` holds a record for each: id, claim, answer, number, tolerance, verdict ..."""
 
-    def __init__(self, report: Report) -> None:
-        super().__init__(report)
-        self.checks = [Record(check) for check in self._data["checks"]]
+    _row_class = Check
+
+    @property
+    def checks(self) -> list[Check]:
+        """The rows."""
+        return self.rows
+
+    def _objects(self) -> list[dict[str, Any]]:
+        checks: list[dict[str, Any]] = self._data["checks"]
+        return checks
 
     @property
     def scene(self) -> dict[str, Any]:
@@ -354,12 +410,16 @@ class Verification(Result):
         """Number of checks that failed."""
         return int(self._data["failed"])
 
-    def __len__(self) -> int:
-        return len(self.checks)
+    def __getitem__(self, index: Any) -> Any:
+        """A check by its id, verification["C1"], or as in any result."""
+        return named_row(self, "id", index)
 
-    def __getitem__(self, name: str) -> Record:
-        """A check by its id: verification["C1"]."""
-        for check in self.checks:
-            if check["id"] == name:
-                return check
-        raise KeyError(name)
+
+def named_row(result: Result[Any], column: str, index: Any) -> Any:
+    """The row that has this in the column, or what any result gives for an index."""
+    if isinstance(index, str) and index not in result.columns:
+        for row in result.rows:
+            if row[column] == index:
+                return row
+        raise KeyError(index)
+    return Result.__getitem__(result, index)

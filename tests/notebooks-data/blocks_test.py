@@ -1,0 +1,104 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Every block of code of README and the reference runs in an empty folder, but for what documents.py fills and holds, and
+what is listed here with who runs it."""
+
+import os
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+import run_folder
+
+ROOT = Path(run_folder.ROOT)
+PAGES = [ROOT / "README.md", *sorted((ROOT / "notebooks-data/reference").rglob("*.md"))]
+FILLED = re.compile(r"<!-- (output|code|table): .*? -->.*?<!-- end -->", re.DOTALL)
+BLOCK = re.compile(r"^```(\S*)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
+SPHINX = {"{eval-rst}", "{toctree}"}
+# By the beginning of the block.
+RUN_ELSEWHERE = {
+    "./clatter sequence --angle 10\ntests/run": "tests/launcher_test.bash runs the first, this is the second",
+    "pip install": "tests/install/packages_test.bash",
+    "# problem: rod-10": "tests/validation/benchmark: the beginning of a file, which tells its form",
+    "clatter extremes --quick": "tests/validation/evidence/extremes_test.py, by its parts: a minute or more",
+}
+BOX = "\n".join([*(f"v {x} {y} {z}" for x in (0, 80) for y in (0, 40) for z in (0, 10)),
+                 "f 1 2 4 3", "f 5 7 8 6", "f 1 5 6 2", "f 3 4 8 7", "f 1 3 7 5", "f 2 6 8 4", ""])
+
+
+def blocks():
+    """(page, line, language, text) of each that is not filled from what it shows."""
+    for page in PAGES:
+        text = page.read_text(encoding="utf-8")
+        bare = FILLED.sub(lambda found: "\n" * found[0].count("\n"), text)
+        for found in BLOCK.finditer(bare):
+            if found[1] not in SPHINX:
+                yield page.relative_to(ROOT), bare.count("\n", 0, found.start()) + 1, found[1], found[2]
+
+
+class Blocks(unittest.TestCase):
+    def setUp(self):
+        scratch = tempfile.TemporaryDirectory()
+        self.addCleanup(scratch.cleanup)
+        self.folder, programs = Path(scratch.name, "empty"), Path(scratch.name, "bin")
+        self.folder.mkdir()
+        programs.mkdir()
+        (programs / "clatter").symlink_to(run_folder.PROGRAM)
+        self.environment = dict(os.environ, PATH=f"{programs}:{os.environ['PATH']}", MPLBACKEND="Agg", HOME=scratch.name)
+
+    def ran(self, *command):
+        done = subprocess.run(command, cwd=self.folder, env=self.environment, capture_output=True, text=True)
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        return done.stdout
+
+    def with_parts(self):
+        """The files of a user, as a page names them."""
+        (self.folder / "part.obj").write_text(BOX, encoding="utf-8")
+        (self.folder / "part.stl").write_text(run_folder.TETRAHEDRON.replace(" 1", " 50"), encoding="utf-8")
+        shutil.copy(run_folder.case("phone-damped"), self.folder / "phone.toml")
+        return self.folder
+
+    def test_every_block_runs_or_is_listed(self):
+        seen, listed = 0, set()
+        for page, line, language, text in blocks():
+            elsewhere = [begin for begin in RUN_ELSEWHERE if text.startswith(begin)]
+            listed.update(elsewhere)
+            if elsewhere or language == "python":
+                continue
+            with self.subTest(page=str(page), line=line):
+                seen += 1
+                if language == "toml":
+                    (self.with_parts() / "scene.toml").write_text(text, encoding="utf-8")
+                    self.ran("clatter", "sequence", "scene.toml")
+                    continue
+                self.assertTrue(text.startswith("clatter "), "neither run here nor listed")
+                if "part." in text:
+                    self.with_parts()
+                for command in text.replace("\\\n", " ").splitlines():
+                    if "part.3mf" not in command:  # tests/validation/scene/mesh_files_test.py writes and reads such files
+                        self.ran("bash", "-c", command)
+        self.assertGreater(seen, 5)
+        self.assertEqual(listed, set(RUN_ELSEWHERE), "what is listed is there")
+
+    def test_blocks_of_python_run_page_by_page_and_give_what_stands_beside_them(self):
+        try:
+            import matplotlib, pandas  # noqa: F401, E401, PLC0415
+        except ImportError as error:
+            self.skipTest(str(error))
+        pages, promised = {}, 0
+        for page, _, language, text in blocks():
+            if language == "python":
+                pages.setdefault(page, []).append(text)
+        self.assertGreater(len(pages), 1)
+        for page, texts in pages.items():
+            lines = []
+            for line in "".join(texts).splitlines():
+                value = re.match(r"(?:print\()?([^\s#(][^#]*?)\)?\s+# (-?\d+\.\d+)", line)
+                promised += bool(value)
+                lines.append(line + (f"\nassert float({value[1]}) == {value[2]}" if value else ""))
+            with self.subTest(page=str(page)):
+                self.ran(sys.executable, "-B", "-W", "error", "-c", "\n".join(lines))
+        self.assertGreater(promised, 1)
