@@ -2,12 +2,14 @@
 """Every block of code of README and the reference runs in an empty folder, but for what documents.py fills and holds, and
 what is listed here with who runs it."""
 
+import math
 import os
 import re
 import shutil
 import subprocess
 import sys
 import tempfile
+import textwrap
 import unittest
 from pathlib import Path
 
@@ -16,27 +18,29 @@ import run_folder
 ROOT = Path(run_folder.ROOT)
 PAGES = [ROOT / "README.md", *sorted((ROOT / "notebooks-data/reference").rglob("*.md"))]
 FILLED = re.compile(r"<!-- (output|code|table): .*? -->.*?<!-- end -->", re.DOTALL)
-BLOCK = re.compile(r"^```(\S*)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
+BLOCK = re.compile(r"^```(\S*)\n(.*?)^```$|(?<=\n\n)((?:^ {4}[^\n]+\n)+)", re.MULTILINE | re.DOTALL)
 SPHINX = {"{eval-rst}", "{toctree}"}
 # By the beginning of the block.
 RUN_ELSEWHERE = {
     "./clatter sequence --angle 10\ntests/run": "tests/launcher_test.bash runs the first, this is the second",
     "pip install": "tests/install/packages_test.bash",
     "# problem: rod-10": "tests/validation/benchmark: the beginning of a file, which tells its form",
-    "clatter extremes --quick": "tests/validation/evidence/extremes_test.py, by its parts: a minute or more",
+    "mpirun ": "tests/validation/sweep/sweep_test.py", "#!/bin/bash\n#SBATCH": "needs Slurm", "#SBATCH": "needs Slurm",
+    "clatter verify --extremes --quick": "tests/validation/evidence/extremes_test.py, by its parts: a minute or more",
 }
 BOX = "\n".join([*(f"v {x} {y} {z}" for x in (0, 80) for y in (0, 40) for z in (0, 10)),
                  "f 1 2 4 3", "f 5 7 8 6", "f 1 5 6 2", "f 3 4 8 7", "f 1 3 7 5", "f 2 6 8 4", ""])
 
 
 def blocks():
-    """(page, line, language, text) of each that is not filled from what it shows."""
+    """(page, line, language, text) of each that is not filled from what it shows; what is indented is commands or no code."""
     for page in PAGES:
         text = page.read_text(encoding="utf-8")
         bare = FILLED.sub(lambda found: "\n" * found[0].count("\n"), text)
         for found in BLOCK.finditer(bare):
-            if found[1] not in SPHINX:
-                yield page.relative_to(ROOT), bare.count("\n", 0, found.start()) + 1, found[1], found[2]
+            if found[1] not in SPHINX and (not found[3] or re.match(" +(clatter|mpirun|srun|#)", found[3])):
+                text = textwrap.dedent(found[3]) if found[3] else found[2]
+                yield page.relative_to(ROOT), bare.count("\n", 0, found.start()) + 1, found[1] or "", text
 
 
 class Blocks(unittest.TestCase):
@@ -58,7 +62,11 @@ class Blocks(unittest.TestCase):
         """The files of a user, as a page names them."""
         (self.folder / "part.obj").write_text(BOX, encoding="utf-8")
         (self.folder / "part.stl").write_text(run_folder.TETRAHEDRON.replace(" 1", " 50"), encoding="utf-8")
-        shutil.copy(run_folder.case("phone-damped"), self.folder / "phone.toml")
+        for name in ("phone.toml", "handset.toml"):
+            scene = Path(run_folder.case("phone-damped")).read_text(encoding="utf-8")
+            (self.folder / name).write_text(scene + "[[probe]]\nname = 'camera'\nplace = [0.04, 0.01, 0]\n", encoding="utf-8")
+        pulse = (100 * math.sin(math.pi * (n - 100) / 20) * (100 <= n <= 120) for n in range(300))  # g, 2 ms long
+        (self.folder / "drop.csv").write_text("time,acceleration\n" + "".join(f"{n / 1e4},{a}\n" for n, a in enumerate(pulse)), encoding="utf-8")
         return self.folder
 
     def test_every_block_runs_or_is_listed(self):
@@ -75,7 +83,7 @@ class Blocks(unittest.TestCase):
                     self.ran("clatter", "sequence", "scene.toml")
                     continue
                 self.assertTrue(text.startswith("clatter "), "neither run here nor listed")
-                if "part." in text:
+                if re.search(r"part\.|drop\.csv", text):
                     self.with_parts()
                 for command in text.replace("\\\n", " ").splitlines():
                     if "part.3mf" not in command:  # tests/validation/scene/mesh_files_test.py writes and reads such files
