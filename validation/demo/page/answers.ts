@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What the program answers, as far as the page reads it.
-import type { Inertia } from "./body";
-import type { Rotation, Vector } from "./rotation";
+import type { Rotation, Vector, Inertia } from "./rotation";
 
 export interface Impact {
   n: number;

@@ -27,3 +27,9 @@ export function say(id: string, words: string): void {
   const line = byId(id);
   if (line.textContent !== words) line.textContent = words;
 }
+
+export function svg<Tag extends keyof SVGElementTagNameMap>(tag: Tag, attributes: Record<string, string | number>): SVGElementTagNameMap[Tag] {
+  const element = document.createElementNS("http://www.w3.org/2000/svg", tag);
+  for (const [name, value] of Object.entries(attributes)) element.setAttribute(name, String(value));
+  return element;
+}

@@ -2,11 +2,10 @@
 // The picture from the side, for browsers that have no graphics card to draw with.
 import { middleOf, type Body } from "./body";
 import { COLOURS } from "./colours";
-import { MODELS, type Arrow, type Frame, type ModelName } from "./frame";
+import { MODELS, type Arrow, type Frame, type ModelName, type Projection, type View } from "./frame";
 import type { Pose } from "./motion";
-import { facesOf } from "./outline";
-import type { Projection, View } from "./picture";
 import { plus, type Vector } from "./rotation";
+import { facesOf } from "./sketch";
 
 /** Of the eye. */
 const LOOK: Vector = [0, 1, 0];

@@ -4,6 +4,7 @@ import type { Impact } from "./answers";
 import { extentOf, isDisc, longHalf, lowestPlace, type Body } from "./body";
 import { significant } from "./format";
 import { hasEnded, pointMotion, shownTime, type Motion, type Pose } from "./motion";
+import type { Orbit } from "./orbit";
 import { patchOf, type Patch } from "./patch";
 import { plus, rotate, type Rotation, type Vector } from "./rotation";
 
@@ -259,4 +260,16 @@ function struckPoint(motion: Motion, impact: Impact): Vector {
   const { centre, rotation } = motion.pose(impact.start);
   const [x, y] = plus(centre, lowestPlace(motion.body, rotation));
   return [x, y, 0];
+}
+
+/** Place in the picture, from its upper left corner [px]. */
+export interface Projection {
+  x: number;
+  y: number;
+}
+
+export interface View {
+  resize(width: number, height: number): void;
+  draw(frame: Frame, orbit: Orbit): void;
+  project(model: ModelName, point: Vector, side: boolean): Projection;
 }

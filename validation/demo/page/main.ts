@@ -2,36 +2,28 @@
 // The page: from a change of the situation to the requests, and from their answers to the panels.
 import type { ExplainAnswer } from "./answers";
 import { ApiError, Latest } from "./api";
-import { EnergyBars, ForceChart } from "./charts";
 import { Capture } from "./capture";
+import { EnergyBars, ForceChart, showProfile } from "./charts";
 import { Controls } from "./controls";
 import { byId, say } from "./dom";
 import { Explanation } from "./explain";
-import { FanPanel } from "./fan_panel";
-import { download } from "./files";
+import { FanPanel } from "./fan";
 import { MODELS, frameAt, impactAt, scalesOf, type ModelName, type Scales } from "./frame";
-import { Grab, awaitedFrame } from "./grab";
-import { InHand } from "./in_hand";
-import { setUpLecture } from "./lecture";
+import { Grab, awaitedFrame, InHand } from "./grab";
 import { AngleMap } from "./map";
-import { setUpMeasured } from "./measured";
 import { Models } from "./models";
-import { momentAt } from "./moment";
 import { hasEnded } from "./motion";
-import { Numbers } from "./numbers";
+import { momentAt, Numbers } from "./numbers";
 import { OrbitControl } from "./orbit";
-import { Tabs, hidePanels, setUpLayout, setUpOpening, setUpPrinting } from "./panels";
-import { isInPlane, isThinRod } from "./parameters";
-import { showPatch } from "./patch_panel";
+import { setUpLecture, Tabs, hidePanels, setUpLayout, setUpOpening, setUpPrinting, Waiting } from "./panels";
+import { isInPlane, isThinRod, firstSpeed, restitutionOf } from "./parameters";
+import { showPatch } from "./patch";
 import { Player, TimeWarp } from "./playback";
 import { Prediction } from "./prediction";
-import { showProfile } from "./profile";
-import { setUpRace } from "./race";
+import { setUpTracks } from "./tracks";
 import { explainRequest, gravityNumber } from "./requests";
-import { firstSpeed, restitutionOf } from "./restitution";
 import { SceneFile } from "./scene_file";
-import { setUpSharing } from "./sharing";
-import { showNotes } from "./situation_notes";
+import { download, setUpSharing } from "./sharing";
 import { Sound } from "./sound";
 import { Stage } from "./stage";
 import { readAddress, usualLayout, writeAddress, type State } from "./state";
@@ -39,8 +31,7 @@ import { Story } from "./story";
 import { Strip } from "./strip";
 import { ImpactTable, csvOf } from "./table";
 import { Transport } from "./transport";
-import { Waiting } from "./waiting";
-import { impactInWords, outcomeInWords } from "./words";
+import { showNotes, impactInWords, outcomeInWords } from "./words";
 
 /** After a change, until the equations are asked for, and until the drop is played [ms]. */
 const EXPLAIN_DELAY = 80;
@@ -396,5 +387,4 @@ class Page {
 }
 
 new Page();
-setUpRace();
-setUpMeasured();
+setUpTracks();

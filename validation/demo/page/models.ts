@@ -3,9 +3,8 @@
 import type { Impact, SequenceAnswer, SimulateAnswer } from "./answers";
 import { Latest, type ApiError } from "./api";
 import { CONTINUOUS_RADIUS, seenAngle, uniformBody, type Body } from "./body";
-import { ContinuousMotion } from "./continuous_motion";
-import { DiscreteMotion } from "./discrete_motion";
 import type { Motions } from "./frame";
+import { ContinuousMotion, DiscreteMotion } from "./motion";
 import { endInPlane, pairingOf, struckNames, type Pairing } from "./pairing";
 import { bodyOf, isInPlane, type Parameters } from "./parameters";
 import { TimeWarp } from "./playback";

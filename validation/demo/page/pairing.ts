@@ -3,8 +3,8 @@
 // corner strikes, and neither is beyond prediction.
 import type { Impact, SequenceAnswer } from "./answers";
 import { hasUpperSide, lowestPoints, type Size } from "./body";
-import { touchRotation } from "./discrete_motion";
 import { significant } from "./format";
+import { touchRotation } from "./motion";
 import { rotateBack } from "./rotation";
 import { outcomeInWords } from "./words";
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Panels and switches that only show the state: what is hidden, how the models are laid out.
-import { byId } from "./dom";
+// Panels and switches that only show the state: what is hidden, how the models are laid out, the lecture, and what is printed.
+import { byId, say } from "./dom";
 import { PANELS, type State } from "./state";
 
 export function hidePanels(state: State): void {
@@ -100,4 +100,55 @@ export function setUpPrinting(moment: () => [number, number], put: (n: number, t
     if (before) put(...before);
     before = null;
   });
+}
+
+export function setUpLecture(onVoting: (on: boolean) => void, onChange: () => void): void {
+  const button = byId<HTMLButtonElement>("lecture");
+  const show = (on: boolean): void => {
+    document.body.classList.toggle("lecture", on);
+    button.setAttribute("aria-pressed", String(on));
+    onVoting(on);
+    onChange();
+  };
+  button.addEventListener("click", () => {
+    const on = !document.body.classList.contains("lecture");
+    show(on);
+    // Not every browser has a full screen to give; the layout is what counts.
+    if (on) void document.documentElement.requestFullscreen?.().catch(() => undefined);
+    else if (document.fullscreenElement) void document.exitFullscreen();
+  });
+  document.addEventListener("fullscreenchange", () => { if (!document.fullscreenElement) show(false); });
+  document.addEventListener("keydown", ({ key }) => { if (key === "Escape" && document.body.classList.contains("lecture")) show(false); });
+}
+
+/** Until leaving is offered [ms]. */
+const PATIENCE = 2000;
+
+export class Waiting {
+  private readonly button = byId<HTMLButtonElement>("leave-continuous");
+  private timer = 0;
+  private isLeft = false;
+
+  constructor(leave: () => void, compute: () => void) {
+    this.button.addEventListener("click", () => {
+      if (this.isLeft) return compute();
+      leave();
+      this.isLeft = true;
+      this.offer("Compute it", "continuous model: left out");
+    });
+  }
+
+  show(busy: boolean): void {
+    clearTimeout(this.timer);
+    this.isLeft = false;
+    this.button.hidden = true;
+    say("spinner", busy ? "continuous model: computing…" : "");
+    if (busy) this.timer = window.setTimeout(() => this.offer("Leave it", "continuous model: computing takes longer, the discrete one is shown"), PATIENCE);
+  }
+
+  private offer(act: string, words: string): void {
+    say("spinner", words);
+    this.button.hidden = false;
+    this.button.textContent = act;
+  }
 }

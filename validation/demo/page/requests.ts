@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The requests that the page makes.
-import { dampingOf } from "./restitution";
-import { bodyOf, isInPlane, type Parameters } from "./parameters";
+// The requests that the page makes, and a scene as their arguments.
+import {
+  bodyOf, isInPlane, DEFAULT_PARAMETERS, setBody, dampingOf, type Parameters, type Quantity,
+} from "./parameters";
 
 export type Path = "sequence" | "angles" | "explain" | "simulate" | "compare" | "scene" | "file";
-export type Argument = string | number | boolean | number[];
+export type Argument = string | number | boolean | readonly number[];
 export interface Request {
   path: Path;
   body: { [key: string]: Argument };
@@ -108,4 +109,122 @@ function shape(parameters: Parameters): Request["body"] {
   const { shape: kind, mass, length, radius, width, thickness, isHollow, inertia } = bodyOf(parameters);
   if (kind === "box") return { body: "box", mass, size: [length, width, thickness] };
   return { body: "rod", mass, length, radius, ...(isHollow ? { inertia: inertia.join(",") } : {}) };
+}
+
+export type SceneArguments = Readonly<Record<string, Argument>>;
+
+/** The number that a text says; blank or no number: otherwise. */
+export function numberOf(text: string | null | undefined, otherwise: number): number {
+  return text == null || text.trim() === "" || !Number.isFinite(Number(text)) ? otherwise : Number(text);
+}
+
+/** Arguments that are taken one by one; what is left then has no control on the page. */
+class Given {
+  private readonly texts: Map<string, string>;
+
+  constructor(given: SceneArguments) {
+    this.texts = new Map(Object.entries(given).map(([name, value]) => [name, Array.isArray(value) ? value.join(",") : String(value)]));
+  }
+
+  has(name: string): boolean {
+    return this.texts.has(name);
+  }
+
+  take(name: string): string | undefined {
+    const text = this.texts.get(name);
+    this.texts.delete(name);
+    return text;
+  }
+
+  number(name: string, otherwise: number): number {
+    return numberOf(this.take(name), otherwise);
+  }
+
+  /** Numbers with "," or "x" between them, put in the places of these quantities. */
+  list(name: string, parameters: Parameters, places: readonly Quantity[]): boolean {
+    const text = this.take(name);
+    if (text === undefined) return false;
+    text.split(/[,x]/).forEach((part, i) => {
+      const place = places[i];
+      if (place && part !== "" && Number.isFinite(Number(part))) parameters[place] = Number(part);
+    });
+    return true;
+  }
+
+  put(name: string, text: string): void {
+    this.texts.set(name, text);
+  }
+
+  rest(): Record<string, string> {
+    return Object.fromEntries(this.texts);
+  }
+}
+
+/** Without a ground in the scene the page keeps its own, whose damping follows from the restitution. */
+export function parametersOf(given: SceneArguments): Parameters {
+  const parameters: Parameters = { ...DEFAULT_PARAMETERS };
+  const left = new Given(given);
+  takeBody(left, parameters);
+  takeAttitude(left, parameters);
+  takeMotion(left, parameters);
+  parameters.gravity = left.number("gravity", 0);
+  parameters.impacts = left.number("impacts", DEFAULT_PARAMETERS.impacts);
+  const restitutionLaw = left.take("restitution_law");
+  parameters.ofGround = restitutionLaw === "viscoelastic";
+  if (restitutionLaw !== undefined && !parameters.ofGround) left.put("restitution_law", restitutionLaw);
+  parameters.e = left.number("restitution", 1);
+  takeContact(left, parameters);
+  parameters.planar = left.take("planar") === "true";
+  parameters.extra = left.rest();
+  // The page keeps a motion in a plane only where nothing takes it out; a file may do so anywhere.
+  if (parameters.planar && !isInPlane(parameters)) parameters.extra = { ...parameters.extra, planar: "true" };
+  return parameters;
+}
+
+function takeBody(left: Given, parameters: Parameters): void {
+  setBody(parameters, left.take("body") === "box" ? "own-box" : "own-rod");
+  for (const name of ["mass", "length", "radius"] as const) parameters[name] = left.number(name, parameters[name]);
+  left.list("size", parameters, ["length", "width", "thickness"]);
+}
+
+function takeAttitude(left: Given, parameters: Parameters): void {
+  if (left.has("orientation")) parameters.turn = "orientation";
+  else if (left.has("attitude")) parameters.turn = "attitude";
+  else if (left.has("tilt")) parameters.turn = "tilted";
+  for (const name of ["angle", "tilt", "orientation"] as const) parameters[name] = left.number(name, parameters[name]);
+  left.list("attitude", parameters, ["q0", "q1", "q2", "q3"]);
+}
+
+/** A velocity to the right beside a speed is a velocity, a spin in the plane one in space. */
+function takeMotion(left: Given, parameters: Parameters): void {
+  parameters.spinning = left.list("angular_velocity", parameters, ["wx", "wy", "wz"]);
+  if (left.has("spin")) {
+    parameters.spinning = true;
+    parameters.wy = left.number("spin", 0);
+  }
+  if (left.has("height")) parameters.drop = "height";
+  parameters.height = left.number("height", parameters.height);
+  parameters.speed = left.number("speed", parameters.speed);
+  if (parameters.drop === "speed" && left.has("tangential_velocity")) {
+    parameters.drop = "velocity";
+    parameters.vx = left.number("tangential_velocity", 0);
+    parameters.vz = -parameters.speed;
+  }
+  if (left.list("velocity", parameters, ["vx", "vy", "vz"])) parameters.drop = "velocity";
+}
+
+/** One friction serves both models; where they differ the ground's stay arguments of their own. */
+function takeContact(left: Given, parameters: Parameters): void {
+  const ratio = left.take("impulse_ratio");
+  if (ratio !== undefined && Number(ratio) !== 0) left.put("impulse_ratio", ratio);
+  const given = left.take("friction");
+  parameters.friction = numberOf(given, 0);
+  if (!left.has("stiffness")) return;
+  parameters.stiffness = left.number("stiffness", DEFAULT_PARAMETERS.stiffness);
+  parameters.damping = left.number("damping", 0);
+  parameters.follow = false;
+  const names = ["static_friction", "sliding_friction"] as const;
+  const own = names.map((name) => left.number(name, 0));
+  if (given === undefined && parameters.ofGround) parameters.friction = own[1] ?? 0;
+  if (own.some((coefficient) => coefficient !== parameters.friction)) names.forEach((name, i) => left.put(name, String(own[i])));
 }

@@ -3,10 +3,9 @@
 import type { FileAnswer, SceneAnswer } from "./answers";
 import { ApiError, ask } from "./api";
 import { byId } from "./dom";
-import { copyText, download } from "./files";
 import type { Parameters } from "./parameters";
-import { fileRequest, sceneRequest } from "./requests";
-import { parametersOf } from "./scene_arguments";
+import { fileRequest, sceneRequest, parametersOf } from "./requests";
+import { copyText, download } from "./sharing";
 import { assignUnlocked, type State } from "./state";
 
 const FILE_NAME = "scene.toml";

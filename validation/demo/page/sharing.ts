@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Handing on what is shown: as a link, or as the page itself with the scene in it.
-import { byId } from "./dom";
-import { copyText, download } from "./files";
+import { byId, make } from "./dom";
 import { addressOf, type State } from "./state";
 
 /** The page as it came, before anything on it was changed. */
@@ -36,4 +35,20 @@ export function setUpSharing(state: State, sync: () => void, onAskFirst: (asks: 
     state.predict = askFirst.checked;
     onAskFirst(askFirst.checked);
   });
+}
+
+export function download(name: string, content: BlobPart, type: string): void {
+  const url = URL.createObjectURL(new Blob([content], { type }));
+  make("a", { href: url, download: name }).click();
+  setTimeout(() => URL.revokeObjectURL(url), 10_000);
+}
+
+/** Not every browser lets a page write to the clipboard. */
+export async function copyText(text: string): Promise<boolean> {
+  try {
+    await navigator.clipboard.writeText(text);
+    return true;
+  } catch {
+    return false;
+  }
 }

@@ -2,9 +2,8 @@
 // The picture and the labels over it.
 import { byId, make } from "./dom";
 import { FlatView } from "./flat_view";
-import type { Frame } from "./frame";
+import type { Frame, Projection, View } from "./frame";
 import { STRAIGHT, type Orbit } from "./orbit";
-import type { Projection, View } from "./picture";
 import type { Vector } from "./rotation";
 import { SpaceView } from "./view";
 

@@ -3,9 +3,10 @@
 // the same, wherever the file lies.
 import { BODIES, type BodyName } from "./body";
 import {
-  DEFAULT_PARAMETERS, DROPS, QUANTITIES, TURNS, isInPlane, isUsed, setBody, type Choices, type Parameters, type Quantity,
+  DEFAULT_PARAMETERS, DROPS, QUANTITIES, TURNS, isInPlane, isUsed, setBody, type Choices, type Parameters,
+  type Quantity,
 } from "./parameters";
-import { numberOf, parametersOf } from "./scene_arguments";
+import { numberOf, parametersOf } from "./requests";
 
 export const PANELS = ["story", "strip", "numbers", "profile", "table", "fan", "force", "energy", "map", "race", "measured", "explain"] as const;
 

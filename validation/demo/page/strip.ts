@@ -2,13 +2,12 @@
 // The sequence of impacts as a strip of pictures: the discrete model's above, those of the continuous one below.
 import type { Impact } from "./answers";
 import { lowestPlace } from "./body";
-import { touchRotation } from "./discrete_motion";
-import { byId, make } from "./dom";
+import { byId, make, svg } from "./dom";
 import { significant } from "./format";
 import { MODELS, type ModelName, type Motions } from "./frame";
-import type { Motion } from "./motion";
+import { touchRotation, type Motion } from "./motion";
 import type { Pairing } from "./pairing";
-import { sketch, svg } from "./sketch";
+import { sketch } from "./sketch";
 import { cornersInWords } from "./words";
 
 /** More pictures than these nobody looks at; they are as many as the page's own slider asks for. */

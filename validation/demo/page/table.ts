@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The impact table of both models, and its CSV.
 import type { Bars, Impact } from "./answers";
-import { cut, digitsLeft, withKinds } from "./digits";
 import { byId, make } from "./dom";
-import { significant } from "./format";
+import { cut, digitsLeft, withKinds, significant } from "./format";
 import { MODELS, type ModelName } from "./frame";
 import type { Impacts } from "./models";
 import { growth, type Pairing } from "./pairing";

@@ -2,9 +2,9 @@
 // Impacts in words: the line below the picture, which a screen reader reads aloud.
 import type { Impact } from "./answers";
 import { BODIES, seenAngle, type BodyName } from "./body";
+import { byId } from "./dom";
 import { significant } from "./format";
-import type { Parameters } from "./parameters";
-import { LEAST } from "./restitution";
+import { DEFAULT_PARAMETERS, LEAST, dampingOf, restitutionOf, type Parameters } from "./parameters";
 
 /** What a body is to the models, if that is not what one sees. */
 const BODY_NOTES: Readonly<Partial<Record<BodyName, string>>> = {
@@ -91,4 +91,13 @@ const OUTCOMES: Readonly<Record<string, string>> = {
 
 export function outcomeInWords(outcome: string): string {
   return OUTCOMES[outcome] ?? outcome.replace(/-/g, " ");
+}
+
+export function showNotes(parameters: Parameters): void {
+  byId("handout-drop").textContent = dropInWords({ ...parameters, e: restitutionOf(parameters) });
+  byId("body-note").textContent = bodyInWords(parameters.body);
+  // A scene that gives a stiffness gives the damping, too.
+  const isOfPage = parameters.stiffness === DEFAULT_PARAMETERS.stiffness && parameters.follow;
+  const ground = groundInWords({ ...parameters, damping: dampingOf(parameters) }, isOfPage);
+  for (const note of document.querySelectorAll(".ground-note")) note.textContent = ground;
 }
