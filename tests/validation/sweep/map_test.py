@@ -216,7 +216,7 @@ class Palette(unittest.TestCase):
             papers = [colour for told, colour in page if told == "paper"]
             for colour, paper in zip((colours * 2)[:2], papers):
                 self.assertGreaterEqual(contrast(colour, paper), 3, (of_page, colour, paper))
-        for file in ("colours.ts", "story.css", "charts.ts", "map.ts", "view.ts", "flat_view.ts"):
+        for file in ("colours.ts", "story.css", "charts.ts", "map.ts", "view.ts", "stage.ts"):
             self.assertNotRegex(text(f"validation/demo/page/{file}"), r"#[0-9a-f]{6}\b")
         look = re.search(r"PALETTE = \((.*)\)", text("notebooks-data/look.py")).group(1)
         self.assertEqual(re.findall(r"#\w{6}", look),

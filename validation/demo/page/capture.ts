@@ -12,22 +12,16 @@ const FILMS = ["video/webm;codecs=vp9", "video/webm;codecs=vp8", "video/webm", "
 const STAYS = 700;
 const STAYS_IN_GIF = 2000;
 
-/** What the film asks of the page. */
-export interface Projector {
-  /** Draws the picture now, which a canvas keeps only until the browser has shown it. */
-  redraw(): void;
-  playFromStart(): void;
-}
-
 export class Capture {
   private readonly stage = byId("stage");
   private readonly paper = document.createElement("canvas");
   /** What takes the pictures, while one of the buttons has been pressed. */
   private taking: { button: HTMLButtonElement; add(): void; end(): void } | null = null;
 
-  constructor(private readonly projector: Projector) {
+  /** @param redraw draws the picture now, which a canvas keeps only until the browser has shown it */
+  constructor(private readonly redraw: () => void, private readonly playFromStart: () => void) {
     byId("picture").addEventListener("click", () => {
-      this.projector.redraw();
+      this.redraw();
       this.paint();
       this.paper.toBlob((blob) => { if (blob) download("clatter.png", blob, "image/png"); });
     });
@@ -42,16 +36,16 @@ export class Capture {
     this.paint();
     this.taking.add();
     // A film lasts until its last picture.
-    if (ended) setTimeout(() => { this.projector.redraw(); this.paint(); requestAnimationFrame(() => this.stop()); }, STAYS);
+    if (ended) setTimeout(() => { this.redraw(); this.paint(); requestAnimationFrame(() => this.stop()); }, STAYS);
   }
 
   private toggle(kind: "film" | "gif"): void {
     if (this.taking) return this.stop();
-    this.projector.redraw();
+    this.redraw();
     this.paint();
     this.taking = { button: byId<HTMLButtonElement>(kind), ...(kind === "gif" ? this.gif() : this.film()) };
     this.label(this.taking.button, true);
-    this.projector.playFromStart();
+    this.playFromStart();
   }
 
   private gif(): { add(): void; end(): void } {

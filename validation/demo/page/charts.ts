@@ -2,13 +2,12 @@
 // The force of the ground over time, where the energy is, and how fast each point of the body moves up and down just before and just
 // after a blow: why the end that did not strike comes down twice as fast.
 import uPlot from "uplot";
-import type { SimulateAnswer } from "./answers";
+import type { SimulateAnswer } from "./api";
 import { isDisc, longHalf } from "./body";
 import { COLOURS } from "./colours";
 import { byId, make, svg } from "./dom";
 import { significant } from "./format";
-import type { ModelName } from "./frame";
-import { pointMotion, type Energies, type Motion } from "./motion";
+import { pointMotion, type Motion } from "./motion";
 import type { Vector } from "./rotation";
 
 export const FONT = "12px system-ui, sans-serif";
@@ -26,19 +25,27 @@ export function axis(label: string, size: number): uPlot.Axis {
   };
 }
 
-export function upright(plot: uPlot, x: number, colour: string, dash: number[], width = 1.5): void {
-  const { ctx, bbox } = plot;
-  const px = plot.valToPos(x, "x", true);
-  if (px < bbox.left || px > bbox.left + bbox.width) return;
+/** Draws over a chart, in one colour; lengths are those of a screen whose pixels are CSS's. */
+export function paint({ ctx }: uPlot, colour: string, width: number, draw: (ctx: CanvasRenderingContext2D) => void): void {
   ctx.save();
-  ctx.strokeStyle = colour;
+  ctx.strokeStyle = ctx.fillStyle = colour;
   ctx.lineWidth = width * devicePixelRatio;
-  ctx.setLineDash(dash.map((d) => d * devicePixelRatio));
+  ctx.setLineDash([]);
   ctx.beginPath();
-  ctx.moveTo(px, bbox.top);
-  ctx.lineTo(px, bbox.top + bbox.height);
+  draw(ctx);
   ctx.stroke();
   ctx.restore();
+}
+
+export function upright(plot: uPlot, x: number, colour: string, dash: number[], width = 1.5): void {
+  const { left, top, width: wide, height } = plot.bbox;
+  const px = plot.valToPos(x, "x", true);
+  if (px < left || px > left + wide) return;
+  paint(plot, colour, width, (ctx) => {
+    ctx.setLineDash(dash.map((d) => d * devicePixelRatio));
+    ctx.moveTo(px, top);
+    ctx.lineTo(px, top + height);
+  });
 }
 
 /** The samples of a contact are few: a monotone curve through them, as the force is one. */
@@ -117,61 +124,6 @@ export class ForceChart {
     const max = all ? (history.t[history.t.length - 1] ?? 1) * 1e3 : (impact.start + 1.35 * impact.duration) * 1e3;
     this.plot.setScale("x", { min, max });
   }
-}
-
-type Part = keyof Energies;
-const PARTS: readonly { key: Part; title: string }[] = [
-  { key: "translation", title: "Translation" }, { key: "rotation", title: "Rotation" }, { key: "potential", title: "Height" },
-  { key: "ground", title: "Ground" }, { key: "lost", title: "Lost" },
-];
-
-/** One bar a model; its parts add up to the energy at the start. */
-export class EnergyBars {
-  private readonly bars = { discrete: bar("discrete"), continuous: bar("continuous") };
-
-  constructor() {
-    const head = make("tr", {}, make("th", { scope: "col" }, "Energy [J]"), make("th", { scope: "col" }, "discrete"),
-      make("th", { scope: "col" }, "continuous"));
-    const rows = PARTS.map(({ key, title }) => make("tr", {},
-      make("th", { scope: "row" }, make("span", { class: `swatch energy-${key}` }), title),
-      this.bars.discrete.cells[key], this.bars.continuous.cells[key]));
-    const total = make("tr", { class: "total" }, make("th", { scope: "row" }, "Total"), this.bars.discrete.total, this.bars.continuous.total);
-    byId("energy-bars").append(this.bars.discrete.element, this.bars.continuous.element);
-    byId("energy-table").append(make("thead", {}, head), make("tbody", {}, ...rows, total));
-  }
-
-  show(model: ModelName, energies: Energies | null, isOver: boolean): void {
-    const { element, name, parts, cells, total } = this.bars[model];
-    element.classList.toggle("empty", energies === null);
-    element.classList.toggle("over", isOver);
-    name.textContent = isOver ? `${model}, ends here` : model;
-    const sum = energies ? PARTS.reduce((all, { key }) => all + energies[key], 0) : 0;
-    for (const { key } of PARTS) {
-      // Rounding leaves losses such as −1e-16.
-      const value = energies ? Math.max(0, energies[key]) : 0;
-      parts[key].style.flexGrow = sum > 0 ? String(value / sum) : "0";
-      cells[key].textContent = energies ? amount(value, sum) : "–";
-    }
-    total.textContent = energies ? significant(sum, 4) : "–";
-  }
-}
-
-/** To the last place of the total, so that the parts visibly add up. */
-function amount(value: number, sum: number): string {
-  const places = sum > 0 ? Math.min(9, Math.max(0, 3 - Math.floor(Math.log10(sum)))) : 3;
-  return value.toFixed(places);
-}
-
-function bar(model: ModelName): {
-  element: HTMLElement; name: HTMLElement; parts: Record<Part, HTMLElement>; cells: Record<Part, HTMLElement>; total: HTMLElement;
-} {
-  const entries = <Made>(create: (key: Part) => Made): Record<Part, Made> =>
-    Object.fromEntries(PARTS.map(({ key }) => [key, create(key)])) as Record<Part, Made>;
-  const parts = entries((key) => make("span", { class: `energy-${key}` }));
-  const cells = entries(() => make("td"));
-  const strip = make("div", { class: "strip" }, ...Object.values(parts));
-  const name = make("span", { class: "name" }, model);
-  return { element: make("div", { class: `energy-bar ${model}` }, name, strip), name, parts, cells, total: make("td") };
 }
 
 const WIDTH = 420;

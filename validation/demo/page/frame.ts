@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What the picture shows at one time: the bodies of both models, the blow, and the speeds of the ends.
-import type { Impact } from "./answers";
+import type { Impact } from "./api";
 import { extentOf, isDisc, longHalf, lowestPlace, type Body } from "./body";
 import { significant } from "./format";
 import { hasEnded, pointMotion, shownTime, type Motion, type Pose } from "./motion";

@@ -1,36 +1,33 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The page: from a change of the situation to the requests, and from their answers to the panels.
-import type { ExplainAnswer } from "./answers";
 import { ApiError, Latest } from "./api";
 import { Capture } from "./capture";
-import { EnergyBars, ForceChart, showProfile } from "./charts";
+import { ForceChart, showProfile } from "./charts";
 import { Controls } from "./controls";
-import { byId, say } from "./dom";
-import { Explanation } from "./explain";
+import { byId, make, say } from "./dom";
+import { showExplanation, type ExplainAnswer } from "./explain";
 import { FanPanel } from "./fan";
 import { MODELS, frameAt, impactAt, scalesOf, type ModelName, type Scales } from "./frame";
-import { Grab, awaitedFrame, InHand } from "./grab";
+import { InHand, awaitedFrame } from "./grab";
 import { AngleMap } from "./map";
 import { Models } from "./models";
 import { hasEnded } from "./motion";
-import { momentAt, Numbers } from "./numbers";
+import { momentAt, showEnergies, showNumbers } from "./numbers";
 import { OrbitControl } from "./orbit";
 import { setUpLecture, Tabs, hidePanels, setUpLayout, setUpOpening, setUpPrinting, Waiting } from "./panels";
 import { isInPlane, isThinRod, firstSpeed, restitutionOf } from "./parameters";
 import { showPatch } from "./patch";
-import { Player, TimeWarp } from "./playback";
+import { Player, TimeWarp, Transport } from "./playback";
 import { Prediction } from "./prediction";
-import { setUpTracks } from "./tracks";
 import { explainRequest, gravityNumber } from "./requests";
-import { SceneFile } from "./scene_file";
-import { download, setUpSharing } from "./sharing";
+import { SceneFile, download, setUpSharing } from "./sharing";
+import { Strip } from "./sketch";
 import { Sound } from "./sound";
 import { Stage } from "./stage";
 import { readAddress, usualLayout, writeAddress, type State } from "./state";
 import { Story } from "./story";
-import { Strip } from "./strip";
 import { ImpactTable, csvOf } from "./table";
-import { Transport } from "./transport";
+import { setUpTracks } from "./tracks";
 import { showNotes, impactInWords, outcomeInWords } from "./words";
 
 /** After a change, until the equations are asked for, and until the drop is played [ms]. */
@@ -52,10 +49,7 @@ class Page {
   private readonly orbit = new OrbitControl(byId("stage"), () => this.draw());
   private readonly traces = byId<HTMLInputElement>("traces");
   private readonly speeds = byId<HTMLInputElement>("speeds");
-  private readonly numbers = new Numbers();
-  private readonly energy = new EnergyBars();
   private readonly force = new ForceChart();
-  private readonly explanation = new Explanation();
   private readonly table = new ImpactTable((model, n) => this.goToImpact(model, n));
   private readonly fan = new FanPanel(this.state, () => { this.draw(); this.remember(); });
   private readonly strip = new Strip((model, n) => this.goToImpact(model, n));
@@ -70,7 +64,7 @@ class Page {
   private readonly player = new Player(new TimeWarp(0, 1), (_time, ended) => this.onTime(ended));
   private readonly controls = new Controls(this.state, () => this.update(), () => this.playSoon());
   private readonly prediction = new Prediction(() => this.onPredicted());
-  private readonly transport = new Transport({
+  private readonly transport = new Transport(this.state, {
     toggle: () => this.toggle(),
     step: (direction) => this.goTo(this.state.impact + direction, direction),
     scrub: (progress) => this.scrub(progress),
@@ -79,8 +73,7 @@ class Page {
     setSlow: (slow) => { this.state.slow = slow; this.rewarp(); this.remember(); },
   });
 
-  private readonly hand = new InHand(this.state, {
-    stage: this.stage,
+  private readonly hand = new InHand(this.state, this.stage, this.orbit, {
     motion: () => this.models.motions.discrete,
     time: () => (this.prediction.isOpen ? this.models.motions.discrete?.begin ?? 0 : this.player.time),
     onHold: () => {
@@ -98,10 +91,7 @@ class Page {
 
   private readonly waiting = new Waiting(() => this.models.leaveContinuous(), () => this.models.askContinuous(this.state.parameters));
 
-  private readonly capture = new Capture({
-    redraw: () => this.stage.redraw(),
-    playFromStart: () => { if (!this.prediction.isOpen) this.playAnew(); },
-  });
+  private readonly capture = new Capture(() => this.stage.redraw(), () => { if (!this.prediction.isOpen) this.playAnew(); });
 
   private readonly story = new Story(this.state, {
     onEnter: () => {
@@ -123,25 +113,18 @@ class Page {
     onBusy: (busy) => this.waiting.show(busy),
   });
   private readonly explaining = new Latest<ExplainAnswer, null>(
-    EXPLAIN_DELAY, (answer) => this.explanation.show(answer), (error) => this.explanation.say(error.message));
+    EXPLAIN_DELAY, showExplanation, ({ message }) => byId("explain-steps").replaceChildren(make("p", { class: "quiet" }, message)));
 
   constructor() {
     const { state } = this;
     hidePanels(state);
     setUpOpening();
     this.player.rate = state.rate;
-    this.transport.setSettings(state.rate, state.slow, state.lock);
     this.showLayout = setUpLayout(state, () => this.onTime());
     new SceneFile(state, () => this.showAnew());
     setUpSharing(state, () => { state.time = this.player.time; }, (asks) => { if (asks) this.prediction.open(); });
     byId("csv").addEventListener("click", () => download("impacts.csv", csvOf(this.models.impacts), "text/csv"));
     if (state.predict) this.prediction.open();
-    new Grab(byId("stage"), {
-      body: () => this.hand.body(),
-      project: (place) => this.stage.project(place),
-      hold: (held) => this.hand.hold(held),
-      letGo: (held) => this.hand.letGo(held),
-    }, this.orbit);
     for (const box of [this.traces, this.speeds]) box.addEventListener("change", () => this.draw());
     setUpPrinting(() => [state.impact, this.player.time], (n, time) => this.put(n, time));
     setUpLecture((on) => this.prediction.setVoting(on), () => this.onTime());
@@ -194,9 +177,7 @@ class Page {
     this.table.show(models.impacts, models.pairing, this.state.impact);
     this.strip.show(models.motions, models.pairing, this.state.impact);
     byId("outcome").textContent = models.discrete ? outcomeInWords(models.discrete.outcome) : "";
-    this.force.show(models.continuous, models.motions.discrete, this.state.impact);
-    showProfile(this.models.motions.discrete, this.state.impact);
-    this.explain();
+    this.showChosen();
     if (!this.player.playing) {
       // While a slider moves the picture stays with the chosen impact, whenever that is now.
       const impact = this.followsImpact || Number.isNaN(this.state.time) ? this.models.steps[this.state.impact - 1] : undefined;
@@ -266,10 +247,10 @@ class Page {
     this.stage.draw(frame, this.orbit.orbit);
     const { motions } = this.models;
     const moment = momentAt(motions, this.models.pairing, time);
-    this.numbers.show(motions, moment);
+    showNumbers(motions, moment);
     for (const model of MODELS) {
       const [motion, own] = [motions[model], moment.times[model]];
-      this.energy.show(model, motion && own !== null ? motion.energies(own) : null, motion !== null && hasEnded(motion, time));
+      showEnergies(model, motion && own !== null ? motion.energies(own) : null, motion !== null && hasEnded(motion, time));
     }
     this.force.setTime(time, motions.continuous?.end ?? Infinity);
     showPatch(this.models.motions.continuous, this.models.continuous?.history ?? null, time);
@@ -280,9 +261,7 @@ class Page {
     this.state.impact = n;
     this.table.choose(n);
     this.strip.choose(n);
-    this.force.show(this.models.continuous, this.models.motions.discrete, n);
-    showProfile(this.models.motions.discrete, this.state.impact);
-    this.explain();
+    this.showChosen();
   }
 
   /** To an impact; one step back from between two impacts is to the one before. */
@@ -373,11 +352,14 @@ class Page {
     this.playSoon();
   }
 
-  private explain(): void {
+  /** What panels say of the chosen impact alone. */
+  private showChosen(): void {
+    const { models: { continuous, motions }, state: { impact } } = this;
+    this.force.show(continuous, motions.discrete, impact);
+    showProfile(motions.discrete, impact);
     if (this.state.hide.includes("explain") || !this.models.discrete) return;
-    const { parameters, impact } = this.state;
     byId("explain-title").textContent = `How impact ${impact} came about`;
-    this.explaining.ask(explainRequest(parameters, impact), null);
+    this.explaining.ask(explainRequest(this.state.parameters, impact), null);
   }
 
   private remember(): void {

@@ -1,13 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The map of contact angles: β and γ, at which the thin rod strikes again, over the first angle θ.
 import uPlot from "uplot";
-import type { AngleRow, AnglesAnswer } from "./answers";
 import { ask } from "./api";
-import { FONT, axis, chartSize, upright } from "./charts";
+import { FONT, axis, chartSize, paint, upright } from "./charts";
 import { COLOURS } from "./colours";
 import { byId } from "./dom";
 import { fixed } from "./format";
 import { anglesRequest, keyOf } from "./requests";
+
+interface AngleRow {
+  theta_deg: number;
+  beta_deg: number | null;
+  gamma_deg: number | null;
+}
 
 type Curve = "beta_deg" | "gamma_deg";
 /** Where a curve ends or begins again. */
@@ -51,13 +56,13 @@ export class AngleMap {
     if (key !== this.shown) return;
     const isNewest = (): boolean => key === this.shown;
     try {
-      let { rows } = await ask<AnglesAnswer>(request);
+      let { rows } = await ask<{ rows: AngleRow[] }>(request);
       if (!isNewest()) return;
       this.draw(rows);
       const coarse = (): Fold | undefined => foldsOf(rows).find(({ resolution }) => resolution > RESOLVED);
       for (let fold = coarse(); fold; fold = coarse()) {
         const closer = anglesRequest(gravity, e, fold.theta, fold.theta + fold.resolution, REFINED);
-        const answer = await ask<AnglesAnswer>(closer);
+        const answer = await ask<{ rows: AngleRow[] }>(closer);
         if (!isNewest()) return;
         rows = merge(rows, answer.rows);
       }
@@ -159,26 +164,18 @@ function valueAt(rows: AngleRow[], curve: Curve, theta: number): number | null {
 }
 
 function dot(plot: uPlot, x: number, y: number, colour: string, filled: boolean): void {
-  const { ctx } = plot;
-  ctx.save();
-  ctx.beginPath();
-  ctx.arc(plot.valToPos(x, "x", true), plot.valToPos(y, "y", true), 5 * devicePixelRatio, 0, 2 * Math.PI);
-  ctx.fillStyle = filled ? colour : COLOURS.paper;
-  ctx.strokeStyle = colour;
-  ctx.lineWidth = 2 * devicePixelRatio;
-  ctx.setLineDash([]);
-  ctx.fill();
-  ctx.stroke();
-  ctx.restore();
+  paint(plot, colour, 2, (ctx) => {
+    ctx.arc(plot.valToPos(x, "x", true), plot.valToPos(y, "y", true), 5 * devicePixelRatio, 0, 2 * Math.PI);
+    if (!filled) ctx.fillStyle = COLOURS.paper;
+    ctx.fill();
+  });
 }
 
 function write(plot: uPlot, x: number, y: number, text: string): void {
-  const { ctx } = plot;
-  ctx.save();
-  ctx.font = FONT.replace("12px", `${12 * devicePixelRatio}px`);
-  ctx.fillStyle = COLOURS.ink;
-  ctx.textBaseline = "middle";
-  ctx.textAlign = "left";
-  ctx.fillText(text, plot.valToPos(x, "x", true) + 10 * devicePixelRatio, plot.valToPos(y, "y", true));
-  ctx.restore();
+  paint(plot, COLOURS.ink, 1, (ctx) => {
+    ctx.font = FONT.replace("12px", `${12 * devicePixelRatio}px`);
+    ctx.textBaseline = "middle";
+    ctx.textAlign = "left";
+    ctx.fillText(text, plot.valToPos(x, "x", true) + 10 * devicePixelRatio, plot.valToPos(y, "y", true));
+  });
 }

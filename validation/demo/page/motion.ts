@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Where the body of either model is at a time, and where its energy is: of the discrete one between its impacts, of the continuous one
 // between the samples of its time history, every step of a contact and some 20 of a flight.
-import type { Impact, History } from "./answers";
+import type { Impact, History } from "./api";
 import { centreHeight, extentOf, type Body } from "./body";
 import {
   FreeRotation, cross, inclinationOf, plus, product, rotate, rotateBack, turnAbout, planeRotation, slerp,
@@ -50,12 +50,7 @@ export function hasEnded({ end }: Motion, time: number): boolean {
   return time > end + 1e-12;
 }
 
-/** Where the middle of an end is, and how fast it moves. */
-export function endMotion(body: Body, pose: Pose, end: "a" | "b"): { place: Vector; velocity: Vector } {
-  return pointMotion(body, pose, [end === "a" ? -body.length / 2 : body.length / 2, 0, 0]);
-}
-
-/** Of a point of the body, given from its geometric centre in axes of the body. */
+/** Where a point of the body is, and how fast it moves, given from its geometric centre in axes of the body. */
 export function pointMotion(body: Body, pose: Pose, point: Vector): { place: Vector; velocity: Vector } {
   const from = rotate(pose.rotation, plus(point, body.centre, -1));
   return { place: plus(pose.centre, from), velocity: plus(pose.velocity, cross(pose.spin, from)) };

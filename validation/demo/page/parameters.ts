@@ -138,23 +138,27 @@ function turnedDown([x, y, z]: Vector, { length, width, thickness }: Body): Rota
 export const LEAST = 0.05;
 
 /**
- * The exact relation for one frictionless contact whose depth is one number:
- *     s = (c_G/k_G) v,   ln[(1 + s)/(1 − s e)] = s (1 + e).
+ * Of the exact relation for one frictionless contact whose depth is one number, s = (c_G/k_G) v:
+ *     ln[(1 + s)/(1 − s e)] − s (1 + e) = 0,   negative below the root of s and of e, positive or no number beyond it.
  */
+const residual = (s: number, e: number): number => Math.log1p(s) - Math.log1p(-s * e) - s * (1 + e);
+
+/** Where a function stops being negative, by halves. */
+function rootOf(f: (x: number) => number, low: number, high: number): number {
+  for (let i = 0; i < 100; i++) {
+    const middle = (low + high) / 2;
+    if (f(middle) < 0) low = middle;
+    else high = middle;
+  }
+  return low;
+}
+
 function dampingFor(e: number, stiffness: number, speed: number): number {
   if (!(e < 1) || !(speed > 0)) return 0;
   // The relation has its root below 1/e; at e = 0 damping would have to be infinite.
   const wanted = Math.max(e, LEAST);
-  let low = 1e-9;
-  let high = (1 - 1e-12) / wanted;
-  for (let i = 0; i < 100; i++) {
-    const s = (low + high) / 2;
-    const residual = Math.log1p(s) - Math.log1p(-s * wanted) - s * (1 + wanted);
-    // Negative between 0 and the root, positive beyond it.
-    if (residual < 0) low = s;
-    else high = s;
-  }
-  return Number(((low * stiffness) / speed).toPrecision(4));
+  const s = rootOf((guess) => residual(guess, wanted), 1e-9, (1 - 1e-12) / wanted);
+  return Number(((s * stiffness) / speed).toPrecision(4));
 }
 
 /** Downward speed of the centre of mass at the first touch [m/s]; 0 if the body is not released above that. */
@@ -169,16 +173,7 @@ export function firstSpeed(parameters: Parameters): number {
 /** The coefficient of restitution that damping gives at a speed, to the digits that a control shows. */
 function restitutionFor(damping: number, stiffness: number, speed: number): number {
   const s = (damping / stiffness) * speed;
-  if (!(s > 0)) return 1;
-  let low = 0;
-  let high = Math.min(1, 1 / s);
-  for (let i = 0; i < 60; i++) {
-    const e = (low + high) / 2;
-    // Negative below the root; no number, which counts as above, where s e reaches 1.
-    if (Math.log1p(s) - Math.log1p(-s * e) - s * (1 + e) < 0) low = e;
-    else high = e;
-  }
-  return Number(low.toPrecision(3));
+  return s > 0 ? Number(rootOf((e) => residual(s, e), 0, Math.min(1, 1 / s)).toPrecision(3)) : 1;
 }
 
 /** The coefficient of restitution of the first impact: as given, or as the ground gives it. */

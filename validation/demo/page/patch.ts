@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The contact patch: the outline in which a body that presses into the ground cuts through the ground's level; its panel beside the
 // force that acts on it.
-import type { History } from "./answers";
+import type { History } from "./api";
 import { cornersOf, middleOf, type Body } from "./body";
 import { byId, svg } from "./dom";
 import { significant } from "./format";

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Before the first answer: what does the reader expect? A guess that is tested teaches more than a table that is read.
-import type { Impact } from "./answers";
+import type { Impact } from "./api";
 import { byId } from "./dom";
 import { significant } from "./format";
 import { comparison } from "./words";

@@ -119,20 +119,10 @@ export function numberOf(text: string | null | undefined, otherwise: number): nu
 }
 
 /** Arguments that are taken one by one; what is left then has no control on the page. */
-class Given {
-  private readonly texts: Map<string, string>;
-
-  constructor(given: SceneArguments) {
-    this.texts = new Map(Object.entries(given).map(([name, value]) => [name, Array.isArray(value) ? value.join(",") : String(value)]));
-  }
-
-  has(name: string): boolean {
-    return this.texts.has(name);
-  }
-
+class Given extends Map<string, string> {
   take(name: string): string | undefined {
-    const text = this.texts.get(name);
-    this.texts.delete(name);
+    const text = this.get(name);
+    this.delete(name);
     return text;
   }
 
@@ -143,27 +133,19 @@ class Given {
   /** Numbers with "," or "x" between them, put in the places of these quantities. */
   list(name: string, parameters: Parameters, places: readonly Quantity[]): boolean {
     const text = this.take(name);
-    if (text === undefined) return false;
-    text.split(/[,x]/).forEach((part, i) => {
+    text?.split(/[,x]/).forEach((part, i) => {
       const place = places[i];
-      if (place && part !== "" && Number.isFinite(Number(part))) parameters[place] = Number(part);
+      if (place) parameters[place] = numberOf(part, parameters[place]);
     });
-    return true;
-  }
-
-  put(name: string, text: string): void {
-    this.texts.set(name, text);
-  }
-
-  rest(): Record<string, string> {
-    return Object.fromEntries(this.texts);
+    return text !== undefined;
   }
 }
 
 /** Without a ground in the scene the page keeps its own, whose damping follows from the restitution. */
 export function parametersOf(given: SceneArguments): Parameters {
   const parameters: Parameters = { ...DEFAULT_PARAMETERS };
-  const left = new Given(given);
+  const texts = Object.entries(given).map(([name, value]) => [name, Array.isArray(value) ? value.join(",") : String(value)] as const);
+  const left = new Given(texts);
   takeBody(left, parameters);
   takeAttitude(left, parameters);
   takeMotion(left, parameters);
@@ -171,11 +153,11 @@ export function parametersOf(given: SceneArguments): Parameters {
   parameters.impacts = left.number("impacts", DEFAULT_PARAMETERS.impacts);
   const restitutionLaw = left.take("restitution_law");
   parameters.ofGround = restitutionLaw === "viscoelastic";
-  if (restitutionLaw !== undefined && !parameters.ofGround) left.put("restitution_law", restitutionLaw);
+  if (restitutionLaw !== undefined && !parameters.ofGround) left.set("restitution_law", restitutionLaw);
   parameters.e = left.number("restitution", 1);
   takeContact(left, parameters);
   parameters.planar = left.take("planar") === "true";
-  parameters.extra = left.rest();
+  parameters.extra = Object.fromEntries(left);
   // The page keeps a motion in a plane only where nothing takes it out; a file may do so anywhere.
   if (parameters.planar && !isInPlane(parameters)) parameters.extra = { ...parameters.extra, planar: "true" };
   return parameters;
@@ -216,7 +198,7 @@ function takeMotion(left: Given, parameters: Parameters): void {
 /** One friction serves both models; where they differ the ground's stay arguments of their own. */
 function takeContact(left: Given, parameters: Parameters): void {
   const ratio = left.take("impulse_ratio");
-  if (ratio !== undefined && Number(ratio) !== 0) left.put("impulse_ratio", ratio);
+  if (ratio !== undefined && Number(ratio) !== 0) left.set("impulse_ratio", ratio);
   const given = left.take("friction");
   parameters.friction = numberOf(given, 0);
   if (!left.has("stiffness")) return;
@@ -226,5 +208,5 @@ function takeContact(left: Given, parameters: Parameters): void {
   const names = ["static_friction", "sliding_friction"] as const;
   const own = names.map((name) => left.number(name, 0));
   if (given === undefined && parameters.ofGround) parameters.friction = own[1] ?? 0;
-  if (own.some((coefficient) => coefficient !== parameters.friction)) names.forEach((name, i) => left.put(name, String(own[i])));
+  if (own.some((coefficient) => coefficient !== parameters.friction)) names.forEach((name, i) => left.set(name, String(own[i])));
 }

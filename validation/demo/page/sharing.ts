@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Handing on what is shown: as a link, or as the page itself with the scene in it.
+import { ApiError, ask } from "./api";
 import { byId, make } from "./dom";
-import { addressOf, type State } from "./state";
+import type { Parameters } from "./parameters";
+import { fileRequest, parametersOf, sceneRequest, type SceneArguments } from "./requests";
+import { addressOf, assignUnlocked, type State } from "./state";
 
 /** The page as it came, before anything on it was changed. */
 const source = document.documentElement.outerHTML;
@@ -50,5 +53,86 @@ export async function copyText(text: string): Promise<boolean> {
     return true;
   } catch {
     return false;
+  }
+}
+
+const FILE_NAME = "scene.toml";
+
+export class SceneFile {
+  private readonly said = byId("file-said");
+  private readonly error = byId("file-error");
+  /** Of several that are opened in a row the last one counts. */
+  private opened = 0;
+
+  constructor(private readonly state: State, private readonly onOpen: () => void) {
+    const locked = state.lock.includes("scene") || state.lock.includes("file");
+    const input = byId<HTMLInputElement>("scene-file");
+    input.disabled = locked;
+    byId("open").classList.toggle("disabled", locked);
+    byId("download-scene").addEventListener("click", () => void this.give(async (text) => {
+      download(FILE_NAME, text, "application/toml");
+      return `Downloaded as ${FILE_NAME}`;
+    }));
+    byId("copy-scene").addEventListener("click", () => void this.give(async (text) =>
+      (await copyText(text)) ? "Scene copied" : "The browser does not let the page copy; download it"));
+    if (locked) return;
+    const openFirst = (files: FileList | null | undefined): boolean => {
+      const file = files?.[0];
+      if (file) void file.text().then((text) => this.open(file.name, text));
+      return file !== undefined;
+    };
+    input.addEventListener("change", () => {
+      openFirst(input.files);
+      input.value = "";
+    });
+    const show = (dropping: boolean): void => { document.body.classList.toggle("dropping", dropping); };
+    document.addEventListener("dragover", (event) => { event.preventDefault(); show(true); });
+    document.addEventListener("dragleave", (event) => { if (!event.relatedTarget) show(false); });
+    document.addEventListener("drop", (event) => {
+      event.preventDefault();
+      show(false);
+      const text = event.dataTransfer?.getData("text/plain") ?? "";
+      if (!openFirst(event.dataTransfer?.files) && text.trim()) void this.open("dropped text", text);
+    });
+    // Into a field a text is pasted as everywhere.
+    document.addEventListener("paste", (event) => {
+      const text = event.clipboardData?.getData("text/plain") ?? "";
+      if (/^(INPUT|TEXTAREA|SELECT)$/.test((event.target as HTMLElement).tagName) || !text.trim()) return;
+      event.preventDefault();
+      void this.open("pasted text", text);
+    });
+  }
+
+  private async open(name: string, text: string): Promise<void> {
+    const turn = ++this.opened;
+    await this.attempt(async () => {
+      const answer = await ask<{ arguments: SceneArguments; notes: string[] }>(sceneRequest(name, text));
+      if (turn !== this.opened) return "";
+      const kept = assignUnlocked(this.state, parametersOf(answer.arguments));
+      this.onOpen();
+      const locked = kept.length ? [`locked, and kept: ${kept.join(", ")}`] : [];
+      return [`Opened ${name}`, ...answer.notes, ...locked].join("; ");
+    });
+  }
+
+  private async give(hand: (text: string) => Promise<string>): Promise<void> {
+    const situation: Parameters = { ...this.state.parameters };
+    await this.attempt(async () => hand((await ask<{ file: string }>(fileRequest(situation))).file));
+  }
+
+  /** Says what was done, or in one line what was wrong. */
+  private async attempt(act: () => Promise<string>): Promise<void> {
+    let done = "";
+    let wrong = "";
+    try {
+      done = await act();
+    } catch (error) {
+      if (!(error instanceof ApiError)) throw error;
+      wrong = error.message;
+    }
+    this.said.textContent = done;
+    this.error.textContent = wrong;
+    this.error.hidden = wrong === "";
+    if (wrong) this.error.scrollIntoView({ block: "center" });
   }
 }

@@ -1,9 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A small picture of a body at a touch, drawn in lines: parallel projection, seen from the right, the front and above.
-import { middleOf, THINNEST, type Body } from "./body";
-import { svg } from "./dom";
-import type { ModelName } from "./frame";
+import type { Impact } from "./api";
+import { middleOf, THINNEST, lowestPlace, type Body } from "./body";
+import { svg, byId, make } from "./dom";
+import { significant } from "./format";
+import { MODELS, type ModelName, type Motions } from "./frame";
+import type { Pairing } from "./models";
+import { touchRotation, type Motion } from "./motion";
 import { plus, cross, rotate, type Rotation, type Vector } from "./rotation";
+import { cornersInWords } from "./words";
 
 const AZIMUTH = -0.45; // of the eye around the picture [rad]
 const ELEVATION = 0.3;
@@ -119,4 +124,53 @@ function rodOutline(body: Body, rotation: Rotation, look: Vector): Vector[] {
 
 function dot(a: Vector, b: Vector): number {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+/** More pictures than these nobody looks at; they are as many as the page's own slider asks for. */
+const MOST = 20;
+
+export class Strip {
+  private readonly rows = byId("strip-rows");
+
+  constructor(private readonly onChoose: (model: ModelName, n: number) => void) {}
+
+  show(motions: Motions, pairing: Pairing | null, chosen: number): void {
+    const focused = (document.activeElement as HTMLElement | null)?.dataset["strip"];
+    this.rows.replaceChildren(...MODELS.flatMap((model) => {
+      const motion = motions[model];
+      if (!motion) return [];
+      const cards = motion.impacts.slice(0, MOST).map((impact) => make("li", {}, this.card(model, motion, impact, pairing)));
+      const rest = motion.impacts.length - MOST;
+      if (rest > 0) cards.push(make("li", { class: "rest" }, `and ${rest} more in the table`));
+      return [make("li", {}, make("p", { class: "name" }, make("span", { class: `swatch ${model}` }), `${model} model`),
+        make("ol", { class: "cards" }, ...cards))];
+    }));
+    this.choose(chosen);
+    if (focused) this.rows.querySelector<HTMLElement>(`[data-strip="${focused}"]`)?.focus();
+  }
+
+  choose(chosen: number): void {
+    for (const card of this.rows.querySelectorAll<HTMLElement>("button[data-strip]")) {
+      const isChosen = card.dataset["strip"] === `discrete-${chosen}`;
+      card.setAttribute("aria-pressed", String(isChosen));
+    }
+  }
+
+  private card(model: ModelName, motion: Motion, impact: Impact, pairing: Pairing | null): HTMLElement {
+    const { n } = impact;
+    const rotation = model === "discrete" ? touchRotation(impact) : motion.pose(impact.start).rotation;
+    const strongest = Math.max(...motion.impacts.map(({ impulse }) => Math.hypot(...impulse)));
+    const isUnknown = impact.predictable === false;
+    const isAlone = pairing !== null && n > pairing.count;
+    const where = impact.corners ? cornersInWords(impact.corners) : `end ${impact.end}`;
+    const force = isUnknown ? "unpredictable" : `${significant(impact.impulse_normal, 3)} N·s`;
+    const alone = isAlone ? ", not the same blow in both models" : "";
+    const button = make("button", {
+      type: "button", "data-strip": `${model}-${n}`, class: [isUnknown ? "unpredictable" : "", isAlone ? "alone" : ""].join(" ").trim(),
+    }, make("b", {}, `${n}${isUnknown ? "?" : ""}`), make("span", {}, force),
+    make("span", { class: "spoken" }, ` impact of the ${model} model, ${where}${alone}`));
+    button.append(sketch({ model, body: motion.body, rotation, struck: lowestPlace(motion.body, rotation), impulse: impact.impulse, strongest }));
+    button.addEventListener("click", () => this.onChoose(model, n));
+    return button;
+  }
 }

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The picture and the labels over it.
+import { middleOf, type Body } from "./body";
+import { COLOURS } from "./colours";
 import { byId, make } from "./dom";
-import { FlatView } from "./flat_view";
-import type { Frame, Projection, View } from "./frame";
+import { MODELS, type Frame, type Projection, type View, type Arrow, type ModelName } from "./frame";
+import type { Pose } from "./motion";
 import { STRAIGHT, type Orbit } from "./orbit";
-import type { Vector } from "./rotation";
+import { plus, type Vector } from "./rotation";
+import { facesOf } from "./sketch";
 import { SpaceView } from "./view";
 
 export class Stage {
@@ -65,5 +68,107 @@ export class Stage {
     if (width === 0 || height === 0) return;
     this.view.resize(width, height);
     if (this.frame) this.draw(this.frame);
+  }
+}
+
+/** Of the eye. */
+const LOOK: Vector = [0, 1, 0];
+const NOTHING = { left: -0.5, right: 0.5, top: 0.5 };
+
+export class FlatView implements View {
+  private readonly context: CanvasRenderingContext2D;
+  private size = { width: 1, height: 1 };
+  private frame: Frame | null = null;
+
+  constructor(private readonly canvas: HTMLCanvasElement) {
+    const context = canvas.getContext("2d");
+    if (!context) throw new Error("the browser can draw neither in space nor in the plane");
+    this.context = context;
+  }
+
+  resize(width: number, height: number): void {
+    this.size = { width, height };
+    const ratio = Math.min(2, devicePixelRatio);
+    this.canvas.width = Math.round(width * ratio);
+    this.canvas.height = Math.round(height * ratio);
+    this.context.setTransform(ratio, 0, 0, ratio, 0, 0);
+  }
+
+  draw(frame: Frame): void {
+    const { context } = this;
+    this.frame = frame;
+    context.clearRect(0, 0, this.size.width, this.size.height);
+    for (const model of frame.side ? MODELS : MODELS.slice(0, 1)) this.ground(model, frame.side);
+    for (const { model, body, pose, tone } of frame.ghosts) this.figure(model, body, pose, frame.side, tone ?? "blow");
+    for (const { model, body, pose, isOver } of frame.figures) this.figure(model, body, pose, frame.side, isOver ? "over" : null);
+    if (frame.patch) this.patch(frame.patch.outline, frame.side);
+    for (const arrow of frame.arrows) this.arrow(arrow, frame.side);
+  }
+
+  project(model: ModelName, [x, , z]: Vector, side: boolean): Projection {
+    const { left, right, top } = this.frame?.bounds[model] ?? NOTHING;
+    const width = side ? this.size.width / 2 : this.size.width;
+    const scale = Math.min((0.86 * width) / (right - left), (0.72 * this.size.height) / top);
+    const offset = side && model === "continuous" ? width : 0;
+    return { x: offset + width / 2 + (x - (left + right) / 2) * scale, y: this.size.height * 0.86 - z * scale };
+  }
+
+  private ground(model: ModelName, side: boolean): void {
+    const { context } = this;
+    const { y } = this.project(model, [0, 0, 0], side);
+    const width = side ? this.size.width / 2 : this.size.width;
+    const left = side && model === "continuous" ? width : 0;
+    context.fillStyle = COLOURS.grid;
+    context.fillRect(left + 8, y, width - 16, 6);
+    context.fillStyle = COLOURS.quiet;
+    context.fillRect(left + 8, y, width - 16, 1);
+  }
+
+  /** From the side, a line on the ground. */
+  private patch(outline: Vector[], side: boolean): void {
+    const places = outline.map((point) => this.project("continuous", point, side));
+    const left = Math.min(...places.map(({ x }) => x));
+    this.context.fillStyle = COLOURS.continuous;
+    this.context.fillRect(left, places[0]?.y ?? 0, Math.max(...places.map(({ x }) => x)) - left, 5);
+  }
+
+  private figure(model: ModelName, body: Body, pose: Pose, side: boolean, ghost: "blow" | "fan" | "aside" | "over" | null = null): void {
+    const { context } = this;
+    const middle = middleOf(body, pose.centre, pose.rotation);
+    for (const face of facesOf(body, pose.rotation, LOOK)) {
+      context.beginPath();
+      for (const point of face) {
+        const { x, y } = this.project(model, plus(middle, point), side);
+        context.lineTo(x, y);
+      }
+      context.closePath();
+      context.lineWidth = model === "discrete" ? 1 : 2;
+      context.fillStyle = COLOURS.discrete;
+      context.strokeStyle = ghost === "aside" ? COLOURS.quiet : model === "discrete" ? COLOURS.blow.discrete : COLOURS.continuous;
+      context.globalAlpha = ghost ? 0.35 : 1;
+      if (model === "discrete" && !ghost) context.fill();
+      context.stroke();
+      context.globalAlpha = 1;
+    }
+  }
+
+  private arrow({ model, kind, from, vector }: Arrow, side: boolean): void {
+    const start = this.project(model, from, side);
+    const tip = this.project(model, [from[0] + vector[0], 0, from[2] + vector[2]], side);
+    const length = Math.hypot(tip.x - start.x, tip.y - start.y);
+    if (length < 6) return;
+    const { context } = this;
+    const head = Math.min(10, 0.6 * length);
+    const angle = Math.atan2(tip.y - start.y, tip.x - start.x);
+    context.strokeStyle = context.fillStyle = kind === "speed" ? COLOURS.speed : COLOURS.blow[model];
+    context.lineWidth = kind === "blow" ? 4 : 2;
+    context.beginPath();
+    context.moveTo(start.x, start.y);
+    context.lineTo(tip.x - head * Math.cos(angle), tip.y - head * Math.sin(angle));
+    context.stroke();
+    context.beginPath();
+    context.moveTo(tip.x, tip.y);
+    for (const turn of [-0.4, 0.4]) context.lineTo(tip.x - head * 1.1 * Math.cos(angle + turn), tip.y - head * 1.1 * Math.sin(angle + turn));
+    context.fill();
   }
 }

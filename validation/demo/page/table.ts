@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The impact table of both models, and its CSV.
-import type { Bars, Impact } from "./answers";
+import type { Bars, Impact } from "./api";
 import { byId, make } from "./dom";
 import { cut, digitsLeft, withKinds, significant } from "./format";
 import { MODELS, type ModelName } from "./frame";
-import type { Impacts } from "./models";
-import { growth, type Pairing } from "./pairing";
+import { growth, type Impacts, type Pairing } from "./models";
 import { CONTINUOUS_DIGITS } from "./requests";
 
 interface Column {

@@ -2,8 +2,7 @@
 // Recorded motions, each over what the discrete model says of the same drop: a race of engines, as the league of this project recorded
 // it, and squares and cubes that cameras tracked, with a law that was fitted on other drops. Small pictures that a slider moves through
 // time, by hand or by itself.
-import type { SequenceAnswer } from "./answers";
-import { ask } from "./api";
+import { ask, type SequenceAnswer } from "./api";
 import { BODIES, uniformBody, type Body } from "./body";
 import cubes from "./cubes.json";
 import { byId, make, svg } from "./dom";

@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The picture in space, drawn by the graphics card.
 import {
-  AmbientLight, BufferGeometry, Color, DirectionalLight, DoubleSide, Float32BufferAttribute, Group,
-  LineBasicMaterial, LineSegments, Material, Mesh, MeshBasicMaterial, PerspectiveCamera, Scene, Vector3,
-  WebGLRenderer, ConeGeometry, CylinderGeometry, Quaternion,
+  AmbientLight, BufferGeometry, Color, ConeGeometry, CylinderGeometry, DirectionalLight, DoubleSide, Float32BufferAttribute, Group,
+  LineBasicMaterial, LineSegments, Material, Mesh, MeshBasicMaterial, PerspectiveCamera, Quaternion, Scene, Vector3, WebGLRenderer,
+  type Object3D,
 } from "three";
 import { extentOf, middleOf, type Body } from "./body";
 import { COLOURS } from "./colours";
-import {
-  MODELS, type Arc, type Arrow, type Bounds, type Frame, type ModelName, type Projection, type View,
-} from "./frame";
+import { MODELS, type Arc, type Arrow, type Bounds, type Frame, type ModelName, type Projection, type View } from "./frame";
+import type { Pose } from "./motion";
 import { STRAIGHT, type Orbit } from "./orbit";
 import type { Vector } from "./rotation";
 import { figureOf, geometryOf, silhouetteOf } from "./shapes";
@@ -149,14 +148,7 @@ export class SpaceView implements View {
     figure.group.traverse((part) => {
       if (part instanceof Mesh) Object.assign(part.material as Material, { transparent: isOver || model === "continuous", opacity: isOver ? PALE : 1 });
     });
-    const [w, x, y, z] = pose.rotation;
-    const middle = middleOf(body, pose.centre, pose.rotation);
-    figure.group.position.set(...middle);
-    figure.group.quaternion.set(x, y, z, w);
-    for (const part of figure.shadow.children) {
-      part.position.set(...middle);
-      part.quaternion.set(x, y, z, w);
-    }
+    for (const part of [figure.group, ...figure.shadow.children]) putAt(part, body, pose);
   }
 
   private makeGround(length: number): void {
@@ -194,9 +186,7 @@ export class SpaceView implements View {
         line.geometry.dispose();
         line.geometry = silhouetteOf(ghost.body);
       }
-      const [w, x, y, z] = ghost.pose.rotation;
-      line.position.set(...middleOf(ghost.body, ghost.pose.centre, ghost.pose.rotation));
-      line.quaternion.set(x, y, z, w);
+      putAt(line, ghost.body, ghost.pose);
     });
   }
 
@@ -230,6 +220,12 @@ export class SpaceView implements View {
     }
     meshes.forEach((mesh, i) => mesh.set(wanted[i], this.cell * 0.06));
   }
+}
+
+function putAt(part: Object3D, body: Body, { centre, rotation }: Pose): void {
+  const [w, x, y, z] = rotation;
+  part.position.set(...middleOf(body, centre, rotation));
+  part.quaternion.set(x, y, z, w);
 }
 
 function emptyFigure(): Figure {

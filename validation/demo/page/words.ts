@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Impacts in words: the line below the picture, which a screen reader reads aloud.
-import type { Impact } from "./answers";
+import type { Impact } from "./api";
 import { BODIES, seenAngle, type BodyName } from "./body";
 import { byId } from "./dom";
 import { significant } from "./format";
