@@ -2,7 +2,7 @@
 // Questions to the program, which runs in the page itself: WebAssembly in workers, so that the page never waits for it.
 import { byId } from "./dom";
 import type { Argument, Path, Request } from "./requests";
-import type { Rotation, Vector, Inertia } from "./rotation";
+import type { Inertia, Rotation, Vector } from "./rotation";
 import { answerRequests } from "./worker";
 
 /** What the program says is wrong, and the name of the quantity that it blames, if it blames one. */
@@ -66,8 +66,7 @@ class Lane {
 
   private start(): Worker {
     const worker = new Worker(workerAddress());
-    compiled ??= unpacked("module-code").arrayBuffer().then((code) => WebAssembly.compile(code));
-    void compiled.then((code) => worker.postMessage(code));
+    void compiled.models.then((code) => worker.postMessage(code));
     worker.onmessage = ({ data }: MessageEvent<{ error?: string }>) => this.answer(data);
     worker.onerror = (event) => {
       event.preventDefault();
@@ -92,10 +91,8 @@ class Lane {
   }
 }
 
-/** Compiled once for all workers. */
-let compiled: Promise<WebAssembly.Module> | null = null;
 /** Of index.html. */
-declare const unpacked: (id: string) => Response;
+declare const compiled: { models: Promise<WebAssembly.Module> };
 
 let address = "";
 /** Of the worker's program, a text within the page. */
@@ -225,4 +222,3 @@ export interface SequenceAnswer {
 export interface SimulateAnswer extends SequenceAnswer {
   history: History;
 }
-

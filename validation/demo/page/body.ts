@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The falling body: sizes, inertia, and where it touches the ground. Lengths in m, masses in kg.
-import { plus, rotate, rotateBack, type Rotation, type Vector, type Inertia } from "./rotation";
+import { plus, rotate, rotateBack, type Inertia, type Rotation, type Vector } from "./rotation";
 
 export type BodyName = "rod" | "thick-rod" | "phone" | "coin" | "tube" | "die" | "plate" | "own-rod" | "own-box";
 /** What is drawn on a body; both models know its sizes alone. */

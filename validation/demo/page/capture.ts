@@ -132,7 +132,7 @@ interface Picture {
   at: number;
 }
 
-export class Gif {
+class Gif {
   private readonly encoder = GIFEncoder();
   private readonly small = document.createElement("canvas");
   private last: Picture | null = null;

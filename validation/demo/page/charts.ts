@@ -82,7 +82,7 @@ export class ForceChart {
     if (!this.plot) return;
     const x = this.plot.valToPos(Math.min(time, end) * 1e3, "x");
     this.now.textContent = time > end ? "ends here" : "";
-    const inside = x >= 0 && x <= this.plot.over.clientWidth;
+    const inside = x >= 0 && x <= this.plot.bbox.width / devicePixelRatio;
     this.now.hidden = !inside;
     this.now.style.transform = `translateX(${x.toFixed(1)}px)`;
   }
@@ -152,6 +152,10 @@ export function showProfile(motion: Motion | null, n: number): void {
   const y = (speed: number): string => (HEIGHT / 2 - (speed / most) * (HEIGHT / 2 - 30)).toFixed(1);
   const words = (name: "before" | "after"): string => `${name} the blow ${significant(lines[name][0], 3)} m/s at ${names[0]} and ${significant(lines[name][1], 3)} m/s at ${names[1]}`;
   const picture = svg("svg", { viewBox: `0 0 ${WIDTH} ${HEIGHT}`, role: "img", "aria-label": `Upward velocity along the body: ${words("before")}, ${words("after")}` });
+  const write = (x: number, top: number, anchor: string, kind: string, text: string): void => {
+    picture.append(svg("text", { x, y: top, "text-anchor": anchor, class: kind }));
+    picture.lastElementChild?.append(text);
+  };
   picture.append(svg("line", { x1: LEFT - 12, x2: RIGHT + 12, y1: y(0), y2: y(0), class: "axis" }));
   for (const name of ["before", "after"] as const) {
     const [a, b] = lines[name];
@@ -163,18 +167,11 @@ export function showProfile(motion: Motion | null, n: number): void {
     // Numbers that would lie on each other stand above and below.
     const shift = (own: number, other: number): number => (Math.abs(own - other) / most < 0.15 && name === "after" ? 16 : -6);
     const other = lines[name === "after" ? "before" : "after"];
-    picture.append(label(LEFT - 8, Number(y(a)) + shift(a, other[0]), "end", a, name), label(RIGHT + 8, Number(y(b)) + shift(b, other[1]), "start", b, name));
+    write(LEFT - 8, Number(y(a)) + shift(a, other[0]), "end", name, significant(a, 3));
+    write(RIGHT + 8, Number(y(b)) + shift(b, other[1]), "start", name, significant(b, 3));
   }
-  for (const [x, y0, words] of [[LEFT, HEIGHT - 6, names[0]], [RIGHT, HEIGHT - 6, names[1]], [WIDTH / 2, 14, "velocity upwards in m/s"]] as const) {
-    const text = svg("text", { x, y: y0, "text-anchor": "middle", class: "end" });
-    text.textContent = words;
-    picture.append(text);
-  }
+  write(LEFT, HEIGHT - 6, "middle", "end", names[0]);
+  write(RIGHT, HEIGHT - 6, "middle", "end", names[1]);
+  write(WIDTH / 2, 14, "middle", "end", "velocity upwards in m/s");
   box.replaceChildren(picture);
-}
-
-function label(x: number, y: number, anchor: string, speed: number, name: string): SVGElement {
-  const text = svg("text", { x, y, "text-anchor": anchor, class: name });
-  text.textContent = significant(speed, 3);
-  return text;
 }

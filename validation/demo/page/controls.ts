@@ -188,7 +188,6 @@ export class Controls {
     this.change();
   }
 
-  /** By a step about an axis of the world, as the button says. */
   private turnBy({ dataset }: HTMLButtonElement): void {
     const { q0, q1, q2, q3 } = this.state.parameters;
     const axis = "xyz".indexOf(dataset["axis"] ?? "x") as 0 | 1 | 2;

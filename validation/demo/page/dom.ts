@@ -22,6 +22,11 @@ export function make<Tag extends keyof HTMLElementTagNameMap>(
   return element;
 }
 
+/** Of some buttons those that are chosen. */
+export function press(buttons: Iterable<Element>, isChosen: (button: HTMLElement) => boolean): void {
+  for (const button of buttons) button.setAttribute("aria-pressed", String(isChosen(button as HTMLElement)));
+}
+
 /** Words that are said again would be read aloud again. */
 export function say(id: string, words: string): void {
   const line = byId(id);

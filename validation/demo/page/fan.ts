@@ -2,8 +2,8 @@
 // Where prediction ends: no hand holds an angle to the last digit. The same drop, by the discrete model, for tilts that are spread evenly
 // over what a hand's tremor makes of the one that is wanted: shares of what happens, and the digits that all have in common.
 import { ask, type Impact, type SequenceAnswer } from "./api";
-import { byId, make, say } from "./dom";
-import { cut, digitsLeft, withKinds, significant } from "./format";
+import { byId, make, press, say } from "./dom";
+import { cut, digitsLeft, significant, withKinds } from "./format";
 import type { Frame } from "./frame";
 import { spinOf } from "./models";
 import { DiscreteMotion, touchRotation } from "./motion";
@@ -97,7 +97,6 @@ export class FanPanel {
     this.shown.addEventListener("change", () => { state.fan = this.shown.checked; onChange(); });
   }
 
-  /** The situation changed. */
   update(): void {
     const { parameters, tremor, hide } = this.state;
     if (hide.includes("fan")) return;
@@ -149,7 +148,6 @@ export class FanPanel {
     });
   }
 
-  /** What happens where the drops part. */
   private stepOf({ course }: Tilt): string | undefined {
     const { parting } = this;
     return parting === null ? "" : course[parting - 1];
@@ -178,7 +176,7 @@ export class FanPanel {
         make("b", {}, percent(part)), make("span", {}, stepInWords(step)));
       button.addEventListener("click", () => {
         this.chosen = step;
-        for (const other of byId("fan-shares").querySelectorAll("button")) other.setAttribute("aria-pressed", String(other === button));
+        press(byId("fan-shares").querySelectorAll("button"), (other) => other === button);
         this.onChange();
       });
       return make("li", {}, button);

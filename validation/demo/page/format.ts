@@ -11,17 +11,14 @@ export function significant(value: number | null | undefined, digits = 4): strin
     const [mantissa = "", exponent = ""] = value.toExponential(Math.max(0, digits - 2)).split("e");
     return withMinus(`${Number(mantissa)}·10${superscript(Number(exponent))}`);
   }
-  return withMinus(Number(value.toPrecision(digits)).toFixed(decimals(value, digits)));
+  const places = Math.min(20, Math.max(0, digits - 1 - Math.floor(Math.log10(size))));
+  return withMinus(Number(value.toPrecision(digits)).toFixed(places));
 }
 
 /** With so many decimals; what rounds to zero is zero. */
 export function fixed(value: number, decimalPlaces: number): string {
   const text = value.toFixed(decimalPlaces);
   return withMinus(Number(text) === 0 ? text.replace("-", "") : text);
-}
-
-function decimals(value: number, digits: number): number {
-  return Math.min(20, Math.max(0, digits - 1 - Math.floor(Math.log10(Math.abs(value)))));
 }
 
 function withMinus(text: string): string {

@@ -17,7 +17,6 @@ export interface Arrow {
   from: Vector;
   /** In metres of the picture. */
   vector: Vector;
-  /** Of a blow that is over. */
   isPast?: boolean;
 }
 
@@ -30,7 +29,7 @@ export interface Arc {
   toRight: boolean;
 }
 
-export interface Label {
+interface Label {
   model: ModelName;
   kind: "blow" | "end" | "angle" | "held" | "over";
   place: Vector;

@@ -21,7 +21,6 @@ const TILT_STEP = 1; // ° a key
 const LIFT_STEP = 0.04; // of the length a key
 const HIGHEST = 2.2; // lengths over the ground
 
-/** How the body is held. */
 interface Held {
   /** [°], 0 to 90 */
   angle: number;
@@ -49,10 +48,6 @@ export function awaitedFrame(parameters: Parameters): Frame {
   // Euler parameters that are all zero give none.
   const rotation: Rotation = given.every(Number.isFinite) ? given : [1, 0, 0, 0];
   return { ...heldFrame(body, rotation, centreHeight(body, rotation) + 0.05 * extentOf(body), ""), labels: [] };
-}
-
-function heldInWords(body: Body, { angle, height }: Held): string {
-  return `${significant(seenAngle(body, angle), 3)}°, ${significant(height, 3)} m high`;
 }
 
 /** Within what a hand can do: not into the ground, not out of sight. */
@@ -227,9 +222,10 @@ export class InHand {
     if (!this.held) return false;
     const { parameters } = this.state;
     const body = bodyOf(parameters);
-    const words = heldInWords(body, this.held);
+    const { angle, height } = this.held;
+    const words = `${significant(seenAngle(body, angle), 3)}°, ${significant(height, 3)} m high`;
     const rotation = heldRotation(this.held, tiltOf(parameters));
-    this.stage.draw(heldFrame(body, rotation, this.held.height, words, this.taken?.over, this.taken?.frame));
+    this.stage.draw(heldFrame(body, rotation, height, words, this.taken?.over, this.taken?.frame));
     say("caption", `In your hand: ${words}. Let go to drop it${parameters.gravity === 0 ? ", with gravity switched on" : ""}.`);
     return true;
   }

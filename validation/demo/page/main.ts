@@ -14,8 +14,8 @@ import { Models } from "./models";
 import { hasEnded } from "./motion";
 import { momentAt, showEnergies, showNumbers } from "./numbers";
 import { OrbitControl } from "./orbit";
-import { setUpLecture, Tabs, hidePanels, setUpLayout, setUpOpening, setUpPrinting, Waiting } from "./panels";
-import { isInPlane, isThinRod, firstSpeed, restitutionOf } from "./parameters";
+import { Tabs, Waiting, hidePanels, setUpLayout, setUpLecture, setUpOpening, setUpPrinting } from "./panels";
+import { firstSpeed, isInPlane, isThinRod, restitutionOf } from "./parameters";
 import { showPatch } from "./patch";
 import { Player, TimeWarp, Transport } from "./playback";
 import { Prediction } from "./prediction";
@@ -28,11 +28,13 @@ import { readAddress, usualLayout, writeAddress, type State } from "./state";
 import { Story } from "./story";
 import { ImpactTable, csvOf } from "./table";
 import { setUpTracks } from "./tracks";
-import { showNotes, impactInWords, outcomeInWords } from "./words";
+import { impactInWords, outcomeInWords, showNotes } from "./words";
 
 /** After a change, until the equations are asked for, and until the drop is played [ms]. */
 const EXPLAIN_DELAY = 80;
 const PLAY_DELAY = 350;
+
+const isChecked = (id: string): boolean => byId<HTMLInputElement>(id).checked;
 
 class Page {
   private readonly state: State = readAddress();
@@ -47,8 +49,6 @@ class Page {
 
   private readonly stage = new Stage();
   private readonly orbit = new OrbitControl(byId("stage"), () => this.draw());
-  private readonly traces = byId<HTMLInputElement>("traces");
-  private readonly speeds = byId<HTMLInputElement>("speeds");
   private readonly force = new ForceChart();
   private readonly table = new ImpactTable((model, n) => this.goToImpact(model, n));
   private readonly fan = new FanPanel(this.state, () => { this.draw(); this.remember(); });
@@ -56,9 +56,7 @@ class Page {
   private readonly sound = new Sound(this.state.lock.includes("sound"));
   private readonly tabs = new Tabs(this.state, () => this.remember());
   private readonly showLayout: () => void;
-  /** Of the situation before. */
   private wasInPlane = isInPlane(this.state.parameters);
-  /** When the playback showed its last frame. */
   private playedTo = -Infinity;
   private readonly map = new AngleMap((angle) => this.setAngle(angle));
   private readonly player = new Player(new TimeWarp(0, 1), (_time, ended) => this.onTime(ended));
@@ -89,7 +87,7 @@ class Page {
     },
   });
 
-  private readonly waiting = new Waiting(() => this.models.leaveContinuous(), () => this.models.askContinuous(this.state.parameters));
+  private readonly waiting = new Waiting(() => this.models.simulation.leave(), () => this.models.askContinuous(this.state.parameters));
 
   private readonly capture = new Capture(() => this.stage.redraw(), () => { if (!this.prediction.isOpen) this.playAnew(); });
 
@@ -107,11 +105,8 @@ class Page {
     onShow: () => this.showAnew(),
   });
 
-  private readonly models = new Models({
-    onAnswer: () => this.onAnswer(),
-    onError: (model, error) => this.controls.setError(model, error),
-    onBusy: (busy) => this.waiting.show(busy),
-  });
+  private readonly models = new Models(
+    () => this.onAnswer(), (model, error) => this.controls.setError(model, error), (busy) => this.waiting.show(busy));
   private readonly explaining = new Latest<ExplainAnswer, null>(
     EXPLAIN_DELAY, showExplanation, ({ message }) => byId("explain-steps").replaceChildren(make("p", { class: "quiet" }, message)));
 
@@ -125,7 +120,7 @@ class Page {
     setUpSharing(state, () => { state.time = this.player.time; }, (asks) => { if (asks) this.prediction.open(); });
     byId("csv").addEventListener("click", () => download("impacts.csv", csvOf(this.models.impacts), "text/csv"));
     if (state.predict) this.prediction.open();
-    for (const box of [this.traces, this.speeds]) box.addEventListener("change", () => this.draw());
+    for (const id of ["traces", "speeds"]) byId(id).addEventListener("change", () => this.draw());
     setUpPrinting(() => [state.impact, this.player.time], (n, time) => this.put(n, time));
     setUpLecture((on) => this.prediction.setVoting(on), () => this.onTime());
     // Another link to this page, opened where it stands.
@@ -135,10 +130,13 @@ class Page {
     this.draw();
   }
 
-  /** The situation changed. */
   private update(): void {
     const { parameters } = this.state;
-    this.chooseLayout();
+    // Into space and back the layout goes along; any other time it stays what was chosen.
+    const inPlane = isInPlane(parameters);
+    if (inPlane !== this.wasInPlane && !this.state.lock.includes("layout")) this.state.layout = usualLayout(parameters);
+    this.wasInPlane = inPlane;
+    this.showLayout();
     this.asked = performance.now();
     this.followsImpact = this.hasShown;
     this.models.ask(parameters);
@@ -157,15 +155,6 @@ class Page {
     this.player.pause();
     this.controls.refresh();
     this.update();
-  }
-
-  /** Into space and back the layout goes along; any other time it stays what was chosen. */
-  private chooseLayout(): void {
-    const { parameters, lock } = this.state;
-    const inPlane = isInPlane(parameters);
-    if (inPlane !== this.wasInPlane && !lock.includes("layout")) this.state.layout = usualLayout(parameters);
-    this.wasInPlane = inPlane;
-    this.showLayout();
   }
 
   private onAnswer(): void {
@@ -202,23 +191,18 @@ class Page {
     })));
   }
 
-  /** The time moved. */
   private onTime(ended = false): void {
     const impact = impactAt(this.models.steps, this.player.time);
     if (impact && impact.n !== this.state.impact && this.player.playing) this.choose(impact.n);
-    this.hear();
+    const { time, playing } = this.player;
+    if (playing && time > this.playedTo) this.sound.pass(this.models.steps, this.playedTo, time);
+    // What was passed by while the picture stood is not heard afterwards.
+    this.playedTo = time;
     this.draw();
     this.capture.drawn(ended);
     this.prediction.seen(this.player.time, ended);
     this.story.seen(this.player.time, ended);
     if (!this.player.playing) this.remember();
-  }
-
-  private hear(): void {
-    const { time, playing } = this.player;
-    if (playing && time > this.playedTo) this.sound.pass(this.models.steps, this.playedTo, time);
-    // What was passed by while the picture stood is not heard afterwards.
-    this.playedTo = time;
   }
 
   /** What goes wrong in it is told, and the rest of the page goes on. */
@@ -241,8 +225,8 @@ class Page {
     const impact = impactAt(this.models.steps, time);
     // Before the guess the picture shows the fall, not yet the blow.
     const shown = this.prediction.isOpen ? (this.models.motions.discrete?.begin ?? 0) : time;
-    const frame = this.models.discrete ? frameAt(this.models.motions, shown, this.scales, state.layout === "side", this.traces.checked && !this.prediction.isOpen) : awaitedFrame(state.parameters);
-    if (!this.speeds.checked) frame.arrows = frame.arrows.filter(({ kind }) => kind !== "speed");
+    const frame = this.models.discrete ? frameAt(this.models.motions, shown, this.scales, state.layout === "side", isChecked("traces") && !this.prediction.isOpen) : awaitedFrame(state.parameters);
+    if (!isChecked("speeds")) frame.arrows = frame.arrows.filter(({ kind }) => kind !== "speed");
     if (!this.prediction.isOpen) frame.ghosts.push(...this.fan.ghosts(time, player.playing));
     this.stage.draw(frame, this.orbit.orbit);
     const { motions } = this.models;
@@ -352,7 +336,6 @@ class Page {
     this.playSoon();
   }
 
-  /** What panels say of the chosen impact alone. */
   private showChosen(): void {
     const { models: { continuous, motions }, state: { impact } } = this;
     this.force.show(continuous, motions.discrete, impact);

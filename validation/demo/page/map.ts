@@ -25,7 +25,6 @@ interface Fold {
   ends: boolean;
 }
 
-const MAP_RANGE = { from: 0, to: 90, count: 91 } as const;
 const HEIGHT = 300;
 const MAP_DELAY = 120; // ms
 const REFINED = 101;
@@ -46,8 +45,7 @@ export class AngleMap {
 
   /** Asks for the map of another gravity number or coefficient of restitution, and then closer to its folds. */
   async show(gravity: number, e: number): Promise<void> {
-    const { from, to, count } = MAP_RANGE;
-    const request = anglesRequest(gravity, e, from, to, count);
+    const request = anglesRequest(gravity, e, 0, 90, 91);
     const key = keyOf(request);
     if (key === this.shown || !Number.isFinite(gravity)) return;
     this.shown = key;
@@ -115,18 +113,16 @@ export class AngleMap {
     upright(plot, this.theta, COLOURS.ink, [], 1);
     for (const curve of ["beta_deg", "gamma_deg"] as const) {
       const value = valueAt(this.rows, curve, this.theta);
-      if (value !== null) dot(plot, this.theta, value, colourOf(curve), true);
+      if (value !== null) dot(plot, this.theta, value, CURVES[curve], true);
     }
     for (const fold of this.folds) {
-      dot(plot, fold.theta, fold.value, colourOf(fold.curve), false);
+      dot(plot, fold.theta, fold.value, CURVES[fold.curve], false);
       write(plot, fold.theta, fold.value, `${fixed(fold.theta, decimalsOf(fold))}°`);
     }
   }
 }
 
-function colourOf(curve: Curve): string {
-  return curve === "beta_deg" ? COLOURS.beta : COLOURS.gamma;
-}
+const CURVES: Readonly<Record<Curve, string>> = { beta_deg: COLOURS.beta, gamma_deg: COLOURS.gamma };
 
 /** All of them; at 0° both ends strike at once, and nothing begins. */
 function foldsOf(rows: AngleRow[]): Fold[] {
@@ -155,11 +151,9 @@ function merge(rows: AngleRow[], more: AngleRow[]): AngleRow[] {
 
 function valueAt(rows: AngleRow[], curve: Curve, theta: number): number | null {
   const above = rows.findIndex((row) => row.theta_deg >= theta);
-  const high = rows[above];
-  const low = rows[Math.max(0, above - 1)];
-  const a = low?.[curve];
-  const b = high?.[curve];
-  if (!low || !high || a === null || a === undefined || b === null || b === undefined) return null;
+  const [low, high] = [rows[Math.max(0, above - 1)], rows[above]];
+  const [a, b] = [low?.[curve] ?? null, high?.[curve] ?? null];
+  if (!low || !high || a === null || b === null) return null;
   return high === low ? b : a + ((b - a) * (theta - low.theta_deg)) / (high.theta_deg - low.theta_deg);
 }
 

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Where the body of either model is at a time, and where its energy is: of the discrete one between its impacts, of the continuous one
 // between the samples of its time history, every step of a contact and some 20 of a flight.
-import type { Impact, History } from "./api";
+import type { History, Impact } from "./api";
 import { centreHeight, extentOf, type Body } from "./body";
 import {
-  FreeRotation, cross, inclinationOf, plus, product, rotate, rotateBack, turnAbout, planeRotation, slerp,
-  type Rotation, type Vector,
+  FreeRotation, cross, inclinationOf, planeRotation, plus, product, rotate, rotateBack, slerp, turnAbout, type Rotation, type Vector,
 } from "./rotation";
 
 export interface Pose {
@@ -56,32 +55,28 @@ export function pointMotion(body: Body, pose: Pose, point: Vector): { place: Vec
   return { place: plus(pose.centre, from), velocity: plus(pose.velocity, cross(pose.spin, from)) };
 }
 
-export function energyOfRotation(body: Body, { rotation, spin }: Pose): number {
+function energyOfRotation(body: Body, { rotation, spin }: Pose): number {
   const [x, y, z] = rotateBack(rotation, spin);
   const [xx, yy, zz, xy, xz, yz] = body.inertia;
   return (xx * x * x + yy * y * y + zz * z * z) / 2 + xy * x * y + xz * x * z + yz * y * z;
 }
 
+/** A fall that takes longer is better begun on its way [s]. */
+const LONGEST_FALL = 1.5;
+
 /** How long before the first touch the picture starts: at the release from rest, if there was one; and where slow motion does. */
-export function leadIn(impacts: readonly Impact[], speed: number, gravity: number, length: number): { begin: number; near: number } {
-  const near = -slowLead(impacts, speed, gravity, length);
-  // A fall that takes longer than this is better begun on its way.
-  const fall = gravity > 0 ? Math.max(0, speed) / gravity : 0;
-  return { begin: fall > 0 && fall < LONGEST_FALL ? Math.min(near, -fall) : near, near };
-}
-
-const LONGEST_FALL = 1.5; // s
-
-function slowLead(impacts: readonly Impact[], speed: number, gravity: number, length: number): number {
+function leadIn(impacts: readonly Impact[], speed: number, gravity: number, length: number): { begin: number; near: number } {
   const last = impacts[impacts.length - 1];
   const span = last ? last.start + last.duration : 0;
   const crossing = (0.4 * length) / Math.max(speed, 1e-9);
   const lead = Math.min(Math.max(0.3 * span, 0.1 * crossing), crossing);
-  return gravity > 0 ? Math.min(lead, Math.max(0, speed) / gravity) : lead;
+  const fall = gravity > 0 ? Math.max(0, speed) / gravity : Infinity;
+  const near = -Math.min(lead, fall);
+  return { begin: fall > 0 && fall < LONGEST_FALL ? -fall : near, near };
 }
 
 /** Until when the flight after the last impact is shown: for a while, but never into the ground. */
-export function leadOut(body: Body, from: number, begin: number, pose: (time: number) => Pose): number {
+function leadOut(body: Body, from: number, begin: number, pose: (time: number) => Pose): number {
   const span = Math.max(0.5 * from, -begin);
   const steps = 60;
   for (let i = 1; i <= steps; i++) {
@@ -92,7 +87,7 @@ export function leadOut(body: Body, from: number, begin: number, pose: (time: nu
 }
 
 /** A free flight before or after a known pose. */
-export class Flight {
+class Flight {
   private readonly turning: FreeRotation | null;
 
   /** @param span how long it may last, negative before the pose [s] */

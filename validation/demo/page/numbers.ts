@@ -5,13 +5,12 @@ import type { Impact } from "./api";
 import { seenAngle, type Body } from "./body";
 import { byId } from "./dom";
 import { fixed, significant } from "./format";
-import { MODELS, type Motions, type ModelName } from "./frame";
+import { MODELS, type ModelName, type Motions } from "./frame";
 import type { Pairing } from "./models";
 import { pointMotion, shownTime, type Energies, type Pose } from "./motion";
 
 const DEGREES = 180 / Math.PI;
 
-/** Speed of the middle of an end. */
 const speedOf = (body: Body, pose: Pose, end: -1 | 1): number => Math.hypot(...pointMotion(body, pose, [(end * body.length) / 2, 0, 0]).velocity);
 
 /** The rows of the table; `turn`: after which the quantity is the same again. */
@@ -74,7 +73,6 @@ function within(value: number, turn: number | undefined): number {
 }
 
 export interface Moment {
-  /** What is shown, in words. */
   title: string;
   /** Of each model [s]; null where it has none. */
   times: Record<ModelName, number | null>;

@@ -1,15 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Panels and switches that only show the state: what is hidden, how the models are laid out, the lecture, and what is printed.
-import { byId, say } from "./dom";
+import { byId, press, say } from "./dom";
 import { PANELS, type State } from "./state";
 
-export function hidePanels(state: State): void {
-  for (const panel of PANELS) {
-    const box = document.getElementById(panel === "story" ? "story" : `panel-${panel}`);
-    if (box) box.hidden = state.hide.includes(panel);
-  }
-  byId("panel-controls").hidden = state.hide.includes("controls");
-  document.body.classList.toggle("no-controls", state.hide.includes("controls"));
+export function hidePanels({ hide }: State): void {
+  for (const panel of [...PANELS, "controls"]) byId(panel === "story" ? "story" : `panel-${panel}`).hidden = hide.includes(panel);
+  document.body.classList.toggle("no-controls", hide.includes("controls"));
 }
 
 /** One panel at a time, or all of them; on paper all. */
@@ -39,7 +35,7 @@ export class Tabs {
 
   private show(): void {
     const { tab } = this.state;
-    for (const button of this.buttons) button.setAttribute("aria-pressed", String(button.dataset["tab"] === tab));
+    press(this.buttons, ({ dataset }) => dataset["tab"] === tab);
     for (const panel of document.querySelectorAll<HTMLElement>("#results > section")) {
       panel.classList.toggle("aside", tab !== "all" && panel.dataset["tab"] !== tab);
     }
@@ -61,7 +57,7 @@ export function setUpLayout(state: State, onChange: () => void): () => void {
   const buttons = [...document.querySelectorAll<HTMLButtonElement>("button[data-layout]")];
   const show = (): void => {
     byId("stage").dataset["layout"] = state.layout;
-    for (const button of buttons) button.setAttribute("aria-pressed", String(state.layout === button.dataset["layout"]));
+    press(buttons, ({ dataset }) => dataset["layout"] === state.layout);
   };
   for (const button of buttons) {
     button.disabled = state.lock.includes("layout");

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The situation: all that the two models need, what follows from that, and the scenes to choose from. SI units, angles in degrees.
-import { BODIES, uniformBody, centreHeight, type Body, type BodyName } from "./body";
-import { normalised, product, turnAbout, planeRotation, type Rotation, type Vector } from "./rotation";
+import { BODIES, centreHeight, uniformBody, type Body, type BodyName } from "./body";
+import { normalised, planeRotation, product, turnAbout, type Rotation, type Vector } from "./rotation";
 
 export const QUANTITIES = ["angle", "tilt", "orientation", "q0", "q1", "q2", "q3", "speed", "height", "vx", "vy", "vz",
   "wx", "wy", "wz", "gravity", "e", "friction", "stiffness", "damping", "impacts",

@@ -5,7 +5,7 @@ import type { History } from "./api";
 import { cornersOf, middleOf, type Body } from "./body";
 import { byId, svg } from "./dom";
 import { significant } from "./format";
-import { hasEnded, shownTime, type Pose, type Motion } from "./motion";
+import { hasEnded, shownTime, type Motion, type Pose } from "./motion";
 import { plus, rotate, type Vector } from "./rotation";
 
 export interface Patch {
@@ -76,7 +76,6 @@ function largestOf(motion: Motion, { t, in_contact: touches }: History): number 
 const largest = new WeakMap<Motion, number>();
 const SIDE = 120;
 
-/** The patch from above, and its size in words. */
 export function showPatch(motion: Motion | null, history: History | null, time: number): void {
   const patch = motion && time >= 0 ? patchOf(motion.body, motion.pose(shownTime(motion, time))) : null;
   byId("patch-words").textContent = (motion && hasEnded(motion, time) ? "the model ends here; " : "") + (patch

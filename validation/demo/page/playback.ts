@@ -6,7 +6,7 @@ import { byId, make } from "./dom";
 import { fixed, significant } from "./format";
 import { RATES, type State } from "./state";
 
-export interface Window {
+interface Window {
   start: number;
   end: number;
 }
@@ -17,7 +17,7 @@ const CONTACT = 1.1; // the longest contact, on the screen, and up to 2.5 times 
 const MARGIN = 0.008;
 
 /** 1, 2, 5, 10, 20, …: the first that is not less. */
-export function niceSlowness(least: number): number {
+function niceSlowness(least: number): number {
   if (!(least > 1)) return 1;
   const power = 10 ** Math.floor(Math.log10(least));
   return power * ([1, 2, 5].find((step) => step * power >= least * (1 - 1e-9)) ?? 10);
@@ -114,7 +114,6 @@ export class Player {
   playing = false;
   rate = 1;
   private position = 0;
-  /** Life itself, while that is played. */
   private real: TimeWarp | null = null;
   /** Where it was sent, to the last digit; until the playback moves. */
   private sought: number | null = null;
@@ -202,7 +201,7 @@ export class Player {
   }
 }
 
-export interface TransportActions {
+interface TransportActions {
   toggle(): void;
   step(direction: 1 | -1): void;
   scrub(progress: number): void;

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The requests that the page makes, and a scene as their arguments.
-import {
-  bodyOf, isInPlane, DEFAULT_PARAMETERS, setBody, dampingOf, type Parameters, type Quantity,
-} from "./parameters";
+import { DEFAULT_PARAMETERS, bodyOf, dampingOf, isInPlane, setBody, type Parameters, type Quantity } from "./parameters";
 
 export type Path = "sequence" | "angles" | "explain" | "simulate" | "compare" | "scene" | "file";
 export type Argument = string | number | boolean | readonly number[];
@@ -17,23 +15,15 @@ export const CONTINUOUS_DIGITS = 4;
 /** Of contact forces, at most, about a second: a body that gravity keeps on a damped ground would be followed for minutes. */
 const EVALUATIONS = 100_000;
 
-/** A request as one text: the path, a blank, and the body with its keys sorted. */
+/** A request as one text: the path, and the body with its keys sorted. */
 export function keyOf({ path, body }: Request): string {
-  return `${path} ${canonical(body)}`;
-}
-
-function canonical(body: Request["body"]): string {
-  return JSON.stringify(Object.fromEntries(Object.entries(body).sort(([a], [b]) => (a < b ? -1 : 1))));
+  return JSON.stringify([path, Object.entries(body).sort(([a], [b]) => (a < b ? -1 : 1))]);
 }
 
 export function sequenceRequest(parameters: Parameters): Request {
-  const body = { ...drop(parameters), ...shape(parameters) };
-  return { path: "sequence", body: { ...body, ...law(parameters), ...extraOfDiscrete(parameters) } };
-}
-
-/** Beside an impact's own restitution and friction no ground is named, and so none of its frictions. */
-function extraOfDiscrete({ ofGround, extra }: Parameters): Request["body"] {
-  return Object.fromEntries(Object.entries(extra).filter(([name]) => ofGround || !name.endsWith("_friction")));
+  // Beside an impact's own restitution and friction no ground is named, and so none of its frictions.
+  const extra = Object.entries(parameters.extra).filter(([name]) => parameters.ofGround || !name.endsWith("_friction"));
+  return { path: "sequence", body: { ...drop(parameters), ...law(parameters), ...Object.fromEntries(extra) } };
 }
 
 /** Fewer digits in the equations than the program's six: they are to be read. */
@@ -43,7 +33,7 @@ export function explainRequest(parameters: Parameters, impact: number): Request 
 }
 
 export function simulateRequest(parameters: Parameters): Request {
-  const body = { ...drop(parameters), ...shape(parameters), ...ground(parameters) };
+  const body = { ...drop(parameters), ...ground(parameters) };
   const run = { digits: CONTINUOUS_DIGITS, planar: parameters.planar && isInPlane(parameters), history: true, evaluation_limit: EVALUATIONS };
   // A law that relates a coefficient goes with it, in the scene of either model.
   const law = "restitution_law" in parameters.extra ? { restitution: parameters.e } : {};
@@ -54,10 +44,6 @@ export function simulateRequest(parameters: Parameters): Request {
 export function fileRequest(parameters: Parameters): Request {
   const both = { ...sequenceRequest(parameters).body, ...ground(parameters), ...parameters.extra };
   return { path: "file", body: parameters.planar && isInPlane(parameters) ? { ...both, planar: true } : both };
-}
-
-export function sceneRequest(name: string, text: string): Request {
-  return { path: "scene", body: { name, text } };
 }
 
 /** What the discrete model takes: the ground, or restitution and friction of their own. */
@@ -87,7 +73,7 @@ export function anglesRequest(gravity: number, e: number, from: number, to: numb
 
 function drop(parameters: Parameters): Request["body"] {
   const { gravity, impacts } = parameters;
-  return { ...attitude(parameters), ...motion(parameters), gravity, impacts };
+  return { ...attitude(parameters), ...motion(parameters), gravity, impacts, ...shape(parameters) };
 }
 
 function attitude({ turn, angle, tilt, orientation, q0, q1, q2, q3 }: Parameters): Request["body"] {
@@ -146,7 +132,9 @@ export function parametersOf(given: SceneArguments): Parameters {
   const parameters: Parameters = { ...DEFAULT_PARAMETERS };
   const texts = Object.entries(given).map(([name, value]) => [name, Array.isArray(value) ? value.join(",") : String(value)] as const);
   const left = new Given(texts);
-  takeBody(left, parameters);
+  setBody(parameters, left.take("body") === "box" ? "own-box" : "own-rod");
+  for (const name of ["mass", "length", "radius"] as const) parameters[name] = left.number(name, parameters[name]);
+  left.list("size", parameters, ["length", "width", "thickness"]);
   takeAttitude(left, parameters);
   takeMotion(left, parameters);
   parameters.gravity = left.number("gravity", 0);
@@ -161,12 +149,6 @@ export function parametersOf(given: SceneArguments): Parameters {
   // The page keeps a motion in a plane only where nothing takes it out; a file may do so anywhere.
   if (parameters.planar && !isInPlane(parameters)) parameters.extra = { ...parameters.extra, planar: "true" };
   return parameters;
-}
-
-function takeBody(left: Given, parameters: Parameters): void {
-  setBody(parameters, left.take("body") === "box" ? "own-box" : "own-rod");
-  for (const name of ["mass", "length", "radius"] as const) parameters[name] = left.number(name, parameters[name]);
-  left.list("size", parameters, ["length", "width", "thickness"]);
 }
 
 function takeAttitude(left: Given, parameters: Parameters): void {

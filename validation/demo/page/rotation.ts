@@ -64,7 +64,7 @@ export function plus([a, b, c]: Vector, [d, e, f]: Vector, times = 1): Vector {
   return [a + times * d, b + times * e, c + times * f];
 }
 
-export interface Turning {
+interface Turning {
   rotation: Rotation;
   /** World components [rad/s]. */
   spin: Vector;

@@ -3,16 +3,11 @@
 import { ApiError, ask } from "./api";
 import { byId, make } from "./dom";
 import type { Parameters } from "./parameters";
-import { fileRequest, parametersOf, sceneRequest, type SceneArguments } from "./requests";
+import { fileRequest, parametersOf, type SceneArguments } from "./requests";
 import { addressOf, assignUnlocked, type State } from "./state";
 
 /** The page as it came, before anything on it was changed. */
 const source = document.documentElement.outerHTML;
-
-function pageWith(state: State): string {
-  const fragment = new URL(addressOf(state)).hash.slice(1).replace(/&/g, "&amp;").replace(/"/g, "&quot;");
-  return `<!doctype html>\n${source.replace(/(name="clatter-scene" content=")[^"]*/, (_all, before: string) => before + fragment)}\n`;
-}
 
 export function setUpSharing(state: State, sync: () => void, onAskFirst: (asks: boolean) => void): void {
   const button = byId<HTMLButtonElement>("copy-link");
@@ -29,7 +24,9 @@ export function setUpSharing(state: State, sync: () => void, onAskFirst: (asks: 
   });
   byId("save-page").addEventListener("click", () => {
     sync();
-    download("clatter.html", pageWith(state), "text/html");
+    const fragment = new URL(addressOf(state)).hash.slice(1).replace(/&/g, "&amp;").replace(/"/g, "&quot;");
+    const page = source.replace(/(name="clatter-scene" content=")[^"]*/, (_all, before: string) => before + fragment);
+    download("clatter.html", `<!doctype html>\n${page}\n`, "text/html");
   });
   const askFirst = byId<HTMLInputElement>("ask-first");
   askFirst.checked = state.predict;
@@ -47,7 +44,7 @@ export function download(name: string, content: BlobPart, type: string): void {
 }
 
 /** Not every browser lets a page write to the clipboard. */
-export async function copyText(text: string): Promise<boolean> {
+async function copyText(text: string): Promise<boolean> {
   try {
     await navigator.clipboard.writeText(text);
     return true;
@@ -106,7 +103,7 @@ export class SceneFile {
   private async open(name: string, text: string): Promise<void> {
     const turn = ++this.opened;
     await this.attempt(async () => {
-      const answer = await ask<{ arguments: SceneArguments; notes: string[] }>(sceneRequest(name, text));
+      const answer = await ask<{ arguments: SceneArguments; notes: string[] }>({ path: "scene", body: { name, text } });
       if (turn !== this.opened) return "";
       const kept = assignUnlocked(this.state, parametersOf(answer.arguments));
       this.onOpen();

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A small picture of a body at a touch, drawn in lines: parallel projection, seen from the right, the front and above.
 import type { Impact } from "./api";
-import { middleOf, THINNEST, lowestPlace, type Body } from "./body";
-import { svg, byId, make } from "./dom";
+import { THINNEST, lowestPlace, middleOf, type Body } from "./body";
+import { byId, make, press, svg } from "./dom";
 import { significant } from "./format";
 import { MODELS, type ModelName, type Motions } from "./frame";
 import type { Pairing } from "./models";
 import { touchRotation, type Motion } from "./motion";
-import { plus, cross, rotate, type Rotation, type Vector } from "./rotation";
+import { cross, plus, rotate, type Rotation, type Vector } from "./rotation";
 import { cornersInWords } from "./words";
 
 const AZIMUTH = -0.45; // of the eye around the picture [rad]
@@ -22,48 +22,36 @@ export const LOOK: Vector = [
   -Math.sin(AZIMUTH) * Math.cos(ELEVATION), Math.cos(AZIMUTH) * Math.cos(ELEVATION), -Math.sin(ELEVATION),
 ];
 
-export interface Touch {
-  model: ModelName;
-  body: Body;
-  rotation: Rotation;
-  /** From the centre of mass to the point that strikes, world. */
-  struck: Vector;
-  /** World [N s]; `strongest` is the size of the largest one of the run. */
-  impulse: Vector;
-  strongest: number;
-}
-
 /** On the paper, to the right and up, of a place from the point that strikes [m]. */
 export function onPaper([x, y, z]: Vector): [number, number] {
   const [c, s] = [Math.cos(AZIMUTH), Math.sin(AZIMUTH)];
   return [x * c + y * s, (-x * s + y * c) * Math.sin(ELEVATION) + z * Math.cos(ELEVATION)];
 }
 
-export function sketch(touch: Touch): SVGSVGElement {
-  const { body, rotation, struck, model } = touch;
+/** A body at a touch, and its impulse in the scale of the strongest of the run. */
+function sketch(model: ModelName, { body, impacts }: Motion, rotation: Rotation, impulse: Vector): SVGSVGElement {
   const scale = SPAN / Math.hypot(body.length, body.width, body.thickness, 2 * body.radius);
-  const middle = middleOf(body, plus([0, 0, 0], struck, -1), rotation);
+  // From the point that strikes.
+  const middle = middleOf(body, plus([0, 0, 0], lowestPlace(body, rotation), -1), rotation);
   const shift = onPaper(middle)[0] * scale;
   const at = (place: Vector): string => {
     const [x, y] = onPaper(place);
     return `${(WIDTH / 2 - shift + x * scale).toFixed(1)},${(FLOOR - y * scale).toFixed(1)}`;
   };
   const picture = svg("svg", { viewBox: `0 0 ${WIDTH} ${HEIGHT}`, class: `sketch ${model}`, "aria-hidden": "true" });
-  picture.append(svg("path", { class: "floor", d: floorPath(scale, at) }));
+  // A piece of the ground below the body, as crossed lines.
+  const half = (0.62 * SPAN) / scale;
+  const lines = [-half, -half / 2, 0, half / 2, half].flatMap((place) => [
+    `M${at([-half, place, 0])}L${at([half, place, 0])}`, `M${at([place, -half, 0])}L${at([place, half, 0])}`]);
+  picture.append(svg("path", { class: "floor", d: lines.join("") }));
   for (const face of facesOf(body, rotation, LOOK)) {
     const corners = face.map((corner) => at(plus(middle, corner)));
     picture.append(svg("polygon", { points: corners.join(" "), style: `--shade:${shadeOf(face)}` }));
   }
-  picture.append(blow(touch, at, scale));
+  const strongest = Math.max(...impacts.map((impact) => Math.hypot(...impact.impulse)));
+  const tip = plus([0, 0, 0], impulse, strongest > 0 ? (0.42 * SPAN) / scale / strongest : 0);
+  picture.append(svg("path", { d: `M${at([0, 0, 0])}L${at(tip)}`, class: "blow", "marker-end": `url(#tip-${model})` }));
   return picture;
-}
-
-/** A piece of the ground below the body, as crossed lines. */
-function floorPath(scale: number, at: (place: Vector) => string): string {
-  const half = (0.62 * SPAN) / scale;
-  const lines = [-1, -0.5, 0, 0.5, 1].flatMap((part) => [
-    `M${at([-half, part * half, 0])}L${at([half, part * half, 0])}`, `M${at([part * half, -half, 0])}L${at([part * half, half, 0])}`]);
-  return lines.join("");
 }
 
 /** Of light from above: faces that look up are lighter. */
@@ -71,12 +59,6 @@ function shadeOf(face: readonly Vector[]): string {
   const heights = face.map(([, , z]) => z);
   const tilt = (heights.reduce((sum, z) => sum + z, 0) / face.length) / (Math.max(...heights.map(Math.abs)) || 1);
   return (0.55 + 0.4 * tilt).toFixed(2);
-}
-
-function blow({ impulse, strongest, model }: Touch, at: (place: Vector) => string, scale: number): SVGElement {
-  const length = strongest > 0 ? (0.42 * SPAN) / scale / strongest : 0;
-  const tip = plus([0, 0, 0], impulse, length);
-  return svg("path", { d: `M${at([0, 0, 0])}L${at(tip)}`, class: "blow", "marker-end": `url(#tip-${model})` });
 }
 
 /** Corners of the faces of a box, or of a rod the rectangle that shows its outline to an eye that looks along
@@ -150,16 +132,12 @@ export class Strip {
   }
 
   choose(chosen: number): void {
-    for (const card of this.rows.querySelectorAll<HTMLElement>("button[data-strip]")) {
-      const isChosen = card.dataset["strip"] === `discrete-${chosen}`;
-      card.setAttribute("aria-pressed", String(isChosen));
-    }
+    press(this.rows.querySelectorAll("button[data-strip]"), ({ dataset }) => dataset["strip"] === `discrete-${chosen}`);
   }
 
   private card(model: ModelName, motion: Motion, impact: Impact, pairing: Pairing | null): HTMLElement {
     const { n } = impact;
     const rotation = model === "discrete" ? touchRotation(impact) : motion.pose(impact.start).rotation;
-    const strongest = Math.max(...motion.impacts.map(({ impulse }) => Math.hypot(...impulse)));
     const isUnknown = impact.predictable === false;
     const isAlone = pairing !== null && n > pairing.count;
     const where = impact.corners ? cornersInWords(impact.corners) : `end ${impact.end}`;
@@ -169,7 +147,7 @@ export class Strip {
       type: "button", "data-strip": `${model}-${n}`, class: [isUnknown ? "unpredictable" : "", isAlone ? "alone" : ""].join(" ").trim(),
     }, make("b", {}, `${n}${isUnknown ? "?" : ""}`), make("span", {}, force),
     make("span", { class: "spoken" }, ` impact of the ${model} model, ${where}${alone}`));
-    button.append(sketch({ model, body: motion.body, rotation, struck: lowestPlace(motion.body, rotation), impulse: impact.impulse, strongest }));
+    button.append(sketch(model, motion, rotation, impact.impulse));
     button.addEventListener("click", () => this.onChoose(model, n));
     return button;
   }

@@ -3,7 +3,7 @@
 import { middleOf, type Body } from "./body";
 import { COLOURS } from "./colours";
 import { byId, make } from "./dom";
-import { MODELS, type Frame, type Projection, type View, type Arrow, type ModelName } from "./frame";
+import type { Arrow, Frame, ModelName, Projection, View } from "./frame";
 import type { Pose } from "./motion";
 import { STRAIGHT, type Orbit } from "./orbit";
 import { plus, type Vector } from "./rotation";
@@ -14,6 +14,8 @@ export class Stage {
   private readonly box = byId("stage");
   private readonly labels = byId("stage-labels");
   private readonly view: View;
+  /** As it was drawn last: to ask for it while drawing would lay out the page anew. */
+  private size = { width: 1, height: 1 };
   private frame: Frame | null = null;
   private orbit: Orbit = STRAIGHT;
 
@@ -40,7 +42,7 @@ export class Stage {
     this.frame = frame;
     this.orbit = orbit;
     this.view.draw(frame, orbit);
-    const { width, height } = this.box.getBoundingClientRect();
+    const { width, height } = this.size;
     frame.labels.forEach((label, i) => {
       const { x, y } = this.view.project(label.model, label.place, frame.side);
       const element = (this.labels.children[i] ?? this.labels.appendChild(make("span"))) as HTMLElement;
@@ -66,6 +68,7 @@ export class Stage {
   private resize(): void {
     const { width, height } = this.box.getBoundingClientRect();
     if (width === 0 || height === 0) return;
+    this.size = { width, height };
     this.view.resize(width, height);
     if (this.frame) this.draw(this.frame);
   }
@@ -75,7 +78,7 @@ export class Stage {
 const LOOK: Vector = [0, 1, 0];
 const NOTHING = { left: -0.5, right: 0.5, top: 0.5 };
 
-export class FlatView implements View {
+class FlatView implements View {
   private readonly context: CanvasRenderingContext2D;
   private size = { width: 1, height: 1 };
   private frame: Frame | null = null;
@@ -98,10 +101,14 @@ export class FlatView implements View {
     const { context } = this;
     this.frame = frame;
     context.clearRect(0, 0, this.size.width, this.size.height);
-    for (const model of frame.side ? MODELS : MODELS.slice(0, 1)) this.ground(model, frame.side);
+    const { y } = this.project("discrete", [0, 0, 0], false);
+    this.bar(COLOURS.grid, 8, this.size.width - 8, y, 6);
+    this.bar(COLOURS.quiet, 8, this.size.width - 8, y, 1);
     for (const { model, body, pose, tone } of frame.ghosts) this.figure(model, body, pose, frame.side, tone ?? "blow");
     for (const { model, body, pose, isOver } of frame.figures) this.figure(model, body, pose, frame.side, isOver ? "over" : null);
-    if (frame.patch) this.patch(frame.patch.outline, frame.side);
+    // From the side, a line on the ground.
+    const places = frame.patch?.outline.map((point) => this.project("continuous", point, frame.side).x) ?? [];
+    if (places.length) this.bar(COLOURS.continuous, Math.min(...places), Math.max(...places), y, 5);
     for (const arrow of frame.arrows) this.arrow(arrow, frame.side);
   }
 
@@ -113,23 +120,9 @@ export class FlatView implements View {
     return { x: offset + width / 2 + (x - (left + right) / 2) * scale, y: this.size.height * 0.86 - z * scale };
   }
 
-  private ground(model: ModelName, side: boolean): void {
-    const { context } = this;
-    const { y } = this.project(model, [0, 0, 0], side);
-    const width = side ? this.size.width / 2 : this.size.width;
-    const left = side && model === "continuous" ? width : 0;
-    context.fillStyle = COLOURS.grid;
-    context.fillRect(left + 8, y, width - 16, 6);
-    context.fillStyle = COLOURS.quiet;
-    context.fillRect(left + 8, y, width - 16, 1);
-  }
-
-  /** From the side, a line on the ground. */
-  private patch(outline: Vector[], side: boolean): void {
-    const places = outline.map((point) => this.project("continuous", point, side));
-    const left = Math.min(...places.map(({ x }) => x));
-    this.context.fillStyle = COLOURS.continuous;
-    this.context.fillRect(left, places[0]?.y ?? 0, Math.max(...places.map(({ x }) => x)) - left, 5);
+  private bar(colour: string, left: number, right: number, top: number, height: number): void {
+    this.context.fillStyle = colour;
+    this.context.fillRect(left, top, right - left, height);
   }
 
   private figure(model: ModelName, body: Body, pose: Pose, side: boolean, ghost: "blow" | "fan" | "aside" | "over" | null = null): void {

@@ -3,8 +3,7 @@
 // the same, wherever the file lies.
 import { BODIES, type BodyName } from "./body";
 import {
-  DEFAULT_PARAMETERS, DROPS, QUANTITIES, TURNS, isInPlane, isUsed, setBody, type Choices, type Parameters,
-  type Quantity,
+  DEFAULT_PARAMETERS, DROPS, QUANTITIES, TURNS, isInPlane, isUsed, setBody, type Choices, type Parameters, type Quantity,
 } from "./parameters";
 import { numberOf, parametersOf } from "./requests";
 
@@ -31,7 +30,7 @@ export interface State {
 }
 
 export const RATES = [0.25, 0.5, 1, 2] as const;
-export const TREMORS = [0.1, 0.5, 1, 2] as const;
+const TREMORS = [0.1, 0.5, 1, 2] as const;
 
 /** In space the models stand beside each other: what tumbles cannot be told apart in one place. */
 export function usualLayout(parameters: Parameters): State["layout"] {

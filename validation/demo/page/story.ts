@@ -5,7 +5,7 @@ import type { Impact } from "./api";
 import { byId } from "./dom";
 import { assignUnlocked, stateOf, type State } from "./state";
 
-export interface Teller {
+interface Teller {
   /** A new situation in the picture, before the drop. */
   onEnter(): void;
   onPlay(): void;

@@ -23,10 +23,33 @@ const SPACE = { elevation: 0.34, azimuth: -0.3 };
 const SHADOW = new MeshBasicMaterial({ color: 0x1b2430, transparent: true, opacity: 0.13, depthWrite: false, side: DoubleSide });
 const GRID = new LineBasicMaterial({ vertexColors: true, toneMapped: false });
 
-interface Figure {
-  group: Group;
-  shadow: Group;
-  of: Body | null;
+/** The body of a model, and its shadow of light from straight above: flattened on the ground. */
+class Figure {
+  readonly group = new Group();
+  readonly shadow = new Group();
+  private of = "";
+
+  constructor(private readonly model: ModelName) {
+    this.shadow.scale.set(1, 1, 1e-4);
+  }
+
+  put({ body, pose, isOver = false }: Frame["figures"][number]): void {
+    if (this.of !== JSON.stringify(body)) this.rebuild(body);
+    this.group.traverse((part) => {
+      if (part instanceof Mesh) Object.assign(part.material as Material, { transparent: isOver || this.model === "continuous", opacity: isOver ? PALE : 1 });
+    });
+    for (const part of [this.group, ...this.shadow.children]) putAt(part, body, pose);
+  }
+
+  private rebuild(body: Body): void {
+    this.of = JSON.stringify(body);
+    for (const group of [this.group, this.shadow]) {
+      group.traverse((part) => { if (part instanceof Mesh) part.geometry.dispose(); });
+      group.clear();
+    }
+    this.group.add(figureOf(body, this.model));
+    this.shadow.add(new Mesh(geometryOf(body), SHADOW));
+  }
 }
 
 export class SpaceView implements View {
@@ -34,7 +57,7 @@ export class SpaceView implements View {
   private readonly scene = new Scene();
   private readonly camera = new PerspectiveCamera(FIELD_OF_VIEW, 1, 0.01, 100);
   private readonly layers: Record<ModelName, Group> = { discrete: new Group(), continuous: new Group() };
-  private readonly figures: Record<ModelName, Figure>;
+  private readonly figures: Record<ModelName, Figure> = { discrete: new Figure("discrete"), continuous: new Figure("continuous") };
   private readonly arrows: Record<ModelName, ArrowMesh[]> = { discrete: [], continuous: [] };
   private ground: LineSegments | null = null;
   private cell = 0;
@@ -52,7 +75,6 @@ export class SpaceView implements View {
     const sun = new DirectionalLight(0xffffff, 2.2);
     sun.position.set(-1, -3, 4);
     this.scene.add(new AmbientLight(0xffffff, 1.6), sun);
-    this.figures = { discrete: emptyFigure(), continuous: emptyFigure() };
     this.layers.discrete.add(this.arc);
     this.layers.continuous.add(this.patch);
     // What lies under the body would else be hidden by it.
@@ -80,7 +102,7 @@ export class SpaceView implements View {
     for (const model of MODELS) {
       const figure = frame.figures.find((f) => f.model === model);
       this.layers[model].visible = figure !== undefined;
-      if (figure) this.place(model, figure);
+      if (figure) this.figures[model].put(figure);
       this.placeGhosts(model, frame.ghosts.filter((ghost) => ghost.model === model));
       this.placeArrows(model, frame.arrows.filter((arrow) => arrow.model === model));
     }
@@ -137,18 +159,6 @@ export class SpaceView implements View {
     this.camera.lookAt(centre);
     this.camera.updateProjectionMatrix();
     this.camera.updateMatrixWorld();
-  }
-
-  private place(model: ModelName, { body, pose, isOver = false }: Frame["figures"][number]): void {
-    const figure = this.figures[model];
-    if (figure.of === null || JSON.stringify(figure.of) !== JSON.stringify(body)) {
-      figure.of = body;
-      rebuild(figure, model, body);
-    }
-    figure.group.traverse((part) => {
-      if (part instanceof Mesh) Object.assign(part.material as Material, { transparent: isOver || model === "continuous", opacity: isOver ? PALE : 1 });
-    });
-    for (const part of [figure.group, ...figure.shadow.children]) putAt(part, body, pose);
   }
 
   private makeGround(length: number): void {
@@ -228,21 +238,6 @@ function putAt(part: Object3D, body: Body, { centre, rotation }: Pose): void {
   part.quaternion.set(x, y, z, w);
 }
 
-function emptyFigure(): Figure {
-  const shadow = new Group();
-  // Flattened on the ground: the shadow of light from straight above.
-  shadow.scale.set(1, 1, 1e-4);
-  return { group: new Group(), shadow, of: null };
-}
-
-function rebuild(figure: Figure, model: ModelName, body: Body): void {
-  for (const group of [figure.group, figure.shadow]) group.traverse((part) => { if (part instanceof Mesh) part.geometry.dispose(); });
-  figure.group.clear();
-  figure.shadow.clear();
-  figure.group.add(figureOf(body, model));
-  figure.shadow.add(new Mesh(geometryOf(body), SHADOW));
-}
-
 function groundGrid(cell: number): LineSegments {
   const points: number[] = [];
   const colours: number[] = [];
@@ -265,7 +260,7 @@ function groundGrid(cell: number): LineSegments {
   return new LineSegments(geometry, GRID);
 }
 
-export class ArrowMesh {
+class ArrowMesh {
   readonly group = new Group();
   private readonly material = new MeshBasicMaterial({ depthTest: false, transparent: true });
   private readonly shaft = new Mesh(new CylinderGeometry(1, 1, 1, 12).translate(0, 0.5, 0), this.material);

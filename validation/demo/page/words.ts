@@ -14,12 +14,12 @@ const BODY_NOTES: Readonly<Partial<Record<BodyName, string>>> = {
   tube: "The tube has a thin wall; its lids have no mass.",
 };
 
-export function bodyInWords(body: BodyName): string {
+function bodyInWords(body: BodyName): string {
   return BODY_NOTES[body] ?? "";
 }
 
 /** What is dropped, in one sentence. */
-export function dropInWords({ body, angle, tilt, turn, drop, height, speed, gravity, e, friction }: Parameters): string {
+function dropInWords({ body, angle, tilt, turn, drop, height, speed, gravity, e, friction }: Parameters): string {
   const leans = turn === "plane" || turn === "tilted" ? `, inclined by ${significant(seenAngle(BODIES[body].size, angle), 4)}°${turn === "tilted" ? ` and turned by ${significant(tilt, 4)}° before` : ""}` : "";
   const falls = drop === "height" ? `, let go ${significant(height, 4)} m above the floor` : drop === "speed" ? `, comes down at ${significant(speed, 4)} m/s` : "";
   const floor = friction > 0 ? `, friction μ = ${significant(friction, 4)}` : "";
@@ -27,7 +27,7 @@ export function dropInWords({ body, angle, tilt, turn, drop, height, speed, grav
 }
 
 /** On what the continuous model runs, of which the discrete one knows nothing; whether nobody else chose it. */
-export function groundInWords({ stiffness, damping, follow, e }: Parameters, isOfPage: boolean): string {
+function groundInWords({ stiffness, damping, follow, e }: Parameters, isOfPage: boolean): string {
   const numbers = `k = ${significant(stiffness, 4)} N/m³, c = ${significant(damping, 4)} N·s/m⁴`;
   const given = follow && e < LEAST ? `e = ${LEAST}, the least that the page gives it` : "e";
   const choice = isOfPage || given !== "e" ? `${isOfPage ? ", chosen by the page" : ""}; c is such that it gives ${given}` : "";
