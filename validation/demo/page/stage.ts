@@ -42,6 +42,8 @@ export class Stage {
     this.frame = frame;
     this.orbit = orbit;
     this.view.draw(frame, orbit);
+    // For whoever asks what the canvas shows.
+    this.box.dataset["arrows"] = [...new Set(frame.arrows.map(({ kind, isPast }) => (isPast ? "past" : kind)))].sort().join(", ");
     const { width, height } = this.size;
     frame.labels.forEach((label, i) => {
       const { x, y } = this.view.project(label.model, label.place, frame.side);
@@ -145,7 +147,7 @@ class FlatView implements View {
     }
   }
 
-  private arrow({ model, kind, from, vector }: Arrow, side: boolean): void {
+  private arrow({ model, kind, from, vector, isPast }: Arrow, side: boolean): void {
     const start = this.project(model, from, side);
     const tip = this.project(model, [from[0] + vector[0], 0, from[2] + vector[2]], side);
     const length = Math.hypot(tip.x - start.x, tip.y - start.y);
@@ -155,6 +157,7 @@ class FlatView implements View {
     const angle = Math.atan2(tip.y - start.y, tip.x - start.x);
     context.strokeStyle = context.fillStyle = kind === "speed" ? COLOURS.speed : COLOURS.blow[model];
     context.lineWidth = kind === "blow" ? 4 : 2;
+    context.globalAlpha = isPast ? 0.4 : 1;
     context.beginPath();
     context.moveTo(start.x, start.y);
     context.lineTo(tip.x - head * Math.cos(angle), tip.y - head * Math.sin(angle));
@@ -163,5 +166,6 @@ class FlatView implements View {
     context.moveTo(tip.x, tip.y);
     for (const turn of [-0.4, 0.4]) context.lineTo(tip.x - head * 1.1 * Math.cos(angle + turn), tip.y - head * 1.1 * Math.sin(angle + turn));
     context.fill();
+    context.globalAlpha = 1;
   }
 }
