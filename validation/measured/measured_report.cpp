@@ -451,7 +451,7 @@ PicturePanel track_panel(const MeasuredRun& run, const ScoredDrop& drop) {
                   {"height", "m", "of the centre"},
                   {"kind", "1", "0 measured, 1 predicted"}},
       .plot = {
-          .x_label = "t [s]",
+          .x_label = "time after impact 1 [s]",
           .y_label = "height of the centre [m]",
           .curves = {
               {.x = "time",
@@ -478,7 +478,7 @@ PicturePanel residual_panel(const Scores& scores) {
                                  {"error", "%", "of the motion after impact 1"},
                                  {"point", "1", "1: a point impact"}},
                      .plot = {.x_label = "angle between the corner's arm and the vertical [°]",
-                              .y_label = "error [%]",
+                              .y_label = "error of the motion after impact 1 [%]",
                               .curves = {{.x = "angle",
                                           .y = "error",
                                           .legend = "point impacts",
@@ -498,8 +498,9 @@ PicturePanel coverage_panel(const MeasuredRun& run, const Scores& scores) {
   PicturePanel panel{
       .columns = {{"width", "1", "over that of the 90 % interval"}, {"share", "%", "of the numbers within"}},
       .plot = {.x_label = "distance over half the 90 % interval",
-               .y_label = "numbers within [%]",
-               .curves = {{.x = "width", .y = "share", .legend = "velocities after impact 1; 90 % belong at 1"}}}};
+               .y_label = "velocities within that distance [%]",
+               .curves = {{.x = "width", .y = "share", .legend = "velocities after impact 1; 90 % belong at 1"}},
+               .y = {0, 100}}};
   const TrackedBody body(run.file.file.description, run.fit.calibration.calibration);
   std::vector<double> ratios;
   for (const ScoredDrop& drop : scores.drops) {

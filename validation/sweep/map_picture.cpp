@@ -211,19 +211,27 @@ std::string curve_commands(const std::vector<FoldCurve>& curves, double scale) {
   return text;
 }
 
-constexpr int most_subtitles = 4;  // lines
+std::vector<std::string> lines_of(const std::string& words, double columns) {
+  std::vector<std::string> lines;
+  std::istringstream stream(wrapped(words, static_cast<std::size_t>(columns), ""));
+  for (std::string line; std::getline(stream, line);) lines.push_back(line);
+  return lines;
+}
 
 /// The picture's parts in pixels.  A small map's pixels are squares, so that there is room for the words beside it;
 /// those of a narrow one are only as wide and as high as that takes.
 struct Sheet {
   long long across, upward;  ///< sides of a pixel of the map
-  double scale, left, right, top, bottom, width, height;
+  double scale, left, right, width;
+  std::vector<std::string> subtitles;
+  double top, bottom, height;
 
-  explicit Sheet(const MapPlan& plan)
+  Sheet(const MapPlan& plan, const std::string& words)
       : across(side(plan.columns, plan.rows)), upward(side(plan.rows, plan.columns)),
         scale(std::clamp(static_cast<double>(plan.rows * upward) / 600, 0.75, 3.0)), left(115 * scale),
-        right(250 * scale), top((40 + 17 * most_subtitles) * scale), bottom(72 * scale),
-        width(left + static_cast<double>(plan.columns * across) + right),
+        right(250 * scale), width(left + static_cast<double>(plan.columns * across) + right),
+        subtitles(lines_of(words, (width - left) / (8.2 * scale))),
+        top((40 + 17 * static_cast<double>(subtitles.size())) * scale), bottom(72 * scale),
         height(top + static_cast<double>(plan.rows * upward) + bottom) {}
 
   /// The side of a pixel, where the map has so many along it and so many beside it.
@@ -242,23 +250,26 @@ struct Sheet {
   }
 };
 
-std::string title_text(const MapPlan& plan, const MapImage& image, const Sheet& sheet) {
+/// All that the map was made of.
+std::string words_of(const MapPlan& plan, const MapImage& image) {
+  const long long open = image.open();
+  std::string words = open > 0 ? fmt::format("{} pixels left open by rounding or a fold", open) : "";
+  for (const std::string& line : plan.report().head) words += (words.empty() ? "" : "; ") + line;
+  return words;
+}
+
+std::string title_text(const MapPlan& plan, const Sheet& sheet) {
   const auto label = [&](int n, const std::string& words, double up, const char* font) {
     return fmt::format("set label {} {} at screen {}, screen {} left noenhanced font '{},{:.0f}'\n", n,
                        gnuplot_quoted(words), sheet.left / sheet.width, 1 - up * sheet.scale / sheet.height, font,
                        (n == 1 ? 15 : 11) * sheet.scale);
   };
-  const std::vector<std::string> head = plan.report().head;
-  std::string words;
-  for (const std::string& line : head) words += (words.empty() ? "" : "; ") + line;
-  const long long open = image.open();
-  if (open > 0) words = fmt::format("{} pixels left open by rounding or a fold; {}", open, words);
   std::string text = label(1, plan.counts() ? heading(plan) : plan.quantity->words, 20, "sans-serif Bold");
-  std::istringstream lines(
-      wrapped(words, static_cast<std::size_t>((sheet.width - sheet.left) / (8.2 * sheet.scale)), ""));
-  int n = 2;
-  for (std::string line; n <= 1 + most_subtitles && std::getline(lines, line); ++n)
-    text += label(n, line, 26 + 17 * (n - 1), "sans-serif");
+  int n = 1;
+  for (const std::string& line : sheet.subtitles) {
+    text += label(n + 1, line, 26 + 17 * n, "sans-serif");
+    ++n;
+  }
   return text;
 }
 
@@ -391,12 +402,12 @@ std::string magnified(const std::string& bytes, long long columns, const Sheet& 
 }  // namespace
 
 std::string map_picture(const MapPlan& plan, const MapImage& image) {
-  const Sheet sheet(plan);
+  const Sheet sheet(plan, words_of(plan, image));
   const bool has_classes = plan.quantity->is_class() && !plan.counts();
   const Legend legend = has_classes ? legend_of(image) : Legend{};
   const std::vector<FoldCurve> curves = plan.counts() ? std::vector<FoldCurve>{} : fold_curves(plan);
   std::string script = sheet.text() + axis_text(plan.across(), 'x') + axis_text(plan.upward(), 'y') +
-                       title_text(plan, image, sheet) + curve_blocks(plan, curves);
+                       title_text(plan, sheet) + curve_blocks(plan, curves);
   std::string bytes, rest;
   if (has_classes) {
     bytes = class_bytes(image, legend);

@@ -88,15 +88,17 @@ test("a tossed cube lies on the predicted one until it strikes", () => onPage("#
 
 for (const browser of ["chromium", "firefox"]) {
   test(`in ${browser} the tracked square lies on the predicted one until it strikes, and it is said how far they are apart`, () => onPage("#predict=0&hide=explain,map", async (page) => {
-    await page.waitForFunction((count) => document.querySelectorAll("#measured-cells .exact[points]").length === count, shipped.drops.length);
+    await page.waitForFunction((count) => document.querySelectorAll("#measured-cells .exact[d]").length === count, shipped.drops.length);
     const at = (time) => page.locator("#measured-time").evaluate((slider, value) => {
       slider.value = String(value);
       slider.dispatchEvent(new Event("input", { bubbles: true }));
-      const middle = (square) => [...square.points].reduce(([x, y], point) => [x + point.x / 4, y + point.y / 4], [0, 0]);
+      const corners = (square) => square.getAttribute("d").match(/[\d.]+,[\d.]+/g).map((corner) => corner.split(",").map(Number));
+      const middle = (square) => corners(square).reduce(([x, y], corner) => [x + corner[0] / 4, y + corner[1] / 4], [0, 0]);
       return [...document.querySelectorAll("#measured-cells li")].map((cell) => {
         const [a, b] = [".own", ".exact"].map((name) => cell.querySelector(name));
         const [[x, y], [u, v]] = [middle(a), middle(b)];
-        const edge = Math.hypot(a.points[0].x - a.points[1].x, a.points[0].y - a.points[1].y);
+        const [p, q] = corners(a);
+        const edge = Math.hypot(p[0] - q[0], p[1] - q[1]);
         return { apart: Math.hypot(x - u, y - v) / edge, said: Number(cell.querySelector("span").textContent.match(/off by ([\d.]+) mm/)[1]) };
       });
     }, Math.round(1e4 * time));

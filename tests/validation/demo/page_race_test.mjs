@@ -55,7 +55,7 @@ function exactAt(time) {
 
 for (const browser of ["chromium", "firefox"]) {
   test(`in ${browser} each engine's rod moves beside the exact one, by hand and by itself`, () => onPage("#predict=0&hide=explain,map", async (page) => {
-    await page.waitForSelector("#race-cells .exact[x1]", { state: "attached" });
+    await page.waitForSelector("#race-cells .exact[d]", { state: "attached" });
     assert.equal(await page.locator("#race-cells li").count(), recorded.runs.length);
     assert.deepEqual(await page.locator("#race-cells b").allTextContents(), recorded.runs.map(({ name }) => name));
     for (const ms of [0, 50, 100, 200]) {
@@ -63,11 +63,10 @@ for (const browser of ["chromium", "firefox"]) {
         slider.value = String(value);
         slider.dispatchEvent(new Event("input", { bubbles: true }));
         return [...document.querySelectorAll("#race-cells li")].map((cell) => ["exact", "own"].map((name) => {
-          const at = (place) => Number(cell.querySelector(`.${name}`).getAttribute(place));
-          const [x, up] = [at("x2") - at("x1"), at("y1") - at("y2")];
-          const floor = Number(cell.querySelector(".ground").getAttribute("y1"));
+          const places = (path) => cell.querySelector(path).getAttribute("d").match(/[\d.]+/g).map(Number);
+          const [[x1, y1, x2, y2], [, floor]] = [places(`.${name}`), places(".ground")];
           // In lengths of the rod, which is 1 m.
-          return [(floor - (at("y1") + at("y2")) / 2) / Math.hypot(x, up), Math.atan2(up, x)];
+          return [(floor - (y1 + y2) / 2) / Math.hypot(x2 - x1, y2 - y1), Math.atan2(y1 - y2, x2 - x1)];
         }).concat([cell.querySelector("span").textContent.match(/[\d.]+/g).map(Number)]));
       }, 10 * ms);
       const [height, angle] = exactAt(ms / 1e3 - recorded.drop.gap / 1.5);

@@ -342,7 +342,74 @@ test("in the plane the picture is straight from the side: an impulse stands upri
   assert.equal(await page.isChecked("#traces"), true);
 }));
 
-/** Random states, always the same ones. CLATTER_STATES: how many. */
+test("the arrow of an impulse fades once its contact is over, those of speeds have a switch, and speeds along the body their unit", () => onPage("#predict=0&impact=2&hide=map,explain", async (page) => {
+  await page.waitForSelector('tr[data-model="continuous"]');
+  const arrows = () => page.getAttribute("#stage", "data-arrows");
+  const scrubTo = (part) => page.locator("#scrubber").evaluate((scrubber, to) => {
+    scrubber.value = String(to * Number(scrubber.max));
+    scrubber.dispatchEvent(new Event("input", { bubbles: true }));
+  }, part);
+  await page.click("#next");
+  assert.equal(await arrows(), "blow, past, speed");  // of impact 3, and traces of those before
+  await page.uncheck("#traces");
+  assert.equal(await arrows(), "blow, speed");
+  await scrubTo(1);
+  await page.evaluate(() => document.getElementById("previous").click());
+  assert.equal(await arrows(), "blow, speed");
+  await scrubTo(0.9);
+  assert.equal(await arrows(), "past, speed");
+  await page.uncheck("#speeds");
+  assert.equal(await arrows(), "past");
+  await page.check("#speeds");
+  await scrubTo(0);
+  assert.equal(await arrows(), "speed");
+  assert.match((await page.locator("#profile-picture text").allTextContents()).join("; "), /velocity upwards in m\/s/);
+  assert.match(await page.getAttribute("#profile-picture svg", "aria-label"), /[\d.]+ m\/s at end a/);
+}));
+
+/** In the page: of each model that ends before the picture does, all that panels show of it where it has just ended and at the very end. */
+function pastEnds() {
+  const scrubber = document.getElementById("scrubber");
+  const put = (value) => {
+    scrubber.value = String(value);
+    scrubber.dispatchEvent(new Event("input", { bubbles: true }));
+  };
+  const before = Number(scrubber.value);
+  const most = Number(scrubber.max);
+  const texts = (selector) => [...document.querySelectorAll(selector)].map(({ textContent }) => textContent);
+  put(most);
+  const found = ["discrete", "continuous"].filter((model) => document.querySelector(`.energy-bar.${model}.over`)).map((model) => {
+    const column = model === "discrete" ? 2 : 3;
+    const numbers = () => texts(`#numbers-table tbody td:nth-child(${column}), #energy-table tbody td:nth-child(${column})`);
+    let [running, over] = [0, most];
+    while (over - running > 1) {
+      const middle = Math.floor((running + over) / 2);
+      put(middle);
+      if (document.querySelector(`.energy-bar.${model}.over`)) over = middle;
+      else running = middle;
+    }
+    put(over);
+    const first = numbers();
+    put(most);
+    const labels = [...document.querySelectorAll(`.stage-label.${model}`)].map(({ classList }) => classList[1]);
+    const now = document.querySelector(".now-line:not([hidden])");
+    const said = model === "continuous" ? [...texts("#patch-words"), ...(now ? [now.textContent] : [])] : [];
+    return { model, first, last: numbers(), differences: texts("#numbers-table tbody td:nth-child(4)"), labels, said: [...said, ...texts("#numbers-title")] };
+  });
+  put(before);
+  return found;
+}
+
+/** In the page: what a reader could only see by moving the window sideways, but for what moves within a box of its own. */
+function outsideWindow() {
+  const scrolls = (element) => element !== document.body && (/auto|scroll|hidden|clip/.test(getComputedStyle(element).overflowX) || scrolls(element.parentElement));
+  return [...document.querySelectorAll("body *")].filter((element) => {
+    const { left, right, width, height } = element.getBoundingClientRect();
+    return width > 1 && height > 1 && (left < -1 || right > innerWidth + 1) && !element.closest(".spoken, .skip") && !scrolls(element);
+  }).map((element) => element.id || element.outerHTML.slice(0, 80));
+}
+
+/** Random states, always the same ones. CLATTER_STATES: how many; CLATTER_BROWSER: where. */
 test("random states throw nothing, show no number past an end, add up their energies and stay within the window", async () => {
   let seed = 12345;
   const random = () => { seed = (seed * 1103515245 + 12345) % 2147483648; return seed / 2147483648; };
@@ -352,9 +419,10 @@ test("random states throw nothing, show no number past an end, add up their ener
     angle: (random() * 90).toFixed(1), turn: oneOf("", "", "&tilt=20"), layout: oneOf("overlay", "side"), at: oneOf(0, random(), 1),
     friction: oneOf(0, 0, 0.3), size: oneOf([1280, 900], [800, 600], [390, 800], [640, 450]), colorScheme: oneOf("light", "dark"),
   }));
+  const wrong = [];
   for (const colorScheme of ["light", "dark"]) {
     await onPage("#predict=0&hide=fan,explain,race,measured", async (page) => {
-      for (const state of states.filter((one) => one.colorScheme === colorScheme)) {
+      const check = async (state) => {
         const link = `#predict=0&hide=fan,explain,race,measured&tab=all&body=${state.body}&angle=${state.angle}${state.turn}&e=${state.e}`
           + `&gravity=${state.gravity}&friction=${state.friction}&layout=${state.layout}&stiffness=1e9&impacts=4`;
         await page.setViewportSize({ width: state.size[0], height: state.size[1] });
@@ -372,6 +440,12 @@ test("random states throw nothing, show no number past an end, add up their ener
           const sum = parts.reduce((all, part) => all + part, 0);
           assert.ok(parts.every((part) => part >= 0) && Math.abs(sum - total) <= 2e-3 * Math.max(total, 1e-3) + 5e-9, `${said}: ${parts} J are not ${total} J`);
         }
+        for (const { model, first, last, differences, labels, said: told } of await page.evaluate(pastEnds)) {
+          assert.deepEqual(first, last, `${said}: numbers of the ${model} model go on past its end`);
+          assert.ok(differences.every((text) => text === "–"), `${said}: ${differences}`);
+          assert.deepEqual(labels, ["over"], `${said}: ${model}`);
+          for (const words of told) assert.match(words, /ends here/, said);
+        }
         const heights = await page.locator("#numbers-table tbody tr:first-child td").allTextContents();
         for (const height of heights.slice(0, 2)) assert.ok(height === "–" || number(height) > -1, `${said}: ${height} mm`);
         assert.deepEqual(await page.evaluate(() => {
@@ -382,9 +456,13 @@ test("random states throw nothing, show no number past an end, add up their ener
           });
           return [document.documentElement.scrollWidth > innerWidth, out.length, document.getElementById("error").textContent.includes("drawn")];
         }), [false, 0, false], said);
-      }
-    }, { colorScheme });
+        assert.deepEqual(await page.evaluate(outsideWindow), [], said);
+      };
+      // All that goes wrong is told at once.
+      for (const state of states.filter((one) => one.colorScheme === colorScheme)) await check(state).catch(({ message }) => wrong.push(message));
+    }, { colorScheme, browser: process.env.CLATTER_BROWSER ?? "chromium" });
   }
+  assert.deepEqual(wrong, []);
 });
 
 test("a link without sense shows what the program says of it", () => onPage("#predict=0&e=2&mass=-1", async (page) => {

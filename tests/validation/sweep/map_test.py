@@ -5,6 +5,7 @@ import colorsys
 import math
 import os
 import re
+import shutil
 import signal
 import subprocess
 import unittest
@@ -100,6 +101,22 @@ class Map(EmptyFolder):
             middle = left + round(fold * 10)
             near = pixels[100:200, middle - 1:middle + 2].sum(axis=2)  # some rows: one of the curves is dashed
             self.assertLess(near.min(), 250, f"no dark curve at {fold}")
+
+    def test_no_word_of_the_title_is_cut(self):
+        """The title has as many lines as its words take, and paper beside each."""
+        fake = self.write("gnuplot", f"#!/bin/sh\ncp \"$2\" {self.path('script')}\nexec {shutil.which('gnuplot')} \"$@\"\n")
+        os.chmod(fake, 0o755)
+        env = {**os.environ, "PATH": f"{self.folder}:{os.environ['PATH']}"}
+        for size in ("600x30", "40x30", "20x200", "3x3"):
+            with self.subTest(size=size):
+                output = self.path("map.png")
+                done = run("map", "phone-corner", "--over", "drop.height=0.5:2", "--over", "impact.restitution=0.2:0.9", "--size", size, "--output", output,
+                           env=env)
+                self.assertEqual(done.returncode, 0, done.stderr)
+                _, *lines = re.findall(r"set label \d+ '([^']*)' at screen", self.read("script"))
+                words = " ".join(lines)
+                self.assertTrue(words.startswith("box 0.10566 × 0.04394 × 0.01905 m, 0.08814 kg") and words.endswith("at most 3 impacts, 6 digits"), words)
+                self.assertEqual(imread(output)[:, -6:, :3].min(), 1)
 
     def test_samples_give_the_part_of_the_class_with_wilsons_interval(self):
         arguments = ["--over", "drop.speed=1:2", "--over", "body.length=1:2", "--set", "drop.angle_deg=0:60", "--samples", "200",
@@ -216,7 +233,7 @@ class Palette(unittest.TestCase):
             papers = [colour for told, colour in page if told == "paper"]
             for colour, paper in zip((colours * 2)[:2], papers):
                 self.assertGreaterEqual(contrast(colour, paper), 3, (of_page, colour, paper))
-        for file in ("colours.ts", "story.css", "charts.ts", "map.ts", "view.ts", "flat_view.ts"):
+        for file in ("colours.ts", "story.css", "charts.ts", "map.ts", "view.ts", "stage.ts"):
             self.assertNotRegex(text(f"validation/demo/page/{file}"), r"#[0-9a-f]{6}\b")
         look = re.search(r"PALETTE = \((.*)\)", text("notebooks-data/look.py")).group(1)
         self.assertEqual(re.findall(r"#\w{6}", look),

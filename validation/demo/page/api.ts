@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Questions to the program, which runs in the page itself: WebAssembly in workers, so that the page never waits for it.
+import { byId } from "./dom";
 import type { Argument, Path, Request } from "./requests";
+import type { Inertia, Rotation, Vector } from "./rotation";
 import { answerRequests } from "./worker";
 
 /** What the program says is wrong, and the name of the quantity that it blames, if it blames one. */
@@ -8,15 +10,11 @@ export class ApiError extends Error {
   readonly blames: string | undefined;
 
   constructor(message: string) {
-    super(asArguments(message));
+    // Arguments as the page calls them: "tangential_velocity" for "--tangential-velocity".
+    super(message.replace(/--([a-z][a-z-]*)/g, (_flag, name: string) => name.replace(/-/g, "_")));
     this.name = "ApiError";
     this.blames = /^([a-z][a-z_]*) [^ ]+: /.exec(this.message)?.[1];
   }
-}
-
-/** Arguments as the page calls them: "tangential_velocity" for "--tangential-velocity". */
-function asArguments(message: string): string {
-  return message.replace(/--([a-z][a-z-]*)/g, (_flag, name: string) => name.replace(/-/g, "_"));
 }
 
 /** As the program takes them: texts. */
@@ -29,7 +27,7 @@ interface Job {
   request: Request;
   resolve: (answer: unknown) => void;
   reject: (error: unknown) => void;
-  signal: AbortSignal | null;
+  signal: AbortSignal | undefined;
 }
 
 /** A text beyond this is no scene; the module's stack would have to hold it. */
@@ -57,7 +55,7 @@ class Lane {
   }
 
   private next(): void {
-    if (this.running || !this.waiting.length) return;
+    if (this.running) return;
     this.running = this.waiting.shift() ?? null;
     if (!this.running) return;
     const { path, body } = this.running.request;
@@ -68,8 +66,7 @@ class Lane {
 
   private start(): Worker {
     const worker = new Worker(workerAddress());
-    compiled ??= unpacked("module-code").arrayBuffer().then((code) => WebAssembly.compile(code));
-    void compiled.then((code) => worker.postMessage(code));
+    void compiled.models.then((code) => worker.postMessage(code));
     worker.onmessage = ({ data }: MessageEvent<{ error?: string }>) => this.answer(data);
     worker.onerror = (event) => {
       event.preventDefault();
@@ -94,26 +91,21 @@ class Lane {
   }
 }
 
-const textWithin = (id: string): string => document.getElementById(id)?.textContent ?? "";
-
-/** Compiled once for all workers. */
-let compiled: Promise<WebAssembly.Module> | null = null;
 /** Of index.html. */
-declare const unpacked: (id: string) => Response;
+declare const compiled: { models: Promise<WebAssembly.Module> };
 
 let address = "";
 /** Of the worker's program, a text within the page. */
 function workerAddress(): string {
-  const text = textWithin("module");
-  address ||= URL.createObjectURL(new Blob([text, `(${answerRequests.toString()})();`], { type: "text/javascript" }));
-  return address;
+  const texts = [byId("module").textContent ?? "", `(${answerRequests.toString()})();`];
+  return (address ||= URL.createObjectURL(new Blob(texts, { type: "text/javascript" })));
 }
 
 /** The slower model has its own worker: the other one does not wait for it. */
 const lanes = { quick: new Lane(), slow: new Lane() };
 const SLOW: readonly Path[] = ["simulate", "compare"];
 
-export function ask<Answer>(request: Request, signal: AbortSignal | null = null): Promise<Answer> {
+export function ask<Answer>(request: Request, signal?: AbortSignal): Promise<Answer> {
   return new Promise((resolve, reject) => {
     if (String(request.body["text"] ?? "").length > LONGEST) throw new ApiError(`a scene file has at most ${LONGEST} characters`);
     const lane = SLOW.includes(request.path) ? lanes.slow : lanes.quick;
@@ -179,4 +171,54 @@ export class Latest<Answer, Context> {
       else if (!this.waiting && !isLeft) this.onBusy(false);
     }
   }
+}
+
+export interface Impact {
+  n: number;
+  start: number;
+  duration: number;
+  end: string;
+  /** In space: names of the corners that strike, and the Euler parameters at the touch. */
+  corners?: string;
+  attitude?: Rotation;
+  /** How many places touch one after the other, or corners at once. */
+  touches?: number;
+  inclination_deg: number;
+  /** As one sees it, and as the program counts it. */
+  contact_angle_deg: number;
+  program_angle_deg?: number;
+  approach_speed: number;
+  restitution: number | null;
+  impulse_normal: number;
+  impulse_tangential: number;
+  impulse: Vector;
+  peak_force: number | null;
+  velocity_after: Vector;
+  angular_velocity_after: Vector;
+  energy_before: number;
+  energy_after: number;
+  energy_loss: number;
+  /** False if errors have grown so far that nothing can be said about this impact; by so many times. */
+  predictable?: boolean;
+  amplification?: number | null;
+  error_estimate?: Bars;
+}
+
+/** Error bars, by the names of the numbers. */
+export type Bars = Partial<Record<"start" | "contact_angle_deg" | "impulse_normal" | "duration" | "peak_force" | "energy_loss", number | null>
+  & Record<"velocity_after" | "angular_velocity_after", Vector>>;
+
+/** Columns of the time history that the page reads. */
+export type History = Record<
+  "t" | "x" | "y" | "z" | "beta0" | "beta1" | "beta2" | "beta3" | "vx" | "vy" | "vz" | "wx" | "wy" | "wz" | "fx" | "fy" | "fz"
+  | "energy_rotation" | "energy_ground" | "energy_total" | "in_contact", number[]>;
+
+export interface SequenceAnswer {
+  body: { mass: number; centre: Vector; inertia: Inertia };
+  impacts: Impact[];
+  outcome: string;
+}
+
+export interface SimulateAnswer extends SequenceAnswer {
+  history: History;
 }

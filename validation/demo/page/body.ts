@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The falling body: sizes, inertia, and where it touches the ground. Lengths in m, masses in kg.
-import { plus, rotate, rotateBack, type Rotation, type Vector } from "./rotation";
+import { plus, rotate, rotateBack, type Inertia, type Rotation, type Vector } from "./rotation";
 
 export type BodyName = "rod" | "thick-rod" | "phone" | "coin" | "tube" | "die" | "plate" | "own-rod" | "own-box";
 /** What is drawn on a body; both models know its sizes alone. */
@@ -19,9 +19,6 @@ export interface Size {
   /** Of a rod: a thin wall around nothing. */
   readonly isHollow?: boolean;
 }
-
-/** xx, yy, zz, xy, xz, yz about the centre of mass, axes of the body [kg m²]. */
-export type Inertia = readonly [number, number, number, number, number, number];
 
 export interface Body extends Size {
   /** Of mass, from the geometric centre, axes of the body. */

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The picture as a file, with the names and numbers that stand in it and the line below: one moment as PNG, the whole drop as a film
-// or as a GIF.
+// or as a GIF, which slides and mails play that take no film, with fewer pictures a second and fewer colours.
+import { GIFEncoder, applyPalette, quantize } from "gifenc";
 import { byId } from "./dom";
-import { download } from "./files";
-import { Gif } from "./gif";
+import { download } from "./sharing";
 
 const LINE = 40; // below the picture, for the caption [px]
 /** The first that the browser writes. */
@@ -12,22 +12,16 @@ const FILMS = ["video/webm;codecs=vp9", "video/webm;codecs=vp8", "video/webm", "
 const STAYS = 700;
 const STAYS_IN_GIF = 2000;
 
-/** What the film asks of the page. */
-export interface Projector {
-  /** Draws the picture now, which a canvas keeps only until the browser has shown it. */
-  redraw(): void;
-  playFromStart(): void;
-}
-
 export class Capture {
   private readonly stage = byId("stage");
   private readonly paper = document.createElement("canvas");
   /** What takes the pictures, while one of the buttons has been pressed. */
   private taking: { button: HTMLButtonElement; add(): void; end(): void } | null = null;
 
-  constructor(private readonly projector: Projector) {
+  /** @param redraw draws the picture now, which a canvas keeps only until the browser has shown it */
+  constructor(private readonly redraw: () => void, private readonly playFromStart: () => void) {
     byId("picture").addEventListener("click", () => {
-      this.projector.redraw();
+      this.redraw();
       this.paint();
       this.paper.toBlob((blob) => { if (blob) download("clatter.png", blob, "image/png"); });
     });
@@ -42,16 +36,16 @@ export class Capture {
     this.paint();
     this.taking.add();
     // A film lasts until its last picture.
-    if (ended) setTimeout(() => { this.projector.redraw(); this.paint(); requestAnimationFrame(() => this.stop()); }, STAYS);
+    if (ended) setTimeout(() => { this.redraw(); this.paint(); requestAnimationFrame(() => this.stop()); }, STAYS);
   }
 
   private toggle(kind: "film" | "gif"): void {
     if (this.taking) return this.stop();
-    this.projector.redraw();
+    this.redraw();
     this.paint();
     this.taking = { button: byId<HTMLButtonElement>(kind), ...(kind === "gif" ? this.gif() : this.film()) };
     this.label(this.taking.button, true);
-    this.projector.playFromStart();
+    this.playFromStart();
   }
 
   private gif(): { add(): void; end(): void } {
@@ -127,4 +121,51 @@ function write(context: CanvasRenderingContext2D, element: HTMLElement, left: nu
   context.fillStyle = color;
   const text = element.textContent ?? "";
   context.fillText(text, x - left + (width - context.measureText(text).width) / 2, y - top + height / 2);
+}
+
+const WIDTH = 640; // at most [px]
+const STEP = 80; // between two pictures, at least [ms]
+const COLOURS = 64;
+
+interface Picture {
+  pixels: Uint8ClampedArray;
+  at: number;
+}
+
+class Gif {
+  private readonly encoder = GIFEncoder();
+  private readonly small = document.createElement("canvas");
+  private last: Picture | null = null;
+
+  constructor(private readonly paper: HTMLCanvasElement) {
+    const scale = Math.min(1, WIDTH / paper.width);
+    Object.assign(this.small, { width: Math.round(paper.width * scale), height: Math.round(paper.height * scale) });
+  }
+
+  /** The paper as it is now, unless that comes too soon after the picture before. */
+  add(): void {
+    const at = performance.now();
+    if (this.last && at - this.last.at < STEP) return;
+    const { width, height } = this.small;
+    const context = this.small.getContext("2d", { willReadFrequently: true }) as CanvasRenderingContext2D;
+    context.drawImage(this.paper, 0, 0, width, height);
+    // How long a picture stays is known when the next one comes.
+    this.write(at);
+    this.last = { pixels: context.getImageData(0, 0, width, height).data, at };
+  }
+
+  /** @param stays how long the last picture is shown [ms] */
+  end(stays: number): Uint8Array<ArrayBuffer> {
+    this.write((this.last?.at ?? 0) + stays);
+    this.encoder.finish();
+    return this.encoder.bytes();
+  }
+
+  private write(until: number): void {
+    if (!this.last) return;
+    const { pixels, at } = this.last;
+    const palette = quantize(pixels, COLOURS, { format: "rgb444" });
+    const { width, height } = this.small;
+    this.encoder.writeFrame(applyPalette(pixels, palette, "rgb444"), width, height, { palette, delay: until - at });
+  }
 }

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The force of the ground over time, and where the energy is.
+// The force of the ground over time, where the energy is, and how fast each point of the body moves up and down just before and just
+// after a blow: why the end that did not strike comes down twice as fast.
 import uPlot from "uplot";
-import type { SimulateAnswer } from "./answers";
+import type { SimulateAnswer } from "./api";
+import { isDisc, longHalf } from "./body";
 import { COLOURS } from "./colours";
-import { byId, make } from "./dom";
+import { byId, make, svg } from "./dom";
 import { significant } from "./format";
-import type { ModelName } from "./frame";
-import type { Energies, Motion } from "./motion";
+import { pointMotion, type Motion } from "./motion";
+import type { Vector } from "./rotation";
 
 export const FONT = "12px system-ui, sans-serif";
 
@@ -23,19 +25,27 @@ export function axis(label: string, size: number): uPlot.Axis {
   };
 }
 
-export function upright(plot: uPlot, x: number, colour: string, dash: number[], width = 1.5): void {
-  const { ctx, bbox } = plot;
-  const px = plot.valToPos(x, "x", true);
-  if (px < bbox.left || px > bbox.left + bbox.width) return;
+/** Draws over a chart, in one colour; lengths are those of a screen whose pixels are CSS's. */
+export function paint({ ctx }: uPlot, colour: string, width: number, draw: (ctx: CanvasRenderingContext2D) => void): void {
   ctx.save();
-  ctx.strokeStyle = colour;
+  ctx.strokeStyle = ctx.fillStyle = colour;
   ctx.lineWidth = width * devicePixelRatio;
-  ctx.setLineDash(dash.map((d) => d * devicePixelRatio));
+  ctx.setLineDash([]);
   ctx.beginPath();
-  ctx.moveTo(px, bbox.top);
-  ctx.lineTo(px, bbox.top + bbox.height);
+  draw(ctx);
   ctx.stroke();
   ctx.restore();
+}
+
+export function upright(plot: uPlot, x: number, colour: string, dash: number[], width = 1.5): void {
+  const { left, top, width: wide, height } = plot.bbox;
+  const px = plot.valToPos(x, "x", true);
+  if (px < left || px > left + wide) return;
+  paint(plot, colour, width, (ctx) => {
+    ctx.setLineDash(dash.map((d) => d * devicePixelRatio));
+    ctx.moveTo(px, top);
+    ctx.lineTo(px, top + height);
+  });
 }
 
 /** The samples of a contact are few: a monotone curve through them, as the force is one. */
@@ -45,7 +55,7 @@ function smooth(): uPlot.Series.PathBuilder {
   return spline();
 }
 
-const HEIGHT = 300;
+const CHART_HEIGHT = 300;
 
 export class ForceChart {
   private readonly box = byId("force-chart");
@@ -57,7 +67,7 @@ export class ForceChart {
   private readonly now = make("div", { class: "now-line" });
 
   constructor() {
-    new ResizeObserver(() => this.plot?.setSize(chartSize(this.box, HEIGHT))).observe(this.box);
+    new ResizeObserver(() => this.plot?.setSize(chartSize(this.box, CHART_HEIGHT))).observe(this.box);
     this.whole.addEventListener("change", () => this.zoom());
   }
 
@@ -72,7 +82,7 @@ export class ForceChart {
     if (!this.plot) return;
     const x = this.plot.valToPos(Math.min(time, end) * 1e3, "x");
     this.now.textContent = time > end ? "ends here" : "";
-    const inside = x >= 0 && x <= this.plot.over.clientWidth;
+    const inside = x >= 0 && x <= this.plot.bbox.width / devicePixelRatio;
     this.now.hidden = !inside;
     this.now.style.transform = `translateX(${x.toFixed(1)}px)`;
   }
@@ -95,7 +105,7 @@ export class ForceChart {
     }
     byId("force-friction").hidden = !rubs;
     this.plot = new uPlot({
-      ...chartSize(this.box, HEIGHT), pxAlign: 0, series, legend: { show: false }, cursor: { drag: { x: false, y: false } },
+      ...chartSize(this.box, CHART_HEIGHT), pxAlign: 0, series, legend: { show: false }, cursor: { drag: { x: false, y: false } },
       scales: { x: { time: false }, y: { range: (_plot, _low, high) => [0, Math.max(high, 1e-9) * 1.08] } },
       axes: [axis("Time after the first touch [ms]", 34), axis("Force of the ground [N]", 58)],
       hooks: { draw: [(plot) => this.discreteStarts.forEach((x) => upright(plot, x, COLOURS.discrete, [4, 4]))] },
@@ -116,57 +126,52 @@ export class ForceChart {
   }
 }
 
-type Part = keyof Energies;
-const PARTS: readonly { key: Part; title: string }[] = [
-  { key: "translation", title: "Translation" }, { key: "rotation", title: "Rotation" }, { key: "potential", title: "Height" },
-  { key: "ground", title: "Ground" }, { key: "lost", title: "Lost" },
-];
+const WIDTH = 420;
+const HEIGHT = 220;
+const LEFT = 48;
+const RIGHT = 372;
 
-/** One bar a model; its parts add up to the energy at the start. */
-export class EnergyBars {
-  private readonly bars = { discrete: bar("discrete"), continuous: bar("continuous") };
+/** Upward velocity of the two ends, or of two opposite points of a disc's rim, at a time [m/s]. */
+function velocities(motion: Motion, time: number): [number, number] {
+  const pose = motion.pose(time);
+  const half = longHalf(motion.body);
+  const at = (side: number): number => pointMotion(motion.body, pose, half.map((part) => side * part) as Vector).velocity[2];
+  return [at(-1), at(1)];
+}
 
-  constructor() {
-    const head = make("tr", {}, make("th", { scope: "col" }, "Energy [J]"), make("th", { scope: "col" }, "discrete"),
-      make("th", { scope: "col" }, "continuous"));
-    const rows = PARTS.map(({ key, title }) => make("tr", {},
-      make("th", { scope: "row" }, make("span", { class: `swatch energy-${key}` }), title),
-      this.bars.discrete.cells[key], this.bars.continuous.cells[key]));
-    const total = make("tr", { class: "total" }, make("th", { scope: "row" }, "Total"), this.bars.discrete.total, this.bars.continuous.total);
-    byId("energy-bars").append(this.bars.discrete.element, this.bars.continuous.element);
-    byId("energy-table").append(make("thead", {}, head), make("tbody", {}, ...rows, total));
-  }
-
-  show(model: ModelName, energies: Energies | null, isOver: boolean): void {
-    const { element, name, parts, cells, total } = this.bars[model];
-    element.classList.toggle("empty", energies === null);
-    element.classList.toggle("over", isOver);
-    name.textContent = isOver ? `${model}, ends here` : model;
-    const sum = energies ? PARTS.reduce((all, { key }) => all + energies[key], 0) : 0;
-    for (const { key } of PARTS) {
-      // Rounding leaves losses such as −1e-16.
-      const value = energies ? Math.max(0, energies[key]) : 0;
-      parts[key].style.flexGrow = sum > 0 ? String(value / sum) : "0";
-      cells[key].textContent = energies ? amount(value, sum) : "–";
+export function showProfile(motion: Motion | null, n: number): void {
+  byId("profile-title").textContent = `Along the body, at blow ${n}`;
+  const box = byId("profile-picture");
+  const impact = motion?.impacts[n - 1];
+  byId("panel-profile").classList.toggle("empty", !impact);
+  if (!motion || !impact) return;
+  const gap = 1e-9 * Math.max(1e-6, motion.end - motion.begin);
+  const lines = { before: velocities(motion, impact.start - gap), after: velocities(motion, impact.start) };
+  const most = Math.max(1e-12, ...Object.values(lines).flat().map(Math.abs));
+  const names = isDisc(motion.body) ? ["one side", "other side"] as const : ["end a", "end b"] as const;
+  const y = (speed: number): string => (HEIGHT / 2 - (speed / most) * (HEIGHT / 2 - 30)).toFixed(1);
+  const words = (name: "before" | "after"): string => `${name} the blow ${significant(lines[name][0], 3)} m/s at ${names[0]} and ${significant(lines[name][1], 3)} m/s at ${names[1]}`;
+  const picture = svg("svg", { viewBox: `0 0 ${WIDTH} ${HEIGHT}`, role: "img", "aria-label": `Upward velocity along the body: ${words("before")}, ${words("after")}` });
+  const write = (x: number, top: number, anchor: string, kind: string, text: string): void => {
+    picture.append(svg("text", { x, y: top, "text-anchor": anchor, class: kind }));
+    picture.lastElementChild?.append(text);
+  };
+  picture.append(svg("line", { x1: LEFT - 12, x2: RIGHT + 12, y1: y(0), y2: y(0), class: "axis" }));
+  for (const name of ["before", "after"] as const) {
+    const [a, b] = lines[name];
+    picture.append(svg("line", { x1: LEFT, x2: RIGHT, y1: y(a), y2: y(b), class: name }));
+    for (let i = 0; i <= 6; i++) {
+      const x = LEFT + ((RIGHT - LEFT) * i) / 6;
+      picture.append(svg("line", { x1: x, x2: x, y1: y(0), y2: y(a + ((b - a) * i) / 6), class: `${name} thin` }));
     }
-    total.textContent = energies ? significant(sum, 4) : "–";
+    // Numbers that would lie on each other stand above and below.
+    const shift = (own: number, other: number): number => (Math.abs(own - other) / most < 0.15 && name === "after" ? 16 : -6);
+    const other = lines[name === "after" ? "before" : "after"];
+    write(LEFT - 8, Number(y(a)) + shift(a, other[0]), "end", name, significant(a, 3));
+    write(RIGHT + 8, Number(y(b)) + shift(b, other[1]), "start", name, significant(b, 3));
   }
-}
-
-/** To the last place of the total, so that the parts visibly add up. */
-function amount(value: number, sum: number): string {
-  const places = sum > 0 ? Math.min(9, Math.max(0, 3 - Math.floor(Math.log10(sum)))) : 3;
-  return value.toFixed(places);
-}
-
-function bar(model: ModelName): {
-  element: HTMLElement; name: HTMLElement; parts: Record<Part, HTMLElement>; cells: Record<Part, HTMLElement>; total: HTMLElement;
-} {
-  const entries = <Made>(create: (key: Part) => Made): Record<Part, Made> =>
-    Object.fromEntries(PARTS.map(({ key }) => [key, create(key)])) as Record<Part, Made>;
-  const parts = entries((key) => make("span", { class: `energy-${key}` }));
-  const cells = entries(() => make("td"));
-  const strip = make("div", { class: "strip" }, ...Object.values(parts));
-  const name = make("span", { class: "name" }, model);
-  return { element: make("div", { class: `energy-bar ${model}` }, name, strip), name, parts, cells, total: make("td") };
+  write(LEFT, HEIGHT - 6, "middle", "end", names[0]);
+  write(RIGHT, HEIGHT - 6, "middle", "end", names[1]);
+  write(WIDTH / 2, 14, "middle", "end", "velocity upwards in m/s");
+  box.replaceChildren(picture);
 }

@@ -1,42 +1,40 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Sliders, number fields and choices of the situation.
+// Sliders, number fields and choices of the situation: what they are called, their range and scale stand in index.html. The program, not
+// the page, says which numbers are allowed.
 import type { ApiError } from "./api";
-import { AttitudeControls } from "./attitude_controls";
 import { BODIES, seenAngle, type BodyName } from "./body";
 import { byId, make } from "./dom";
-import { DROPS, QUANTITIES, bodyOf, isInPlane, isUsed, setBody, type Choices, type Parameters, type Quantity } from "./parameters";
-import { SPECS, blamedQuantity, fieldText, fromSlider, sliderRange, toSlider } from "./quantities";
-import { dampingOf, firstSpeed, restitutionOf } from "./restitution";
-import { SCENES } from "./scenes";
+import {
+  QUANTITIES, SCENES, attitudeOf, bodyOf, dampingOf, firstSpeed, isInPlane, isUsed, orientationName, restitutionOf, setBody,
+  type Parameters, type Quantity,
+} from "./parameters";
+import { normalised, product, turnAbout, type Rotation } from "./rotation";
 import { assignUnlocked, type State } from "./state";
 
 interface Row {
   box: HTMLElement;
-  /** None for a part of a vector. */
-  slider: HTMLInputElement | null;
   field: HTMLInputElement;
   error: HTMLElement;
+  /** Not for a part of a vector. */
+  slider?: HTMLInputElement;
   /** Why it cannot be changed. */
-  reason: HTMLElement;
+  reason?: HTMLElement;
 }
 
-/** What everybody sees; the rest stands under "More". */
-const BASICS: Quantity[] = ["angle", "e", "gravity"];
-/** Where each quantity stands; the sizes show only for a body of one's own. */
-const GROUPS: readonly { title: string; quantities: Quantity[] }[] = [
-  { title: "Drop", quantities: ["tilt", "orientation", "q0", "speed", "height", "vx", "wx"] },
-  { title: "Body", quantities: ["mass", "length", "radius", "width", "thickness"] },
-  { title: "Contact", quantities: ["friction", "stiffness", "damping"] },
-  { title: "Run", quantities: ["impacts"] },
-];
+const CHECKS = ["follow", "ofGround", "planar", "spinning"] as const;
+const STEP = Math.PI / 12; // of a button that turns the body
+/** Positions of a logarithmic slider. */
+const TICKS = 600;
 
-/** Parts of vectors share a line, which stands where the first of them does. */
-const VECTORS: Readonly<Partial<Record<Quantity, { title: string; parts: readonly Quantity[] }>>> = {
-  q0: { title: "Euler parameters, body to world", parts: ["q0", "q1", "q2", "q3"] },
-  vx: { title: "Velocity x, y, z", parts: ["vx", "vy", "vz"] },
-  wx: { title: "Spin about x, y, z", parts: ["wx", "wy", "wz"] },
+/** What the program calls these quantities in its messages. */
+const BLAMED: Readonly<Record<string, Quantity>> = {
+  restitution: "e", static_friction: "friction", sliding_friction: "friction", size: "length", attitude: "q0",
+  velocity: "vx", angular_velocity: "wx",
 };
-const DROP_NAMES = { speed: "at a speed", height: "from a height", velocity: "at a velocity" } as const;
+
+function blamedQuantity(name = ""): Quantity | undefined {
+  return isQuantity(name) ? name : BLAMED[name];
+}
 
 /** A quantity's value, or that which follows from another's. */
 function shownValue(parameters: Parameters, quantity: Quantity): number {
@@ -45,66 +43,102 @@ function shownValue(parameters: Parameters, quantity: Quantity): number {
   return quantity === "e" ? restitutionOf(parameters) : parameters[quantity];
 }
 
+/** Of a slider: its ends, and the step of a linear one; without a step it is logarithmic, with the number 0 at its left end if `zero`. */
+function rangeOf(slider: HTMLElement): { min: number; max: number; step: number; zero: boolean } {
+  const [min = 0, max = 1, step = 0] = (slider.dataset["range"] ?? "").split(" ").map(Number);
+  return { min, max, step, zero: "zero" in slider.dataset };
+}
+
+function toSlider(slider: HTMLElement, value: number): number {
+  const { min, max, step, zero } = rangeOf(slider);
+  if (step) return value;
+  if (!(value > 0)) return 0;
+  const part = Math.log(value / min) / Math.log(max / min);
+  return Math.round(Math.min(1, Math.max(zero ? 1 / TICKS : 0, part)) * TICKS);
+}
+
+function fromSlider(slider: HTMLElement, position: number): number {
+  const { min, max, step, zero } = rangeOf(slider);
+  if (step) return Number(position.toFixed(6));
+  return zero && position === 0 ? 0 : Number((min * (max / min) ** (position / TICKS)).toPrecision(3));
+}
+
+/** As a number field takes it; large numbers with an exponent. */
+function fieldText(value: number): string {
+  return Math.abs(value) >= 1e5 ? value.toExponential().replace("e+", "e") : String(value);
+}
+
 export class Controls {
   private readonly rows = new Map<Quantity, Row>();
   private readonly scene = byId<HTMLSelectElement>("scene");
-  private readonly body = make("select", { id: "body" });
-  private readonly drop = make("select", { id: "drop" });
-  private readonly follow = make("input", { type: "checkbox", id: "follow" });
-  private readonly ofGround = make("input", { type: "checkbox", id: "ofGround" });
-  private readonly planar = make("input", { type: "checkbox", id: "planar" });
-  private readonly spinning = make("input", { type: "checkbox", id: "spinning" });
-  private readonly attitude: AttitudeControls;
+  private readonly body = byId<HTMLSelectElement>("body");
+  private readonly turn = byId<HTMLSelectElement>("turn");
+  private readonly drop = byId<HTMLSelectElement>("drop");
+  /** Buttons that turn the body about the axes of the world. */
+  private readonly turns = [...byId("turns").querySelectorAll("button")];
   private readonly errors = new Map<string, ApiError>();
 
   constructor(
     private readonly state: State, private readonly onChange: () => void, private readonly onRelease: () => void,
   ) {
-    this.attitude = new AttitudeControls(state, () => this.change(), onRelease);
-    this.buildScenes();
+    const { parameters } = state;
+    for (const box of document.querySelectorAll<HTMLElement>("[data-quantity]")) this.buildRow(box);
+    for (const box of document.querySelectorAll<HTMLElement>("[data-vector]")) this.buildVector(box);
+    this.scene.append(...SCENES.map(({ name, title }) => make("option", { value: name }, title)));
+    this.body.append(...Object.entries(BODIES).map(([name, { title }]) => make("option", { value: name }, title)));
+    this.scene.addEventListener("change", () => {
+      const scene = SCENES.find(({ name }) => name === this.scene.value);
+      if (scene) this.choose(() => assignUnlocked(state, scene.parameters));
+    });
+    this.body.addEventListener("change", () => this.choose(() => setBody(parameters, this.body.value as BodyName)));
+    this.turn.addEventListener("change", () => this.choose(() => {
+      const turn = this.turn.value as Parameters["turn"];
+      // Euler parameters begin as what the body's attitude was.
+      if (turn === "attitude") this.put(attitudeOf(parameters, bodyOf(parameters)));
+      parameters.turn = turn;
+    }));
+    this.drop.addEventListener("change", () => this.chooseDrop(this.drop.value as Parameters["drop"]));
+    for (const key of CHECKS) byId(key).addEventListener("change", () => this.check(key));
+    for (const button of this.turns) button.addEventListener("click", () => this.choose(() => this.turnBy(button)));
     byId("extra-forget").addEventListener("click", () => {
-      state.parameters.extra = {};
+      parameters.extra = {};
       this.change();
     });
-    byId("basics").append(this.buildGroup("Drop it", BASICS));
-    for (const group of GROUPS) byId("quantities").append(this.buildGroup(group.title, group.quantities));
     this.refresh();
   }
 
   /** Shows the state: after a link, a scene or a click on the map changed it. */
   refresh(): void {
     const { parameters, lock } = this.state;
-    for (const [quantity, row] of this.rows) {
+    const isLocked = (...names: string[]): boolean => names.some((name) => lock.includes(name));
+    for (const [quantity, { box, slider, field, reason }] of this.rows) {
       const shown = shownValue(parameters, quantity);
-      if (row.slider) {
-        row.slider.value = String(toSlider(SPECS[quantity], shown));
-        row.slider.setAttribute("aria-valuetext", `${fieldText(shown)} ${SPECS[quantity].unit}`.trim());
-      }
-      if (document.activeElement !== row.field) row.field.value = fieldText(shown);
-      row.box.hidden = !isUsed(parameters, quantity);
       const followed = quantity === "damping" ? parameters.follow : quantity === "e" && parameters.ofGround;
-      const disabled = lock.includes(quantity) || followed;
-      if (row.slider) row.slider.disabled = disabled;
-      row.field.disabled = disabled;
-      setText(row.reason, !followed ? "" : quantity === "e" ? "It follows from the ground’s damping, which the scene gives." : "It follows from the restitution.");
+      if (document.activeElement !== field) field.value = fieldText(shown);
+      box.hidden = !isUsed(parameters, quantity);
+      field.disabled = isLocked(quantity) || followed;
+      if (!slider || !reason) continue;
+      slider.value = String(toSlider(box, shown));
+      slider.setAttribute("aria-valuetext", `${fieldText(shown)} ${box.dataset["unit"] ?? ""}`.trim());
+      slider.disabled = field.disabled;
+      setText(reason, !followed ? "" : quantity === "e" ? "It follows from the ground’s damping, which the scene gives." : "It follows from the restitution.");
     }
-    this.body.value = parameters.body;
-    this.drop.value = parameters.drop;
-    this.follow.checked = parameters.follow;
-    this.ofGround.checked = parameters.ofGround;
-    this.planar.checked = parameters.planar;
-    if (this.planar.parentElement) this.planar.parentElement.hidden = !isInPlane(parameters);
-    this.spinning.checked = parameters.spinning;
-    this.attitude.refresh();
+    for (const key of CHECKS) Object.assign(byId(key), { checked: parameters[key], disabled: isLocked(key) });
+    byId("planar-row").hidden = !isInPlane(parameters);
+    for (const [select, value] of [[this.body, parameters.body], [this.drop, parameters.drop], [this.turn, parameters.turn]] as const) {
+      Object.assign(select, { value, disabled: isLocked(select.id) });
+    }
+    this.turn.disabled ||= isLocked("angle", "tilt", "orientation");
+    for (const option of this.turn.options) option.disabled = option.value === "orientation" && bodyOf(parameters).shape !== "box";
+    byId("turns").hidden = parameters.turn !== "attitude";
+    for (const button of this.turns) button.disabled = isLocked("q0", "q1", "q2", "q3", "turn");
+    setText(byId("orientation-name"), parameters.turn === "orientation" ? orientationName(parameters.orientation) : "");
     const extra = Object.entries(parameters.extra).map(([name, text]) => `${name} = ${text}`);
     byId("extra").hidden = extra.length === 0;
     byId("extra-keys").textContent = extra.join("; ");
     if (extra.length > 0) this.openMore();
     this.scene.value = sceneOf(parameters) ?? "";
-    this.scene.disabled = lock.includes("scene");
-    for (const choice of [this.body, this.drop, this.follow, this.ofGround, this.planar, this.spinning]) {
-      choice.disabled = lock.includes(choice.id);
-    }
+    this.scene.disabled = isLocked("scene");
   }
 
   /** What must be read must not be folded away. */
@@ -125,106 +159,69 @@ export class Controls {
     }
     for (const [quantity, { error: line, field }] of this.rows) {
       setText(line, blamed.get(quantity) ?? "");
-      field.toggleAttribute("aria-invalid", blamed.has(quantity));
-      if (!blamed.has(quantity)) continue;
-      field.setAttribute("aria-invalid", "true");
-      if (field.closest("#more")) this.openMore();
+      if (!blamed.has(quantity)) field.removeAttribute("aria-invalid");
+      else {
+        field.setAttribute("aria-invalid", "true");
+        if (field.closest("#more")) this.openMore();
+      }
     }
     setText(byId("error"), [...general].join("; "));
   }
 
-  private buildScenes(): void {
-    this.scene.append(make("option", { value: "" }, "Your own"), ...SCENES.map(({ name, title }) => make("option", { value: name }, title)));
-    this.scene.addEventListener("change", () => {
-      const scene = SCENES.find(({ name }) => name === this.scene.value);
-      if (!scene) return;
-      assignUnlocked(this.state, scene.parameters);
-      this.change();
-      this.onRelease();
-    });
+  private chooseDrop(drop: Parameters["drop"]): void {
+    const { parameters } = this.state;
+    if (drop === "velocity") Object.assign(parameters, { vx: 0, vy: 0, vz: -firstSpeed(parameters) });
+    parameters.drop = drop;
+    // Nothing falls from a height without gravity.
+    if (drop === "height" && parameters.gravity === 0) parameters.gravity = 9.81;
+    this.change();
   }
 
-  private buildGroup(title: string, quantities: Quantity[]): HTMLElement {
-    const group = make("fieldset", {}, make("legend", {}, title));
-    if (title === "Body") group.append(this.buildBody());
-    for (const quantity of quantities) {
-      if (quantity === "tilt") group.append(this.attitude.choice);
-      if (quantity === "speed") group.append(this.attitude.turns, this.buildDrop());
-      if (quantity === "wx") group.append(this.check(this.spinning, "Turns at the first touch", "spinning"));
-      const vector = VECTORS[quantity];
-      group.append(vector ? this.buildVector(vector.title, vector.parts) : this.buildRow(quantity));
-      if (quantity === "orientation") group.append(this.attitude.orientation);
-      if (quantity === "stiffness") {
-        group.append(this.check(this.follow, "Damping follows e", "follow"), this.check(this.ofGround, "e follows damping", "ofGround"));
-      }
+  private check(key: (typeof CHECKS)[number]): void {
+    const { parameters } = this.state;
+    if (key === "follow" || key === "ofGround") {
+      parameters.damping = dampingOf(parameters);
+      parameters.e = restitutionOf(parameters);
+      parameters.follow = parameters.ofGround = false;  // each is the other's cause, or neither
     }
-    if (title === "Run") group.append(this.check(this.planar, "Keep the motion in its plane", "planar"));
-    return group;
+    parameters[key] = byId<HTMLInputElement>(key).checked;
+    this.change();
   }
 
-  private buildBody(): HTMLElement {
-    this.body.append(...Object.entries(BODIES).map(([name, { title }]) => make("option", { value: name }, title)));
-    this.body.addEventListener("change", () => {
-      setBody(this.state.parameters, this.body.value as BodyName);
-      this.change();
-      this.onRelease();
-    });
-    return make("p", { class: "choice" }, make("label", { for: "body" }, "Shape"), this.body);
+  private turnBy({ dataset }: HTMLButtonElement): void {
+    const { q0, q1, q2, q3 } = this.state.parameters;
+    const axis = "xyz".indexOf(dataset["axis"] ?? "x") as 0 | 1 | 2;
+    this.put(normalised(product(turnAbout(axis, Number(dataset["sign"]) * STEP), [q0, q1, q2, q3])));
   }
 
-  private buildDrop(): HTMLElement {
-    this.drop.append(...DROPS.map((value) => make("option", { value }, DROP_NAMES[value])));
-    this.drop.addEventListener("change", () => {
-      const { parameters } = this.state;
-      if (this.drop.value === "velocity") Object.assign(parameters, { vx: 0, vy: 0, vz: -firstSpeed(parameters) });
-      parameters.drop = this.drop.value as Parameters["drop"];
-      // Nothing falls from a height without gravity.
-      if (parameters.drop === "height" && parameters.gravity === 0) parameters.gravity = 9.81;
-      this.change();
-    });
-    return make("p", { class: "choice" }, make("label", { for: "drop" }, "Dropped"), this.drop);
+  private put([q0, q1, q2, q3]: Rotation): void {
+    Object.assign(this.state.parameters, { q0, q1, q2, q3 });
   }
 
-  private check(box: HTMLInputElement, text: string, key: keyof Choices & ("follow" | "ofGround" | "planar" | "spinning")): HTMLElement {
-    box.addEventListener("change", () => {
-      const { parameters } = this.state;
-      if (key === "follow" || key === "ofGround") {
-        parameters.damping = dampingOf(parameters);
-        parameters.e = restitutionOf(parameters);
-        parameters.follow = parameters.ofGround = false;  // each is the other's cause, or neither
-      }
-      parameters[key] = box.checked;
-      this.change();
-    });
-    return make("p", { class: "check" }, box, make("label", { for: box.id }, text));
-  }
-
-  private buildRow(quantity: Quantity): HTMLElement {
-    const spec = SPECS[quantity];
-    const name = spec.symbol ? `${spec.label} ${spec.symbol}` : spec.label;
-    const slider = make("input", { type: "range", id: `${quantity}-slider`, "aria-label": `${name}, slider`, ...sliderRange(spec) });
+  private buildRow(box: HTMLElement): void {
+    const quantity = box.dataset["quantity"] as Quantity;
+    const { label = "", unit = "" } = box.dataset;
+    const { min, max, step } = rangeOf(box);
+    const range = step ? { min, max, step } : { min: 0, max: TICKS, step: 1 };
+    const slider = make("input", { type: "range", id: `${quantity}-slider`, "aria-label": `${label}, slider`, ...range });
     const field = make("input", {
       type: "number", id: quantity, step: "any", inputmode: "decimal", "aria-describedby": `${quantity}-error ${quantity}-reason`,
     });
     const error = make("p", { class: "error", id: `${quantity}-error`, role: "alert", hidden: true });
-    const label = make("label", { for: quantity }, name);
     const reason = make("p", { class: "reason", id: `${quantity}-reason`, hidden: true });
-    const box = make("div", { class: "row" }, label, field, make("span", { class: "unit" }, spec.unit), slider, reason, error);
-    if (spec.model) box.title = `Of the ${spec.model} model`;
-    slider.addEventListener("input", () => this.set(quantity, fromSlider(spec, Number(slider.value))));
+    box.append(make("label", { for: quantity }, label), field, make("span", { class: "unit" }, unit), slider, reason, error);
+    slider.addEventListener("input", () => this.set(quantity, fromSlider(box, Number(slider.value))));
     slider.addEventListener("change", () => this.onRelease());
     this.listen(field, quantity);
     this.rows.set(quantity, { box, slider, field, error, reason });
-    return box;
   }
 
   /** A field a part, in one line. */
-  private buildVector(title: string, parts: readonly Quantity[]): HTMLElement {
-    const line = make("div", { class: "vector", role: "group", "aria-label": title });
-    const unit = SPECS[parts[0] ?? "vx"].unit;
-    const name = make("span", { class: "name" }, title, ...(unit ? [make("span", { class: "unit" }, ` ${unit}`)] : []));
-    const whole = make("div", { class: "part" }, name, line);
-    parts.forEach((part, i) => {
+  private buildVector(whole: HTMLElement): void {
+    const { label = "", unit = "", vector = "" } = whole.dataset;
+    const line = make("div", { class: "vector", role: "group", "aria-label": label });
+    whole.append(make("span", { class: "name" }, label, make("span", { class: "unit" }, ` ${unit}`)), line);
+    (vector.split(" ") as Quantity[]).forEach((part, i) => {
       const field = make("input", { type: "number", id: part, step: "any", "aria-label": part, "aria-describedby": `${part}-error` });
       const error = make("p", { class: "error", id: `${part}-error`, role: "alert", hidden: true });
       const box = make("span", {}, field);
@@ -232,9 +229,8 @@ export class Controls {
       whole.append(error);
       this.listen(field, part);
       // Parts are shown together, with their title.
-      this.rows.set(part, { box: i === 0 ? whole : box, slider: null, field, error, reason: make("p") });
+      this.rows.set(part, { box: i === 0 ? whole : box, field, error });
     });
-    return whole;
   }
 
   private listen(field: HTMLInputElement, quantity: Quantity): void {
@@ -253,6 +249,13 @@ export class Controls {
   private change(): void {
     this.refresh();
     this.onChange();
+  }
+
+  /** What is chosen at once, as a slider that is let go. */
+  private choose(act: () => void): void {
+    act();
+    this.change();
+    this.onRelease();
   }
 }
 

@@ -22,8 +22,19 @@ export function make<Tag extends keyof HTMLElementTagNameMap>(
   return element;
 }
 
+/** Of some buttons those that are chosen. */
+export function press(buttons: Iterable<Element>, isChosen: (button: HTMLElement) => boolean): void {
+  for (const button of buttons) button.setAttribute("aria-pressed", String(isChosen(button as HTMLElement)));
+}
+
 /** Words that are said again would be read aloud again. */
 export function say(id: string, words: string): void {
   const line = byId(id);
   if (line.textContent !== words) line.textContent = words;
+}
+
+export function svg<Tag extends keyof SVGElementTagNameMap>(tag: Tag, attributes: Record<string, string | number>): SVGElementTagNameMap[Tag] {
+  const element = document.createElementNS("http://www.w3.org/2000/svg", tag);
+  for (const [name, value] of Object.entries(attributes)) element.setAttribute(name, String(value));
+  return element;
 }

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What the picture shows at one time: the bodies of both models, the blow, and the speeds of the ends.
-import type { Impact } from "./answers";
+import type { Impact } from "./api";
 import { extentOf, isDisc, longHalf, lowestPlace, type Body } from "./body";
 import { significant } from "./format";
 import { hasEnded, pointMotion, shownTime, type Motion, type Pose } from "./motion";
+import type { Orbit } from "./orbit";
 import { patchOf, type Patch } from "./patch";
 import { plus, rotate, type Rotation, type Vector } from "./rotation";
 
@@ -16,7 +17,6 @@ export interface Arrow {
   from: Vector;
   /** In metres of the picture. */
   vector: Vector;
-  /** Of a blow that is over. */
   isPast?: boolean;
 }
 
@@ -29,7 +29,7 @@ export interface Arc {
   toRight: boolean;
 }
 
-export interface Label {
+interface Label {
   model: ModelName;
   kind: "blow" | "end" | "angle" | "held" | "over";
   place: Vector;
@@ -259,4 +259,16 @@ function struckPoint(motion: Motion, impact: Impact): Vector {
   const { centre, rotation } = motion.pose(impact.start);
   const [x, y] = plus(centre, lowestPlace(motion.body, rotation));
   return [x, y, 0];
+}
+
+/** Place in the picture, from its upper left corner [px]. */
+export interface Projection {
+  x: number;
+  y: number;
+}
+
+export interface View {
+  resize(width: number, height: number): void;
+  draw(frame: Frame, orbit: Orbit): void;
+  project(model: ModelName, point: Vector, side: boolean): Projection;
 }

@@ -1,50 +1,40 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The page: from a change of the situation to the requests, and from their answers to the panels.
-import type { ExplainAnswer } from "./answers";
 import { ApiError, Latest } from "./api";
-import { EnergyBars, ForceChart } from "./charts";
 import { Capture } from "./capture";
+import { ForceChart, showProfile } from "./charts";
 import { Controls } from "./controls";
-import { byId, say } from "./dom";
-import { Explanation } from "./explain";
-import { FanPanel } from "./fan_panel";
-import { download } from "./files";
+import { byId, make, say } from "./dom";
+import { showExplanation, type ExplainAnswer } from "./explain";
+import { FanPanel } from "./fan";
 import { MODELS, frameAt, impactAt, scalesOf, type ModelName, type Scales } from "./frame";
-import { Grab, awaitedFrame } from "./grab";
-import { InHand } from "./in_hand";
-import { setUpLecture } from "./lecture";
+import { InHand, awaitedFrame } from "./grab";
 import { AngleMap } from "./map";
-import { setUpMeasured } from "./measured";
 import { Models } from "./models";
-import { momentAt } from "./moment";
 import { hasEnded } from "./motion";
-import { Numbers } from "./numbers";
+import { momentAt, showEnergies, showNumbers } from "./numbers";
 import { OrbitControl } from "./orbit";
-import { Tabs, hidePanels, setUpLayout, setUpOpening, setUpPrinting } from "./panels";
-import { isInPlane, isThinRod } from "./parameters";
-import { showPatch } from "./patch_panel";
-import { Player, TimeWarp } from "./playback";
+import { Tabs, Waiting, hidePanels, setUpLayout, setUpLecture, setUpOpening, setUpPrinting } from "./panels";
+import { firstSpeed, isInPlane, isThinRod, restitutionOf } from "./parameters";
+import { showPatch } from "./patch";
+import { Player, TimeWarp, Transport } from "./playback";
 import { Prediction } from "./prediction";
-import { showProfile } from "./profile";
-import { setUpRace } from "./race";
 import { explainRequest, gravityNumber } from "./requests";
-import { firstSpeed, restitutionOf } from "./restitution";
-import { SceneFile } from "./scene_file";
-import { setUpSharing } from "./sharing";
-import { showNotes } from "./situation_notes";
+import { SceneFile, download, setUpSharing } from "./sharing";
+import { Strip } from "./sketch";
 import { Sound } from "./sound";
 import { Stage } from "./stage";
 import { readAddress, usualLayout, writeAddress, type State } from "./state";
 import { Story } from "./story";
-import { Strip } from "./strip";
 import { ImpactTable, csvOf } from "./table";
-import { Transport } from "./transport";
-import { Waiting } from "./waiting";
-import { impactInWords, outcomeInWords } from "./words";
+import { setUpTracks } from "./tracks";
+import { impactInWords, outcomeInWords, showNotes } from "./words";
 
 /** After a change, until the equations are asked for, and until the drop is played [ms]. */
 const EXPLAIN_DELAY = 80;
 const PLAY_DELAY = 350;
+
+const isChecked = (id: string): boolean => byId<HTMLInputElement>(id).checked;
 
 class Page {
   private readonly state: State = readAddress();
@@ -59,27 +49,20 @@ class Page {
 
   private readonly stage = new Stage();
   private readonly orbit = new OrbitControl(byId("stage"), () => this.draw());
-  private readonly traces = byId<HTMLInputElement>("traces");
-  private readonly speeds = byId<HTMLInputElement>("speeds");
-  private readonly numbers = new Numbers();
-  private readonly energy = new EnergyBars();
   private readonly force = new ForceChart();
-  private readonly explanation = new Explanation();
   private readonly table = new ImpactTable((model, n) => this.goToImpact(model, n));
   private readonly fan = new FanPanel(this.state, () => { this.draw(); this.remember(); });
   private readonly strip = new Strip((model, n) => this.goToImpact(model, n));
   private readonly sound = new Sound(this.state.lock.includes("sound"));
   private readonly tabs = new Tabs(this.state, () => this.remember());
   private readonly showLayout: () => void;
-  /** Of the situation before. */
   private wasInPlane = isInPlane(this.state.parameters);
-  /** When the playback showed its last frame. */
   private playedTo = -Infinity;
   private readonly map = new AngleMap((angle) => this.setAngle(angle));
   private readonly player = new Player(new TimeWarp(0, 1), (_time, ended) => this.onTime(ended));
   private readonly controls = new Controls(this.state, () => this.update(), () => this.playSoon());
   private readonly prediction = new Prediction(() => this.onPredicted());
-  private readonly transport = new Transport({
+  private readonly transport = new Transport(this.state, {
     toggle: () => this.toggle(),
     step: (direction) => this.goTo(this.state.impact + direction, direction),
     scrub: (progress) => this.scrub(progress),
@@ -88,8 +71,7 @@ class Page {
     setSlow: (slow) => { this.state.slow = slow; this.rewarp(); this.remember(); },
   });
 
-  private readonly hand = new InHand(this.state, {
-    stage: this.stage,
+  private readonly hand = new InHand(this.state, this.stage, this.orbit, {
     motion: () => this.models.motions.discrete,
     time: () => (this.prediction.isOpen ? this.models.motions.discrete?.begin ?? 0 : this.player.time),
     onHold: () => {
@@ -105,12 +87,9 @@ class Page {
     },
   });
 
-  private readonly waiting = new Waiting(() => this.models.leaveContinuous(), () => this.models.askContinuous(this.state.parameters));
+  private readonly waiting = new Waiting(() => this.models.simulation.leave(), () => this.models.askContinuous(this.state.parameters));
 
-  private readonly capture = new Capture({
-    redraw: () => this.stage.redraw(),
-    playFromStart: () => { if (!this.prediction.isOpen) this.playAnew(); },
-  });
+  private readonly capture = new Capture(() => this.stage.redraw(), () => { if (!this.prediction.isOpen) this.playAnew(); });
 
   private readonly story = new Story(this.state, {
     onEnter: () => {
@@ -126,32 +105,22 @@ class Page {
     onShow: () => this.showAnew(),
   });
 
-  private readonly models = new Models({
-    onAnswer: () => this.onAnswer(),
-    onError: (model, error) => this.controls.setError(model, error),
-    onBusy: (busy) => this.waiting.show(busy),
-  });
+  private readonly models = new Models(
+    () => this.onAnswer(), (model, error) => this.controls.setError(model, error), (busy) => this.waiting.show(busy));
   private readonly explaining = new Latest<ExplainAnswer, null>(
-    EXPLAIN_DELAY, (answer) => this.explanation.show(answer), (error) => this.explanation.say(error.message));
+    EXPLAIN_DELAY, showExplanation, ({ message }) => byId("explain-steps").replaceChildren(make("p", { class: "quiet" }, message)));
 
   constructor() {
     const { state } = this;
     hidePanels(state);
     setUpOpening();
     this.player.rate = state.rate;
-    this.transport.setSettings(state.rate, state.slow, state.lock);
     this.showLayout = setUpLayout(state, () => this.onTime());
     new SceneFile(state, () => this.showAnew());
     setUpSharing(state, () => { state.time = this.player.time; }, (asks) => { if (asks) this.prediction.open(); });
     byId("csv").addEventListener("click", () => download("impacts.csv", csvOf(this.models.impacts), "text/csv"));
     if (state.predict) this.prediction.open();
-    new Grab(byId("stage"), {
-      body: () => this.hand.body(),
-      project: (place) => this.stage.project(place),
-      hold: (held) => this.hand.hold(held),
-      letGo: (held) => this.hand.letGo(held),
-    }, this.orbit);
-    for (const box of [this.traces, this.speeds]) box.addEventListener("change", () => this.draw());
+    for (const id of ["traces", "speeds"]) byId(id).addEventListener("change", () => this.draw());
     setUpPrinting(() => [state.impact, this.player.time], (n, time) => this.put(n, time));
     setUpLecture((on) => this.prediction.setVoting(on), () => this.onTime());
     // Another link to this page, opened where it stands.
@@ -161,10 +130,13 @@ class Page {
     this.draw();
   }
 
-  /** The situation changed. */
   private update(): void {
     const { parameters } = this.state;
-    this.chooseLayout();
+    // Into space and back the layout goes along; any other time it stays what was chosen.
+    const inPlane = isInPlane(parameters);
+    if (inPlane !== this.wasInPlane && !this.state.lock.includes("layout")) this.state.layout = usualLayout(parameters);
+    this.wasInPlane = inPlane;
+    this.showLayout();
     this.asked = performance.now();
     this.followsImpact = this.hasShown;
     this.models.ask(parameters);
@@ -185,15 +157,6 @@ class Page {
     this.update();
   }
 
-  /** Into space and back the layout goes along; any other time it stays what was chosen. */
-  private chooseLayout(): void {
-    const { parameters, lock } = this.state;
-    const inPlane = isInPlane(parameters);
-    if (inPlane !== this.wasInPlane && !lock.includes("layout")) this.state.layout = usualLayout(parameters);
-    this.wasInPlane = inPlane;
-    this.showLayout();
-  }
-
   private onAnswer(): void {
     const { models } = this;
     this.scales = scalesOf(models.motions);
@@ -203,9 +166,7 @@ class Page {
     this.table.show(models.impacts, models.pairing, this.state.impact);
     this.strip.show(models.motions, models.pairing, this.state.impact);
     byId("outcome").textContent = models.discrete ? outcomeInWords(models.discrete.outcome) : "";
-    this.force.show(models.continuous, models.motions.discrete, this.state.impact);
-    showProfile(this.models.motions.discrete, this.state.impact);
-    this.explain();
+    this.showChosen();
     if (!this.player.playing) {
       // While a slider moves the picture stays with the chosen impact, whenever that is now.
       const impact = this.followsImpact || Number.isNaN(this.state.time) ? this.models.steps[this.state.impact - 1] : undefined;
@@ -230,23 +191,18 @@ class Page {
     })));
   }
 
-  /** The time moved. */
   private onTime(ended = false): void {
     const impact = impactAt(this.models.steps, this.player.time);
     if (impact && impact.n !== this.state.impact && this.player.playing) this.choose(impact.n);
-    this.hear();
+    const { time, playing } = this.player;
+    if (playing && time > this.playedTo) this.sound.pass(this.models.steps, this.playedTo, time);
+    // What was passed by while the picture stood is not heard afterwards.
+    this.playedTo = time;
     this.draw();
     this.capture.drawn(ended);
     this.prediction.seen(this.player.time, ended);
     this.story.seen(this.player.time, ended);
     if (!this.player.playing) this.remember();
-  }
-
-  private hear(): void {
-    const { time, playing } = this.player;
-    if (playing && time > this.playedTo) this.sound.pass(this.models.steps, this.playedTo, time);
-    // What was passed by while the picture stood is not heard afterwards.
-    this.playedTo = time;
   }
 
   /** What goes wrong in it is told, and the rest of the page goes on. */
@@ -269,16 +225,16 @@ class Page {
     const impact = impactAt(this.models.steps, time);
     // Before the guess the picture shows the fall, not yet the blow.
     const shown = this.prediction.isOpen ? (this.models.motions.discrete?.begin ?? 0) : time;
-    const frame = this.models.discrete ? frameAt(this.models.motions, shown, this.scales, state.layout === "side", this.traces.checked && !this.prediction.isOpen) : awaitedFrame(state.parameters);
-    if (!this.speeds.checked) frame.arrows = frame.arrows.filter(({ kind }) => kind !== "speed");
+    const frame = this.models.discrete ? frameAt(this.models.motions, shown, this.scales, state.layout === "side", isChecked("traces") && !this.prediction.isOpen) : awaitedFrame(state.parameters);
+    if (!isChecked("speeds")) frame.arrows = frame.arrows.filter(({ kind }) => kind !== "speed");
     if (!this.prediction.isOpen) frame.ghosts.push(...this.fan.ghosts(time, player.playing));
     this.stage.draw(frame, this.orbit.orbit);
     const { motions } = this.models;
     const moment = momentAt(motions, this.models.pairing, time);
-    this.numbers.show(motions, moment);
+    showNumbers(motions, moment);
     for (const model of MODELS) {
       const [motion, own] = [motions[model], moment.times[model]];
-      this.energy.show(model, motion && own !== null ? motion.energies(own) : null, motion !== null && hasEnded(motion, time));
+      showEnergies(model, motion && own !== null ? motion.energies(own) : null, motion !== null && hasEnded(motion, time));
     }
     this.force.setTime(time, motions.continuous?.end ?? Infinity);
     showPatch(this.models.motions.continuous, this.models.continuous?.history ?? null, time);
@@ -289,9 +245,7 @@ class Page {
     this.state.impact = n;
     this.table.choose(n);
     this.strip.choose(n);
-    this.force.show(this.models.continuous, this.models.motions.discrete, n);
-    showProfile(this.models.motions.discrete, this.state.impact);
-    this.explain();
+    this.showChosen();
   }
 
   /** To an impact; one step back from between two impacts is to the one before. */
@@ -382,11 +336,13 @@ class Page {
     this.playSoon();
   }
 
-  private explain(): void {
+  private showChosen(): void {
+    const { models: { continuous, motions }, state: { impact } } = this;
+    this.force.show(continuous, motions.discrete, impact);
+    showProfile(motions.discrete, impact);
     if (this.state.hide.includes("explain") || !this.models.discrete) return;
-    const { parameters, impact } = this.state;
     byId("explain-title").textContent = `How impact ${impact} came about`;
-    this.explaining.ask(explainRequest(parameters, impact), null);
+    this.explaining.ask(explainRequest(this.state.parameters, impact), null);
   }
 
   private remember(): void {
@@ -396,5 +352,4 @@ class Page {
 }
 
 new Page();
-setUpRace();
-setUpMeasured();
+setUpTracks();

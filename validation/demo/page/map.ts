@@ -1,13 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The map of contact angles: β and γ, at which the thin rod strikes again, over the first angle θ.
 import uPlot from "uplot";
-import type { AngleRow, AnglesAnswer } from "./answers";
 import { ask } from "./api";
-import { FONT, axis, chartSize, upright } from "./charts";
+import { FONT, axis, chartSize, paint, upright } from "./charts";
 import { COLOURS } from "./colours";
 import { byId } from "./dom";
 import { fixed } from "./format";
 import { anglesRequest, keyOf } from "./requests";
+
+interface AngleRow {
+  theta_deg: number;
+  beta_deg: number | null;
+  gamma_deg: number | null;
+}
 
 type Curve = "beta_deg" | "gamma_deg";
 /** Where a curve ends or begins again. */
@@ -20,7 +25,6 @@ interface Fold {
   ends: boolean;
 }
 
-const MAP_RANGE = { from: 0, to: 90, count: 91 } as const;
 const HEIGHT = 300;
 const MAP_DELAY = 120; // ms
 const REFINED = 101;
@@ -41,8 +45,7 @@ export class AngleMap {
 
   /** Asks for the map of another gravity number or coefficient of restitution, and then closer to its folds. */
   async show(gravity: number, e: number): Promise<void> {
-    const { from, to, count } = MAP_RANGE;
-    const request = anglesRequest(gravity, e, from, to, count);
+    const request = anglesRequest(gravity, e, 0, 90, 91);
     const key = keyOf(request);
     if (key === this.shown || !Number.isFinite(gravity)) return;
     this.shown = key;
@@ -51,13 +54,13 @@ export class AngleMap {
     if (key !== this.shown) return;
     const isNewest = (): boolean => key === this.shown;
     try {
-      let { rows } = await ask<AnglesAnswer>(request);
+      let { rows } = await ask<{ rows: AngleRow[] }>(request);
       if (!isNewest()) return;
       this.draw(rows);
       const coarse = (): Fold | undefined => foldsOf(rows).find(({ resolution }) => resolution > RESOLVED);
       for (let fold = coarse(); fold; fold = coarse()) {
         const closer = anglesRequest(gravity, e, fold.theta, fold.theta + fold.resolution, REFINED);
-        const answer = await ask<AnglesAnswer>(closer);
+        const answer = await ask<{ rows: AngleRow[] }>(closer);
         if (!isNewest()) return;
         rows = merge(rows, answer.rows);
       }
@@ -110,18 +113,16 @@ export class AngleMap {
     upright(plot, this.theta, COLOURS.ink, [], 1);
     for (const curve of ["beta_deg", "gamma_deg"] as const) {
       const value = valueAt(this.rows, curve, this.theta);
-      if (value !== null) dot(plot, this.theta, value, colourOf(curve), true);
+      if (value !== null) dot(plot, this.theta, value, CURVES[curve], true);
     }
     for (const fold of this.folds) {
-      dot(plot, fold.theta, fold.value, colourOf(fold.curve), false);
+      dot(plot, fold.theta, fold.value, CURVES[fold.curve], false);
       write(plot, fold.theta, fold.value, `${fixed(fold.theta, decimalsOf(fold))}°`);
     }
   }
 }
 
-function colourOf(curve: Curve): string {
-  return curve === "beta_deg" ? COLOURS.beta : COLOURS.gamma;
-}
+const CURVES: Readonly<Record<Curve, string>> = { beta_deg: COLOURS.beta, gamma_deg: COLOURS.gamma };
 
 /** All of them; at 0° both ends strike at once, and nothing begins. */
 function foldsOf(rows: AngleRow[]): Fold[] {
@@ -150,35 +151,25 @@ function merge(rows: AngleRow[], more: AngleRow[]): AngleRow[] {
 
 function valueAt(rows: AngleRow[], curve: Curve, theta: number): number | null {
   const above = rows.findIndex((row) => row.theta_deg >= theta);
-  const high = rows[above];
-  const low = rows[Math.max(0, above - 1)];
-  const a = low?.[curve];
-  const b = high?.[curve];
-  if (!low || !high || a === null || a === undefined || b === null || b === undefined) return null;
+  const [low, high] = [rows[Math.max(0, above - 1)], rows[above]];
+  const [a, b] = [low?.[curve] ?? null, high?.[curve] ?? null];
+  if (!low || !high || a === null || b === null) return null;
   return high === low ? b : a + ((b - a) * (theta - low.theta_deg)) / (high.theta_deg - low.theta_deg);
 }
 
 function dot(plot: uPlot, x: number, y: number, colour: string, filled: boolean): void {
-  const { ctx } = plot;
-  ctx.save();
-  ctx.beginPath();
-  ctx.arc(plot.valToPos(x, "x", true), plot.valToPos(y, "y", true), 5 * devicePixelRatio, 0, 2 * Math.PI);
-  ctx.fillStyle = filled ? colour : COLOURS.paper;
-  ctx.strokeStyle = colour;
-  ctx.lineWidth = 2 * devicePixelRatio;
-  ctx.setLineDash([]);
-  ctx.fill();
-  ctx.stroke();
-  ctx.restore();
+  paint(plot, colour, 2, (ctx) => {
+    ctx.arc(plot.valToPos(x, "x", true), plot.valToPos(y, "y", true), 5 * devicePixelRatio, 0, 2 * Math.PI);
+    if (!filled) ctx.fillStyle = COLOURS.paper;
+    ctx.fill();
+  });
 }
 
 function write(plot: uPlot, x: number, y: number, text: string): void {
-  const { ctx } = plot;
-  ctx.save();
-  ctx.font = FONT.replace("12px", `${12 * devicePixelRatio}px`);
-  ctx.fillStyle = COLOURS.ink;
-  ctx.textBaseline = "middle";
-  ctx.textAlign = "left";
-  ctx.fillText(text, plot.valToPos(x, "x", true) + 10 * devicePixelRatio, plot.valToPos(y, "y", true));
-  ctx.restore();
+  paint(plot, COLOURS.ink, 1, (ctx) => {
+    ctx.font = FONT.replace("12px", `${12 * devicePixelRatio}px`);
+    ctx.textBaseline = "middle";
+    ctx.textAlign = "left";
+    ctx.fillText(text, plot.valToPos(x, "x", true) + 10 * devicePixelRatio, plot.valToPos(y, "y", true));
+  });
 }

@@ -1,30 +1,20 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Both models' answers to the situation, and the motions that follow from them.
-import type { Impact, SequenceAnswer, SimulateAnswer } from "./answers";
-import { Latest, type ApiError } from "./api";
-import { CONTINUOUS_RADIUS, seenAngle, uniformBody, type Body } from "./body";
-import { ContinuousMotion } from "./continuous_motion";
-import { DiscreteMotion } from "./discrete_motion";
-import type { Motions } from "./frame";
-import { endInPlane, pairingOf, struckNames, type Pairing } from "./pairing";
+import { Latest, type ApiError, type Impact, type SequenceAnswer, type SimulateAnswer } from "./api";
+import { CONTINUOUS_RADIUS, hasUpperSide, lowestPoints, seenAngle, uniformBody, type Body, type Size } from "./body";
+import { significant } from "./format";
+import type { ModelName, Motions } from "./frame";
+import { ContinuousMotion, DiscreteMotion, touchRotation } from "./motion";
 import { bodyOf, isInPlane, type Parameters } from "./parameters";
 import { TimeWarp } from "./playback";
 import { keyOf, sequenceRequest, simulateRequest } from "./requests";
-import type { Vector } from "./rotation";
+import { rotateBack, type Vector } from "./rotation";
+import { outcomeInWords } from "./words";
 
-export type Impacts = Record<"discrete" | "continuous", readonly Impact[] | null>;
+export type Impacts = Record<ModelName, readonly Impact[] | null>;
 
 /** Until a situation stands still for so long, the slower model is not asked [ms]. */
 const CONTINUOUS_DELAY = 150;
-
-export interface ModelEvents {
-  /** There is an answer to show. */
-  onAnswer(): void;
-  /** A model refused a situation, or (null) no longer does. */
-  onError(model: "discrete" | "continuous", error: ApiError | null): void;
-  /** The continuous model is being computed. */
-  onBusy(busy: boolean): void;
-}
 
 export class Models {
   readonly motions: Motions = { discrete: null, continuous: null };
@@ -36,27 +26,29 @@ export class Models {
   /** Which situation it refused last. */
   private refusedOf = "";
   private readonly sequence: Latest<SequenceAnswer, Parameters>;
-  private readonly simulation: Latest<SimulateAnswer, Parameters>;
+  readonly simulation: Latest<SimulateAnswer, Parameters>;
 
-  constructor(private readonly events: ModelEvents) {
+  /**
+   * @param onError a model refused a situation, or (null) no longer does
+   * @param onBusy the continuous model is being computed
+   */
+  constructor(
+    private readonly onAnswer: () => void, private readonly onError: (model: ModelName, error: ApiError | null) => void,
+    onBusy: (busy: boolean) => void,
+  ) {
     this.sequence = new Latest<SequenceAnswer, Parameters>(
-      0, (answer, parameters) => this.onSequence(answer, parameters), (error) => events.onError("discrete", error));
+      0, (answer, parameters) => this.onSequence(answer, parameters), (error) => onError("discrete", error));
     this.simulation = new Latest<SimulateAnswer, Parameters>(
       CONTINUOUS_DELAY, (answer, parameters) => this.onSimulation(answer, parameters),
       (error, parameters) => {
         this.refusedOf = keyOf(simulateRequest(parameters));
-        events.onError("continuous", error);
-      }, (busy) => events.onBusy(busy));
+        onError("continuous", error);
+      }, onBusy);
   }
 
   ask(parameters: Parameters): void {
     this.sequence.ask(sequenceRequest(parameters), { ...parameters });
     this.askContinuous(parameters);
-  }
-
-  /** The continuous model takes too long for who waits; it can be asked for again. */
-  leaveContinuous(): void {
-    this.simulation.leave();
   }
 
   askContinuous(parameters: Parameters): void {
@@ -90,8 +82,8 @@ export class Models {
 
   private onSequence(answer: SequenceAnswer, parameters: Parameters): void {
     const key = keyOf(simulateRequest(parameters));
-    this.events.onError("discrete", null);
-    if (this.refusedOf !== key) this.events.onError("continuous", null);
+    this.onError("discrete", null);
+    if (this.refusedOf !== key) this.onError("continuous", null);
     const body = { ...bodyOf(parameters), ...answer.body };
     this.discrete = { ...answer, impacts: answer.impacts.map((impact) => asSeen(body, impact)) };
     this.body = body;
@@ -102,19 +94,19 @@ export class Models {
       this.motions.continuous = null;
       this.continuous = null;
     }
-    this.events.onAnswer();
+    this.onAnswer();
   }
 
   private onSimulation(answer: SimulateAnswer, parameters: Parameters): void {
     this.continuousOf = keyOf(simulateRequest(parameters));
-    this.events.onError("continuous", null);
+    this.onError("continuous", null);
     const given = bodyOf(parameters);
     const impacts = answer.impacts.map((impact) => asSeen(given, named(given, impact, isInPlane(parameters))));
     this.continuous = { ...answer, impacts };
     this.motions.continuous = answer.history.t.length > 1
       ? new ContinuousMotion(
         { ...continuousBody(given), ...answer.body }, impacts, answer.history, parameters.gravity) : null;
-    this.events.onAnswer();
+    this.onAnswer();
   }
 }
 
@@ -134,4 +126,60 @@ function continuousBody(body: Body): Body {
 
 export function spinOf({ spinning, wx, wy, wz }: Parameters): Vector {
   return spinning ? [wx, wy, wz] : [0, 0, 0];
+}
+
+/** Of the body's upright against the ground: what slants less stands on its end, and both sides touch. */
+const SLANT = 1e-9;
+
+export interface Pairing {
+  /** Impacts 1 to count are the same blow in both models. */
+  count: number;
+  /** Why the next ones are not, one clause; empty if there are none. */
+  reason: string;
+}
+
+function pairingOf(body: Size, discrete: SequenceAnswer, continuous: SequenceAnswer): Pairing {
+  const most = Math.max(discrete.impacts.length, continuous.impacts.length);
+  for (let i = 0; i < most; i++) {
+    const reason = reasonAgainst(body, discrete, continuous, i);
+    if (reason) return { count: i, reason };
+  }
+  return { count: most, reason: "" };
+}
+
+function reasonAgainst(body: Size, discrete: SequenceAnswer, continuous: SequenceAnswer, i: number): string {
+  const [a, b] = [discrete.impacts[i], continuous.impacts[i]];
+  if (!a) return `the discrete sequence has ended: ${ending(discrete.outcome)}`;
+  if (!b) return `the continuous run has ended: ${ending(continuous.outcome)}`;
+  if (a.predictable === false) return `beyond the predictable in the discrete model${growth(a)}`;
+  if (b.predictable === false) return `beyond the predictable in the continuous model${growth(b)}`;
+  if ((b.touches ?? 1) > 1 && (a.touches ?? 1) === 1 && a.end !== "both") {
+    return "in the continuous model another place touches before the first contact has ended";
+  }
+  const [first, second] = a.corners ? [sorted(a.corners.split(" ")), struckNames(body, b)] : [a.end, b.end];
+  return first === second ? "" : `${first} strikes in the discrete model, ${second} in the continuous one`;
+}
+
+function ending(outcome: string): string {
+  return outcomeInWords(outcome).replace(/\.$/, "").toLowerCase();
+}
+
+export function growth({ amplification }: Impact): string {
+  return amplification ? `: an error of the start has grown ${significant(amplification, 2)} times` : "";
+}
+
+/** Of the corners that are lowest at the touch, or of the ends of a rod. */
+function struckNames(body: Size, impact: Impact): string {
+  return sorted(lowestPoints(body, touchRotation(impact)).map(({ name }) => name));
+}
+
+/** What strikes in the plane: ends a and b, or those of the upper side, where the body has turned over. */
+function endInPlane(body: Size, impact: Impact): string {
+  const isOver = hasUpperSide(body) && rotateBack(touchRotation(impact), [0, 0, -1])[2] > SLANT;
+  if (!isOver) return impact.end;
+  return impact.end === "both" ? "a-top+b-top" : `${impact.end}-top`;
+}
+
+function sorted(names: string[]): string {
+  return [...names].sort().join(" ");
 }

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What both models' motions have in common: where the body is at a time, and where its energy is.
-import type { Impact } from "./answers";
-import { centreHeight, type Body } from "./body";
-import { FreeRotation } from "./free_rotation";
-import { cross, inclinationOf, plus, product, rotate, rotateBack, turnAbout, type Rotation, type Vector } from "./rotation";
+// Where the body of either model is at a time, and where its energy is: of the discrete one between its impacts, of the continuous one
+// between the samples of its time history, every step of a contact and some 20 of a flight.
+import type { History, Impact } from "./api";
+import { centreHeight, extentOf, type Body } from "./body";
+import {
+  FreeRotation, cross, inclinationOf, planeRotation, plus, product, rotate, rotateBack, slerp, turnAbout, type Rotation, type Vector,
+} from "./rotation";
 
 export interface Pose {
   /** Of mass. */
@@ -47,43 +49,34 @@ export function hasEnded({ end }: Motion, time: number): boolean {
   return time > end + 1e-12;
 }
 
-/** Where the middle of an end is, and how fast it moves. */
-export function endMotion(body: Body, pose: Pose, end: "a" | "b"): { place: Vector; velocity: Vector } {
-  return pointMotion(body, pose, [end === "a" ? -body.length / 2 : body.length / 2, 0, 0]);
-}
-
-/** Of a point of the body, given from its geometric centre in axes of the body. */
+/** Where a point of the body is, and how fast it moves, given from its geometric centre in axes of the body. */
 export function pointMotion(body: Body, pose: Pose, point: Vector): { place: Vector; velocity: Vector } {
   const from = rotate(pose.rotation, plus(point, body.centre, -1));
   return { place: plus(pose.centre, from), velocity: plus(pose.velocity, cross(pose.spin, from)) };
 }
 
-export function energyOfRotation(body: Body, { rotation, spin }: Pose): number {
+function energyOfRotation(body: Body, { rotation, spin }: Pose): number {
   const [x, y, z] = rotateBack(rotation, spin);
   const [xx, yy, zz, xy, xz, yz] = body.inertia;
   return (xx * x * x + yy * y * y + zz * z * z) / 2 + xy * x * y + xz * x * z + yz * y * z;
 }
 
+/** A fall that takes longer is better begun on its way [s]. */
+const LONGEST_FALL = 1.5;
+
 /** How long before the first touch the picture starts: at the release from rest, if there was one; and where slow motion does. */
-export function leadIn(impacts: readonly Impact[], speed: number, gravity: number, length: number): { begin: number; near: number } {
-  const near = -slowLead(impacts, speed, gravity, length);
-  // A fall that takes longer than this is better begun on its way.
-  const fall = gravity > 0 ? Math.max(0, speed) / gravity : 0;
-  return { begin: fall > 0 && fall < LONGEST_FALL ? Math.min(near, -fall) : near, near };
-}
-
-const LONGEST_FALL = 1.5; // s
-
-function slowLead(impacts: readonly Impact[], speed: number, gravity: number, length: number): number {
+function leadIn(impacts: readonly Impact[], speed: number, gravity: number, length: number): { begin: number; near: number } {
   const last = impacts[impacts.length - 1];
   const span = last ? last.start + last.duration : 0;
   const crossing = (0.4 * length) / Math.max(speed, 1e-9);
   const lead = Math.min(Math.max(0.3 * span, 0.1 * crossing), crossing);
-  return gravity > 0 ? Math.min(lead, Math.max(0, speed) / gravity) : lead;
+  const fall = gravity > 0 ? Math.max(0, speed) / gravity : Infinity;
+  const near = -Math.min(lead, fall);
+  return { begin: fall > 0 && fall < LONGEST_FALL ? -fall : near, near };
 }
 
 /** Until when the flight after the last impact is shown: for a while, but never into the ground. */
-export function leadOut(body: Body, from: number, begin: number, pose: (time: number) => Pose): number {
+function leadOut(body: Body, from: number, begin: number, pose: (time: number) => Pose): number {
   const span = Math.max(0.5 * from, -begin);
   const steps = 60;
   for (let i = 1; i <= steps; i++) {
@@ -94,7 +87,7 @@ export function leadOut(body: Body, from: number, begin: number, pose: (time: nu
 }
 
 /** A free flight before or after a known pose. */
-export class Flight {
+class Flight {
   private readonly turning: FreeRotation | null;
 
   /** @param span how long it may last, negative before the pose [s] */
@@ -124,4 +117,177 @@ export class Flight {
     const rate = rotateBack(rotation, spin)[1];
     return { rotation: rate === 0 ? rotation : product(rotation, turnAbout(1, rate * time)), spin };
   }
+}
+
+const DEGREE = Math.PI / 180;
+
+interface Start {
+  time: number;
+  flight: Flight;
+}
+
+/** The centre of mass on a parabola, the rotation free. */
+export class DiscreteMotion implements Motion {
+  readonly begin: number;
+  readonly near: number;
+  readonly end: number;
+  private readonly starts: Start[] = [];
+  private readonly fall: Flight;
+  private readonly total: number;
+
+  /** @param spin before the first touch, world components [rad/s] */
+  constructor(readonly body: Body, readonly impacts: readonly Impact[], private readonly gravity: number, spin: Vector) {
+    const [first] = impacts;
+    if (!first) throw new RangeError("a motion needs an impact");
+    const velocity = plus(first.velocity_after, first.impulse, -1 / body.mass);
+    this.total = first.energy_before;
+    ({ begin: this.begin, near: this.near } = leadIn(impacts, -velocity[2], gravity, extentOf(body)));
+    this.fall = new Flight(body, poseOf(body, first, [0, 0], velocity, spin), gravity, this.begin);
+    this.addFlights();
+    this.end = leadOut(body, impacts[impacts.length - 1]?.start ?? 0, this.near, (time) => this.pose(time));
+  }
+
+  pose(time: number): Pose {
+    if (time < 0) return this.fall.pose(time);
+    let start = this.starts[0] as Start;
+    for (const next of this.starts) if (next.time <= time) start = next;
+    return start.flight.pose(time - start.time);
+  }
+
+  energies(time: number): Energies {
+    const pose = this.pose(time);
+    const { mass } = this.body;
+    const translation = (mass * pose.velocity.reduce((sum, v) => sum + v * v, 0)) / 2;
+    const rotation = energyOfRotation(this.body, pose);
+    const potential = mass * this.gravity * pose.centre[2];
+    return { translation, rotation, potential, ground: 0, lost: this.total - translation - rotation - potential };
+  }
+
+  private addFlights(): void {
+    let place: readonly [number, number] = [0, 0];
+    this.impacts.forEach((impact, i) => {
+      const { start: time, velocity_after: velocity, angular_velocity_after: spin } = impact;
+      const next = this.impacts[i + 1];
+      const lasts = next ? next.start - time : Math.max(0.5 * time, -this.near);
+      const pose = poseOf(this.body, impact, place, velocity, spin);
+      this.starts.push({ time, flight: new Flight(this.body, pose, this.gravity, lasts) });
+      place = [place[0] + velocity[0] * lasts, place[1] + velocity[1] * lasts];
+    });
+  }
+}
+
+/** At the touch; in the plane an impact has an inclination alone. */
+export function touchRotation({ attitude, inclination_deg }: Impact): Rotation {
+  return attitude ?? planeRotation(inclination_deg * DEGREE);
+}
+
+function poseOf(body: Body, impact: Impact, [x, y]: readonly [number, number], velocity: Vector, spin: Vector): Pose {
+  const rotation = touchRotation(impact);
+  return {
+    centre: [x, y, centreHeight(body, rotation)], rotation, inclination: inclinationOf(rotation), velocity, spin,
+    force: [0, 0, 0], inContact: false,
+  };
+}
+
+export class ContinuousMotion implements Motion {
+  readonly begin: number;
+  readonly near: number;
+  readonly end: number;
+  private readonly total: number;
+  private readonly last: number;
+  private readonly fall: Flight;
+  private readonly after: Flight;
+
+  constructor(
+    readonly body: Body, readonly impacts: readonly Impact[], readonly history: History, private readonly gravity: number,
+  ) {
+    const { t } = history;
+    // The history of a drop from a height begins with its fall, at a negative time.
+    const touch = Math.max(0, t.findIndex((time) => time >= 0));
+    this.last = t.length - 1;
+    this.total = at(history.energy_total, 0);
+    const falling = this.sample(touch, 0);
+    ({ begin: this.begin, near: this.near } = leadIn(impacts, -falling.velocity[2], gravity, extentOf(body)));
+    this.fall = new Flight(body, falling, gravity, this.begin);
+    const released = this.sample(this.last, 0);
+    const stop = at(t, this.last);
+    this.after = new Flight(body, released, gravity, Math.max(0.5 * stop, -this.near));
+    // A body that still touches has no simple motion past its history.
+    this.end = released.inContact ? stop : leadOut(body, stop, this.near, (time) => this.after.pose(time - stop));
+  }
+
+  pose(time: number): Pose {
+    const { t } = this.history;
+    if (time < 0) return this.fall.pose(time);
+    if (time > at(t, this.last)) return this.after.pose(time - at(t, this.last));
+    const row = rowBefore(t, time);
+    return this.sample(row, fraction(t, row, time));
+  }
+
+  energies(time: number): Energies {
+    const { history } = this;
+    const known = Math.min(Math.max(time, 0), at(history.t, this.last));
+    const row = rowBefore(history.t, known);
+    const part = fraction(history.t, row, known);
+    const value = (column: number[]): number => mix(at(column, row), at(column, row + 1), part);
+    const lost = this.total - value(history.energy_total);
+    const rotation = time < 0 ? 0 : value(history.energy_rotation);
+    const ground = time < 0 ? 0 : value(history.energy_ground);
+    // Of the height by the place: between the samples of a flight it is not linear.
+    const potential = this.body.mass * this.gravity * this.pose(time).centre[2];
+    return { translation: this.total - lost - rotation - ground - potential, rotation, potential, ground, lost };
+  }
+
+  private sample(row: number, part: number): Pose {
+    const h = this.history;
+    const dt = at(h.t, row + 1) - at(h.t, row);
+    // Cubic in position with the velocities at both samples: exact on the parabola of a flight.
+    const place = (p: number[], v: number[]): number =>
+      hermite(at(p, row), at(v, row) * dt, at(p, row + 1), at(v, row + 1) * dt, part);
+    const value = (column: number[]): number => mix(at(column, row), at(column, row + 1), part);
+    const rotation = slerp(rotationAt(h, row), rotationAt(h, row + 1), part);
+    return {
+      centre: [place(h.x, h.vx), place(h.y, h.vy), place(h.z, h.vz)],
+      rotation, inclination: inclinationOf(rotation),
+      velocity: [value(h.vx), value(h.vy), value(h.vz)],
+      spin: [value(h.wx), value(h.wy), value(h.wz)],
+      force: [value(h.fx), value(h.fy), value(h.fz)] as Vector,
+      inContact: at(h.in_contact, row) !== 0,
+    };
+  }
+}
+
+/** Column entry; past the last sample the last one goes on. */
+function at(column: number[], row: number): number {
+  return column[Math.min(row, column.length - 1)] ?? 0;
+}
+
+/** The last row that is not after a time. */
+function rowBefore(times: number[], time: number): number {
+  let low = 0;
+  let high = times.length - 1;
+  while (high - low > 1) {
+    const middle = (low + high) >> 1;
+    if ((times[middle] ?? 0) <= time) low = middle;
+    else high = middle;
+  }
+  return low;
+}
+
+function fraction(times: number[], row: number, time: number): number {
+  const span = at(times, row + 1) - at(times, row);
+  return span > 0 ? Math.min(1, Math.max(0, (time - at(times, row)) / span)) : 0;
+}
+
+function mix(a: number, b: number, part: number): number {
+  return a + (b - a) * part;
+}
+
+function hermite(p: number, v: number, q: number, w: number, s: number): number {
+  const r = 1 - s;
+  return p * (1 + 2 * s) * r * r + v * s * r * r + q * s * s * (1 + 2 * r) - w * s * s * r;
+}
+
+function rotationAt(h: History, row: number): Rotation {
+  return [at(h.beta0, row), at(h.beta1, row), at(h.beta2, row), at(h.beta3, row)];
 }

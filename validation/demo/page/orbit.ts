@@ -15,11 +15,6 @@ const TURN = 0.008; // rad a pixel
 const STEP = 0.12; // rad a key
 const NEARER = 1.15; // a key
 
-export function turned({ azimuth, elevation, zoom }: Orbit, right: number, up: number, nearer = 1): Orbit {
-  const limit = (value: number, low: number, high: number): number => Math.min(high, Math.max(low, value));
-  return { azimuth: azimuth - right, elevation: limit(elevation + up, -0.5, 1.2), zoom: limit(zoom * nearer, 0.25, 6) };
-}
-
 export class OrbitControl {
   orbit: Orbit = STRAIGHT;
   private readonly reset = byId<HTMLButtonElement>("view-reset");
@@ -30,28 +25,34 @@ export class OrbitControl {
     stage.addEventListener("wheel", (event) => {
       if (document.activeElement !== stage && !event.ctrlKey) return;
       event.preventDefault();
-      this.set(turned(this.orbit, 0, 0, NEARER ** (-event.deltaY / 100)));
+      this.turn(0, 0, NEARER ** (-event.deltaY / 100));
     }, { passive: false });
   }
 
   drag(right: number, down: number): void {
-    this.set(turned(this.orbit, right * TURN, down * TURN));
+    this.turn(right * TURN, down * TURN);
   }
 
   pinch(nearer: number): void {
-    this.set(turned(this.orbit, 0, 0, nearer));
+    this.turn(0, 0, nearer);
   }
 
   /** @return whether the key was one of its own */
   key({ key, shiftKey }: KeyboardEvent): boolean {
     const turns: Record<string, [number, number]> = { ArrowLeft: [-STEP, 0], ArrowRight: [STEP, 0], ArrowUp: [0, STEP], ArrowDown: [0, -STEP] };
     const turn = shiftKey ? turns[key] : undefined;
-    if (turn) this.set(turned(this.orbit, ...turn));
-    else if (key === "+" || key === "=") this.set(turned(this.orbit, 0, 0, NEARER));
-    else if (key === "-") this.set(turned(this.orbit, 0, 0, 1 / NEARER));
+    if (turn) this.turn(...turn);
+    else if (key === "+" || key === "=") this.turn(0, 0, NEARER);
+    else if (key === "-") this.turn(0, 0, 1 / NEARER);
     else if (key === "0") this.set(STRAIGHT);
     else return false;
     return true;
+  }
+
+  private turn(right: number, up: number, nearer = 1): void {
+    const { azimuth, elevation, zoom } = this.orbit;
+    const limit = (value: number, low: number, high: number): number => Math.min(high, Math.max(low, value));
+    this.set({ azimuth: azimuth - right, elevation: limit(elevation + up, -0.5, 1.2), zoom: limit(zoom * nearer, 0.25, 6) });
   }
 
   private set(orbit: Orbit): void {

@@ -1,15 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Panels and switches that only show the state: what is hidden, how the models are laid out.
-import { byId } from "./dom";
+// Panels and switches that only show the state: what is hidden, how the models are laid out, the lecture, and what is printed.
+import { byId, press, say } from "./dom";
 import { PANELS, type State } from "./state";
 
-export function hidePanels(state: State): void {
-  for (const panel of PANELS) {
-    const box = document.getElementById(panel === "story" ? "story" : `panel-${panel}`);
-    if (box) box.hidden = state.hide.includes(panel);
-  }
-  byId("panel-controls").hidden = state.hide.includes("controls");
-  document.body.classList.toggle("no-controls", state.hide.includes("controls"));
+export function hidePanels({ hide }: State): void {
+  for (const panel of [...PANELS, "controls"]) byId(panel === "story" ? "story" : `panel-${panel}`).hidden = hide.includes(panel);
+  document.body.classList.toggle("no-controls", hide.includes("controls"));
 }
 
 /** One panel at a time, or all of them; on paper all. */
@@ -39,7 +35,7 @@ export class Tabs {
 
   private show(): void {
     const { tab } = this.state;
-    for (const button of this.buttons) button.setAttribute("aria-pressed", String(button.dataset["tab"] === tab));
+    press(this.buttons, ({ dataset }) => dataset["tab"] === tab);
     for (const panel of document.querySelectorAll<HTMLElement>("#results > section")) {
       panel.classList.toggle("aside", tab !== "all" && panel.dataset["tab"] !== tab);
     }
@@ -61,7 +57,7 @@ export function setUpLayout(state: State, onChange: () => void): () => void {
   const buttons = [...document.querySelectorAll<HTMLButtonElement>("button[data-layout]")];
   const show = (): void => {
     byId("stage").dataset["layout"] = state.layout;
-    for (const button of buttons) button.setAttribute("aria-pressed", String(state.layout === button.dataset["layout"]));
+    press(buttons, ({ dataset }) => dataset["layout"] === state.layout);
   };
   for (const button of buttons) {
     button.disabled = state.lock.includes("layout");
@@ -100,4 +96,55 @@ export function setUpPrinting(moment: () => [number, number], put: (n: number, t
     if (before) put(...before);
     before = null;
   });
+}
+
+export function setUpLecture(onVoting: (on: boolean) => void, onChange: () => void): void {
+  const button = byId<HTMLButtonElement>("lecture");
+  const show = (on: boolean): void => {
+    document.body.classList.toggle("lecture", on);
+    button.setAttribute("aria-pressed", String(on));
+    onVoting(on);
+    onChange();
+  };
+  button.addEventListener("click", () => {
+    const on = !document.body.classList.contains("lecture");
+    show(on);
+    // Not every browser has a full screen to give; the layout is what counts.
+    if (on) void document.documentElement.requestFullscreen?.().catch(() => undefined);
+    else if (document.fullscreenElement) void document.exitFullscreen();
+  });
+  document.addEventListener("fullscreenchange", () => { if (!document.fullscreenElement) show(false); });
+  document.addEventListener("keydown", ({ key }) => { if (key === "Escape" && document.body.classList.contains("lecture")) show(false); });
+}
+
+/** Until leaving is offered [ms]. */
+const PATIENCE = 2000;
+
+export class Waiting {
+  private readonly button = byId<HTMLButtonElement>("leave-continuous");
+  private timer = 0;
+  private isLeft = false;
+
+  constructor(leave: () => void, compute: () => void) {
+    this.button.addEventListener("click", () => {
+      if (this.isLeft) return compute();
+      leave();
+      this.isLeft = true;
+      this.offer("Compute it", "continuous model: left out");
+    });
+  }
+
+  show(busy: boolean): void {
+    clearTimeout(this.timer);
+    this.isLeft = false;
+    this.button.hidden = true;
+    say("spinner", busy ? "continuous model: computing…" : "");
+    if (busy) this.timer = window.setTimeout(() => this.offer("Leave it", "continuous model: computing takes longer, the discrete one is shown"), PATIENCE);
+  }
+
+  private offer(act: string, words: string): void {
+    say("spinner", words);
+    this.button.hidden = false;
+    this.button.textContent = act;
+  }
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Before the first answer: what does the reader expect? A guess that is tested teaches more than a table that is read.
-import type { Impact } from "./answers";
+import type { Impact } from "./api";
 import { byId } from "./dom";
 import { significant } from "./format";
 import { comparison } from "./words";
@@ -16,19 +16,23 @@ export class Prediction {
   private readonly question = byId("prediction-question");
   private readonly reveal = byId("prediction-reveal");
   private readonly skip = byId("prediction-skip");
+  private readonly buttons = [...this.card.querySelectorAll<HTMLButtonElement>("button[data-guess]")];
   /** Of a class, hand by hand; null: one reader guesses. */
   private votes: Guess[] | null = null;
 
   private guess: Guess | null = null;
   /** A guess was made, and the second blow has not been seen yet. */
-  private waits = false;
+  isWaiting = false;
   private impacts: readonly Impact[] = [];
 
   constructor(private readonly onAnswered: () => void) {
-    for (const button of this.buttons()) {
+    for (const button of this.buttons) {
       button.addEventListener("click", () => {
         const guess = button.dataset["guess"] as Guess;
-        if (this.votes) return this.count(button, guess);
+        if (this.votes) {
+          this.votes.push(guess);
+          return this.label(button);
+        }
         this.guess = guess;
         this.wait(true);
         this.close();
@@ -41,11 +45,6 @@ export class Prediction {
       }
       this.close();
     });
-  }
-
-  /** Whether a guess was made of a second blow that has not been seen. */
-  get isWaiting(): boolean {
-    return this.waits;
   }
 
   get isOpen(): boolean {
@@ -61,7 +60,7 @@ export class Prediction {
 
   /** What the picture shows now; once that is the second blow, the guess is judged. */
   seen(time: number, ended: boolean): void {
-    if (!this.waits || !this.impacts.length) return;
+    if (!this.isWaiting || !this.impacts.length) return;
     const second = this.impacts[1];
     if (second ? time < second.start : !ended) return;
     this.wait(false);
@@ -79,16 +78,7 @@ export class Prediction {
   setVoting(on: boolean): void {
     this.votes = on ? [] : null;
     this.skip.textContent = on ? "Let it drop" : "Just show me";
-    for (const button of this.buttons()) this.label(button);
-  }
-
-  private buttons(): HTMLButtonElement[] {
-    return [...this.card.querySelectorAll<HTMLButtonElement>("button[data-guess]")];
-  }
-
-  private count(button: HTMLButtonElement, guess: Guess): void {
-    this.votes?.push(guess);
-    this.label(button);
+    for (const button of this.buttons) this.label(button);
   }
 
   private label(button: HTMLButtonElement): void {
@@ -107,7 +97,7 @@ export class Prediction {
   }
 
   private wait(waits: boolean): void {
-    this.waits = waits;
+    this.isWaiting = waits;
     if (waits) this.reveal.textContent = "Watch the second blow …";
     document.body.classList.toggle("watching", waits);
   }

@@ -1,16 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Handing on what is shown: as a link, or as the page itself with the scene in it.
-import { byId } from "./dom";
-import { copyText, download } from "./files";
-import { addressOf, type State } from "./state";
+import { ApiError, ask } from "./api";
+import { byId, make } from "./dom";
+import type { Parameters } from "./parameters";
+import { fileRequest, parametersOf, type SceneArguments } from "./requests";
+import { addressOf, assignUnlocked, type State } from "./state";
 
 /** The page as it came, before anything on it was changed. */
 const source = document.documentElement.outerHTML;
-
-function pageWith(state: State): string {
-  const fragment = new URL(addressOf(state)).hash.slice(1).replace(/&/g, "&amp;").replace(/"/g, "&quot;");
-  return `<!doctype html>\n${source.replace(/(name="clatter-scene" content=")[^"]*/, (_all, before: string) => before + fragment)}\n`;
-}
 
 export function setUpSharing(state: State, sync: () => void, onAskFirst: (asks: boolean) => void): void {
   const button = byId<HTMLButtonElement>("copy-link");
@@ -27,7 +24,9 @@ export function setUpSharing(state: State, sync: () => void, onAskFirst: (asks: 
   });
   byId("save-page").addEventListener("click", () => {
     sync();
-    download("clatter.html", pageWith(state), "text/html");
+    const fragment = new URL(addressOf(state)).hash.slice(1).replace(/&/g, "&amp;").replace(/"/g, "&quot;");
+    const page = source.replace(/(name="clatter-scene" content=")[^"]*/, (_all, before: string) => before + fragment);
+    download("clatter.html", `<!doctype html>\n${page}\n`, "text/html");
   });
   const askFirst = byId<HTMLInputElement>("ask-first");
   askFirst.checked = state.predict;
@@ -36,4 +35,101 @@ export function setUpSharing(state: State, sync: () => void, onAskFirst: (asks: 
     state.predict = askFirst.checked;
     onAskFirst(askFirst.checked);
   });
+}
+
+export function download(name: string, content: BlobPart, type: string): void {
+  const url = URL.createObjectURL(new Blob([content], { type }));
+  make("a", { href: url, download: name }).click();
+  setTimeout(() => URL.revokeObjectURL(url), 10_000);
+}
+
+/** Not every browser lets a page write to the clipboard. */
+async function copyText(text: string): Promise<boolean> {
+  try {
+    await navigator.clipboard.writeText(text);
+    return true;
+  } catch {
+    return false;
+  }
+}
+
+const FILE_NAME = "scene.toml";
+
+export class SceneFile {
+  private readonly said = byId("file-said");
+  private readonly error = byId("file-error");
+  /** Of several that are opened in a row the last one counts. */
+  private opened = 0;
+
+  constructor(private readonly state: State, private readonly onOpen: () => void) {
+    const locked = state.lock.includes("scene") || state.lock.includes("file");
+    const input = byId<HTMLInputElement>("scene-file");
+    input.disabled = locked;
+    byId("open").classList.toggle("disabled", locked);
+    byId("download-scene").addEventListener("click", () => void this.give(async (text) => {
+      download(FILE_NAME, text, "application/toml");
+      return `Downloaded as ${FILE_NAME}`;
+    }));
+    byId("copy-scene").addEventListener("click", () => void this.give(async (text) =>
+      (await copyText(text)) ? "Scene copied" : "The browser does not let the page copy; download it"));
+    if (locked) return;
+    const openFirst = (files: FileList | null | undefined): boolean => {
+      const file = files?.[0];
+      if (file) void file.text().then((text) => this.open(file.name, text));
+      return file !== undefined;
+    };
+    input.addEventListener("change", () => {
+      openFirst(input.files);
+      input.value = "";
+    });
+    const show = (dropping: boolean): void => { document.body.classList.toggle("dropping", dropping); };
+    document.addEventListener("dragover", (event) => { event.preventDefault(); show(true); });
+    document.addEventListener("dragleave", (event) => { if (!event.relatedTarget) show(false); });
+    document.addEventListener("drop", (event) => {
+      event.preventDefault();
+      show(false);
+      const text = event.dataTransfer?.getData("text/plain") ?? "";
+      if (!openFirst(event.dataTransfer?.files) && text.trim()) void this.open("dropped text", text);
+    });
+    // Into a field a text is pasted as everywhere.
+    document.addEventListener("paste", (event) => {
+      const text = event.clipboardData?.getData("text/plain") ?? "";
+      if (/^(INPUT|TEXTAREA|SELECT)$/.test((event.target as HTMLElement).tagName) || !text.trim()) return;
+      event.preventDefault();
+      void this.open("pasted text", text);
+    });
+  }
+
+  private async open(name: string, text: string): Promise<void> {
+    const turn = ++this.opened;
+    await this.attempt(async () => {
+      const answer = await ask<{ arguments: SceneArguments; notes: string[] }>({ path: "scene", body: { name, text } });
+      if (turn !== this.opened) return "";
+      const kept = assignUnlocked(this.state, parametersOf(answer.arguments));
+      this.onOpen();
+      const locked = kept.length ? [`locked, and kept: ${kept.join(", ")}`] : [];
+      return [`Opened ${name}`, ...answer.notes, ...locked].join("; ");
+    });
+  }
+
+  private async give(hand: (text: string) => Promise<string>): Promise<void> {
+    const situation: Parameters = { ...this.state.parameters };
+    await this.attempt(async () => hand((await ask<{ file: string }>(fileRequest(situation))).file));
+  }
+
+  /** Says what was done, or in one line what was wrong. */
+  private async attempt(act: () => Promise<string>): Promise<void> {
+    let done = "";
+    let wrong = "";
+    try {
+      done = await act();
+    } catch (error) {
+      if (!(error instanceof ApiError)) throw error;
+      wrong = error.message;
+    }
+    this.said.textContent = done;
+    this.error.textContent = wrong;
+    this.error.hidden = wrong === "";
+    if (wrong) this.error.scrollIntoView({ block: "center" });
+  }
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Blows to be heard: louder with the impulse, higher with the contact angle, so that 2:1:2 is an octave down and up again.
 // Each is told in a line, too. Off until somebody switches it on; no link does.
-import type { Impact } from "./answers";
+import type { Impact } from "./api";
 import { byId } from "./dom";
 import { significant } from "./format";
 import { comparison } from "./words";
@@ -12,20 +12,10 @@ const HIGHEST = PITCH * 4;
 const LOUDEST = 0.5; // of what the loudspeaker has
 const FADES = 0.35; // [s]
 
-export interface Click {
-  /** 0 to LOUDEST. */
-  gain: number;
-  /** [Hz] */
-  frequency: number;
-}
-
-/** Gains are in the ratio of the impulses, pitches in that of the contact angles. */
-export function clickOf(impacts: readonly Impact[], n: number): Click {
-  const impact = impacts[n - 1];
+/** Gains are in the ratio of the impulses. */
+function gainOf(impacts: readonly Impact[], n: number): number {
   const most = Math.max(...impacts.map(({ impulse_normal }) => impulse_normal));
-  const gain = impact && most > 0 ? (LOUDEST * impact.impulse_normal) / most : 0;
-  const ratio = angleRatio(impacts, n);
-  return { gain, frequency: Math.min(HIGHEST, Math.max(LOWEST, PITCH * ratio)) };
+  return most > 0 ? (LOUDEST * (impacts[n - 1]?.impulse_normal ?? 0)) / most : 0;
 }
 
 function angleRatio(impacts: readonly Impact[], n: number): number {
@@ -33,7 +23,7 @@ function angleRatio(impacts: readonly Impact[], n: number): number {
   return first > 0 ? (impacts[n - 1]?.contact_angle_deg ?? first) / first : 1;
 }
 
-export function captionOf(impacts: readonly Impact[], n: number): string {
+function captionOf(impacts: readonly Impact[], n: number): string {
   const [first] = impacts;
   const impact = impacts[n - 1];
   if (!first || !impact) return "";
@@ -75,12 +65,12 @@ export class Sound {
     this.caption.textContent = captionOf(impacts, n);
     const { context } = this;
     if (!context) return;
-    const { gain, frequency } = clickOf(impacts, n);
     const tone = context.createOscillator();
     const level = context.createGain();
     tone.type = "triangle";
-    tone.frequency.value = frequency;
-    level.gain.setValueAtTime(gain, context.currentTime);
+    // Pitches are in the ratio of the contact angles.
+    tone.frequency.value = Math.min(HIGHEST, Math.max(LOWEST, PITCH * angleRatio(impacts, n)));
+    level.gain.setValueAtTime(gainOf(impacts, n), context.currentTime);
     level.gain.setTargetAtTime(0, context.currentTime, FADES / 5);
     tone.connect(level).connect(context.destination);
     tone.start();

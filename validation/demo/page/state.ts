@@ -5,7 +5,7 @@ import { BODIES, type BodyName } from "./body";
 import {
   DEFAULT_PARAMETERS, DROPS, QUANTITIES, TURNS, isInPlane, isUsed, setBody, type Choices, type Parameters, type Quantity,
 } from "./parameters";
-import { numberOf, parametersOf } from "./scene_arguments";
+import { numberOf, parametersOf } from "./requests";
 
 export const PANELS = ["story", "strip", "numbers", "profile", "table", "fan", "force", "energy", "map", "race", "measured", "explain"] as const;
 
@@ -30,18 +30,11 @@ export interface State {
 }
 
 export const RATES = [0.25, 0.5, 1, 2] as const;
-export const TREMORS = [0.1, 0.5, 1, 2] as const;
+const TREMORS = [0.1, 0.5, 1, 2] as const;
 
 /** In space the models stand beside each other: what tumbles cannot be told apart in one place. */
 export function usualLayout(parameters: Parameters): State["layout"] {
   return isInPlane(parameters) ? "overlay" : "side";
-}
-
-function defaultState(): State {
-  return {
-    parameters: { ...DEFAULT_PARAMETERS }, impact: 1, time: 0, layout: "overlay", rate: 1, slow: true, predict: true, tremor: 0.5, fan: false,
-    lock: [], hide: [], tab: "strip",
-  };
 }
 
 /** Of a scene's arguments without a control: their names in a link begin so. */
@@ -122,23 +115,23 @@ function choicesIn(query: URLSearchParams): Omit<Choices, "body"> {
 /** What a link says. */
 export function stateOf(text: string): State {
   const query = new URLSearchParams(text);
-  const state = defaultState();
+  const parameters = situationIn(query);
   const number = (key: string, otherwise: number): number => numberOf(query.get(key), otherwise);
   const list = (key: string): string[] => (query.get(key) ?? "").split(",").map((s) => s.trim()).filter(Boolean);
-  state.parameters = situationIn(query);
-  state.impact = Math.max(1, Math.round(number("impact", 1)));
-  state.time = number("t", query.has("impact") ? NaN : 0);
-  const layout = query.get("layout");
-  state.layout = layout === "side" || layout === "overlay" ? layout : usualLayout(state.parameters);
-  state.rate = RATES.find((rate) => rate === number("rate", 1)) ?? 1;
-  state.slow = query.get("slow") !== "0";
-  state.predict = query.get("predict") !== "0";
-  state.tremor = TREMORS.find((tremor) => tremor === number("tremor", 0.5)) ?? 0.5;
-  state.fan = query.get("fan") === "1";
-  state.lock = list("lock");
-  state.hide = list("hide");
-  state.tab = [...PANELS, "all"].find((tab) => tab === query.get("tab")) ?? "strip";
-  return state;
+  return {
+    parameters,
+    impact: Math.max(1, Math.round(number("impact", 1))),
+    time: number("t", query.has("impact") ? NaN : 0),
+    layout: (["overlay", "side"] as const).find((layout) => layout === query.get("layout")) ?? usualLayout(parameters),
+    rate: RATES.find((rate) => rate === number("rate", 1)) ?? 1,
+    slow: query.get("slow") !== "0",
+    predict: query.get("predict") !== "0",
+    tremor: TREMORS.find((tremor) => tremor === number("tremor", 0.5)) ?? 0.5,
+    fan: query.get("fan") === "1",
+    lock: list("lock"),
+    hide: list("hide"),
+    tab: [...PANELS, "all"].find((tab) => tab === query.get("tab")) ?? "strip",
+  };
 }
 
 /** What the address says; else the scene that was written into the page. */

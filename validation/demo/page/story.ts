@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The story that the build wrote into the page. Once it is asked for, the picture stays while one scrolls: the step that comes up is put
 // there as it is before the drop, asks for a guess, plays, and tells what happened when the picture has shown it.
-import type { Impact } from "./answers";
+import type { Impact } from "./api";
 import { byId } from "./dom";
 import { assignUnlocked, stateOf, type State } from "./state";
 
-export interface Teller {
+interface Teller {
   /** A new situation in the picture, before the drop. */
   onEnter(): void;
   onPlay(): void;

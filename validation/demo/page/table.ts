@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The impact table of both models, and its CSV.
-import type { Bars, Impact } from "./answers";
-import { cut, digitsLeft, withKinds } from "./digits";
+import type { Bars, Impact } from "./api";
 import { byId, make } from "./dom";
-import { significant } from "./format";
+import { cut, digitsLeft, significant, withKinds } from "./format";
 import { MODELS, type ModelName } from "./frame";
-import type { Impacts } from "./models";
-import { growth, type Pairing } from "./pairing";
+import { growth, type Impacts, type Pairing } from "./models";
 import { CONTINUOUS_DIGITS } from "./requests";
 
 interface Column {
@@ -28,7 +26,11 @@ const COLUMNS: readonly Column[] = [
   },
   { title: "Lasts", unit: "ms", value: (i) => (i.peak_force === null ? null : i.duration * 1e3), error: (bars) => (bars.duration ?? 0) * 1e3 },
   { title: "Peak force", unit: "N", value: (i) => i.peak_force, error: (bars) => bars.peak_force },
-  { title: "Energy lost", unit: "J", value: (i) => lossWithoutRounding(i), error: (bars) => bars.energy_loss },
+  {
+    // An elastic impact loses nothing; rounding and the step control leave a trace that would look like a loss.
+    title: "Energy lost", unit: "J", value: (i) => (Math.abs(i.energy_loss) < 1e-5 * Math.abs(i.energy_before) ? 0 : i.energy_loss),
+    error: (bars) => bars.energy_loss,
+  },
 ];
 
 const DIGITS: Readonly<Record<ModelName, number>> = { discrete: 6, continuous: CONTINUOUS_DIGITS };
@@ -123,11 +125,6 @@ function cell({ title, error }: Column, value: number | null, impact: Impact, mo
 /** Rounding leaves a trace of what is zero by symmetry. */
 function beyondRounding(value: number | null, largest = 0): number | null {
   return value !== null && Math.abs(value) < 1e-12 * largest ? 0 : value;
-}
-
-/** An elastic impact loses nothing; rounding and the step control leave a trace that would look like a loss. */
-function lossWithoutRounding({ energy_loss, energy_before }: Impact): number {
-  return Math.abs(energy_loss) < 1e-5 * Math.abs(energy_before) ? 0 : energy_loss;
 }
 
 const CSV: readonly [string, (impact: Impact) => number | string | null][] = [

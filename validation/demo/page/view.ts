@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The picture in space, drawn by the graphics card.
 import {
-  AmbientLight, BufferGeometry, Color, DirectionalLight, DoubleSide, Float32BufferAttribute, Group, LineBasicMaterial, LineSegments, Material,
-  Mesh, MeshBasicMaterial, PerspectiveCamera, Scene, Vector3, WebGLRenderer,
+  AmbientLight, BufferGeometry, Color, ConeGeometry, CylinderGeometry, DirectionalLight, DoubleSide, Float32BufferAttribute, Group,
+  LineBasicMaterial, LineSegments, Material, Mesh, MeshBasicMaterial, PerspectiveCamera, Quaternion, Scene, Vector3, WebGLRenderer,
+  type Object3D,
 } from "three";
-import { ArrowMesh } from "./arrow_mesh";
 import { extentOf, middleOf, type Body } from "./body";
 import { COLOURS } from "./colours";
-import { MODELS, type Arc, type Arrow, type Bounds, type Frame, type ModelName } from "./frame";
+import { MODELS, type Arc, type Arrow, type Bounds, type Frame, type ModelName, type Projection, type View } from "./frame";
+import type { Pose } from "./motion";
 import { STRAIGHT, type Orbit } from "./orbit";
-import type { Projection, View } from "./picture";
-import { figureOf, geometryOf, silhouetteOf } from "./shapes";
 import type { Vector } from "./rotation";
+import { figureOf, geometryOf, silhouetteOf } from "./shapes";
 
 const FIELD_OF_VIEW = 24; // degrees, upright
 const PALE = 0.35; // a model past its end
@@ -23,10 +23,33 @@ const SPACE = { elevation: 0.34, azimuth: -0.3 };
 const SHADOW = new MeshBasicMaterial({ color: 0x1b2430, transparent: true, opacity: 0.13, depthWrite: false, side: DoubleSide });
 const GRID = new LineBasicMaterial({ vertexColors: true, toneMapped: false });
 
-interface Figure {
-  group: Group;
-  shadow: Group;
-  of: Body | null;
+/** The body of a model, and its shadow of light from straight above: flattened on the ground. */
+class Figure {
+  readonly group = new Group();
+  readonly shadow = new Group();
+  private of = "";
+
+  constructor(private readonly model: ModelName) {
+    this.shadow.scale.set(1, 1, 1e-4);
+  }
+
+  put({ body, pose, isOver = false }: Frame["figures"][number]): void {
+    if (this.of !== JSON.stringify(body)) this.rebuild(body);
+    this.group.traverse((part) => {
+      if (part instanceof Mesh) Object.assign(part.material as Material, { transparent: isOver || this.model === "continuous", opacity: isOver ? PALE : 1 });
+    });
+    for (const part of [this.group, ...this.shadow.children]) putAt(part, body, pose);
+  }
+
+  private rebuild(body: Body): void {
+    this.of = JSON.stringify(body);
+    for (const group of [this.group, this.shadow]) {
+      group.traverse((part) => { if (part instanceof Mesh) part.geometry.dispose(); });
+      group.clear();
+    }
+    this.group.add(figureOf(body, this.model));
+    this.shadow.add(new Mesh(geometryOf(body), SHADOW));
+  }
 }
 
 export class SpaceView implements View {
@@ -34,7 +57,7 @@ export class SpaceView implements View {
   private readonly scene = new Scene();
   private readonly camera = new PerspectiveCamera(FIELD_OF_VIEW, 1, 0.01, 100);
   private readonly layers: Record<ModelName, Group> = { discrete: new Group(), continuous: new Group() };
-  private readonly figures: Record<ModelName, Figure>;
+  private readonly figures: Record<ModelName, Figure> = { discrete: new Figure("discrete"), continuous: new Figure("continuous") };
   private readonly arrows: Record<ModelName, ArrowMesh[]> = { discrete: [], continuous: [] };
   private ground: LineSegments | null = null;
   private cell = 0;
@@ -52,7 +75,6 @@ export class SpaceView implements View {
     const sun = new DirectionalLight(0xffffff, 2.2);
     sun.position.set(-1, -3, 4);
     this.scene.add(new AmbientLight(0xffffff, 1.6), sun);
-    this.figures = { discrete: emptyFigure(), continuous: emptyFigure() };
     this.layers.discrete.add(this.arc);
     this.layers.continuous.add(this.patch);
     // What lies under the body would else be hidden by it.
@@ -80,7 +102,7 @@ export class SpaceView implements View {
     for (const model of MODELS) {
       const figure = frame.figures.find((f) => f.model === model);
       this.layers[model].visible = figure !== undefined;
-      if (figure) this.place(model, figure);
+      if (figure) this.figures[model].put(figure);
       this.placeGhosts(model, frame.ghosts.filter((ghost) => ghost.model === model));
       this.placeArrows(model, frame.arrows.filter((arrow) => arrow.model === model));
     }
@@ -139,25 +161,6 @@ export class SpaceView implements View {
     this.camera.updateMatrixWorld();
   }
 
-  private place(model: ModelName, { body, pose, isOver = false }: Frame["figures"][number]): void {
-    const figure = this.figures[model];
-    if (figure.of === null || JSON.stringify(figure.of) !== JSON.stringify(body)) {
-      figure.of = body;
-      rebuild(figure, model, body);
-    }
-    figure.group.traverse((part) => {
-      if (part instanceof Mesh) Object.assign(part.material as Material, { transparent: isOver || model === "continuous", opacity: isOver ? PALE : 1 });
-    });
-    const [w, x, y, z] = pose.rotation;
-    const middle = middleOf(body, pose.centre, pose.rotation);
-    figure.group.position.set(...middle);
-    figure.group.quaternion.set(x, y, z, w);
-    for (const part of figure.shadow.children) {
-      part.position.set(...middle);
-      part.quaternion.set(x, y, z, w);
-    }
-  }
-
   private makeGround(length: number): void {
     if (this.cell === length / 10) return;
     this.cell = length / 10;
@@ -193,9 +196,7 @@ export class SpaceView implements View {
         line.geometry.dispose();
         line.geometry = silhouetteOf(ghost.body);
       }
-      const [w, x, y, z] = ghost.pose.rotation;
-      line.position.set(...middleOf(ghost.body, ghost.pose.centre, ghost.pose.rotation));
-      line.quaternion.set(x, y, z, w);
+      putAt(line, ghost.body, ghost.pose);
     });
   }
 
@@ -231,19 +232,10 @@ export class SpaceView implements View {
   }
 }
 
-function emptyFigure(): Figure {
-  const shadow = new Group();
-  // Flattened on the ground: the shadow of light from straight above.
-  shadow.scale.set(1, 1, 1e-4);
-  return { group: new Group(), shadow, of: null };
-}
-
-function rebuild(figure: Figure, model: ModelName, body: Body): void {
-  for (const group of [figure.group, figure.shadow]) group.traverse((part) => { if (part instanceof Mesh) part.geometry.dispose(); });
-  figure.group.clear();
-  figure.shadow.clear();
-  figure.group.add(figureOf(body, model));
-  figure.shadow.add(new Mesh(geometryOf(body), SHADOW));
+function putAt(part: Object3D, body: Body, { centre, rotation }: Pose): void {
+  const [w, x, y, z] = rotation;
+  part.position.set(...middleOf(body, centre, rotation));
+  part.quaternion.set(x, y, z, w);
 }
 
 function groundGrid(cell: number): LineSegments {
@@ -266,4 +258,34 @@ function groundGrid(cell: number): LineSegments {
   geometry.setAttribute("position", new Float32BufferAttribute(points, 3));
   geometry.setAttribute("color", new Float32BufferAttribute(colours, 3));
   return new LineSegments(geometry, GRID);
+}
+
+class ArrowMesh {
+  readonly group = new Group();
+  private readonly material = new MeshBasicMaterial({ depthTest: false, transparent: true });
+  private readonly shaft = new Mesh(new CylinderGeometry(1, 1, 1, 12).translate(0, 0.5, 0), this.material);
+  private readonly head = new Mesh(new ConeGeometry(1, 1, 16).translate(0, -0.5, 0), this.material);
+
+  constructor() {
+    this.group.add(this.shaft, this.head);
+    // A blow under a broad body would else be hidden by it.
+    this.shaft.renderOrder = this.head.renderOrder = 1;
+  }
+
+  set(arrow: Arrow | undefined, thickness: number): void {
+    const [x, y, z] = arrow?.vector ?? [0, 0, 0];
+    const length = Math.hypot(x, y, z);
+    this.group.visible = arrow !== undefined && length > 2 * thickness;
+    if (!arrow || !this.group.visible) return;
+    const radius = arrow.kind === "blow" ? thickness : 0.55 * thickness;
+    const head = Math.min(5 * radius, 0.6 * length);
+    this.material.opacity = arrow.isPast ? 0.4 : 1;
+    this.material.color.set(arrow.kind === "speed" ? COLOURS.speed : COLOURS.blow[arrow.model]);
+    this.group.position.set(...arrow.from);
+    const direction = new Vector3(x, y, z).divideScalar(length);
+    this.group.quaternion.copy(new Quaternion().setFromUnitVectors(new Vector3(0, 1, 0), direction));
+    this.shaft.scale.set(radius, length - head, radius);
+    this.head.scale.set(2.6 * radius, head, 2.6 * radius);
+    this.head.position.set(0, length, 0);
+  }
 }

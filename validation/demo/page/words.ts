@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Impacts in words: the line below the picture, which a screen reader reads aloud.
-import type { Impact } from "./answers";
+import type { Impact } from "./api";
 import { BODIES, seenAngle, type BodyName } from "./body";
+import { byId } from "./dom";
 import { significant } from "./format";
-import type { Parameters } from "./parameters";
-import { LEAST } from "./restitution";
+import { DEFAULT_PARAMETERS, LEAST, dampingOf, restitutionOf, type Parameters } from "./parameters";
 
 /** What a body is to the models, if that is not what one sees. */
 const BODY_NOTES: Readonly<Partial<Record<BodyName, string>>> = {
@@ -14,12 +14,12 @@ const BODY_NOTES: Readonly<Partial<Record<BodyName, string>>> = {
   tube: "The tube has a thin wall; its lids have no mass.",
 };
 
-export function bodyInWords(body: BodyName): string {
+function bodyInWords(body: BodyName): string {
   return BODY_NOTES[body] ?? "";
 }
 
 /** What is dropped, in one sentence. */
-export function dropInWords({ body, angle, tilt, turn, drop, height, speed, gravity, e, friction }: Parameters): string {
+function dropInWords({ body, angle, tilt, turn, drop, height, speed, gravity, e, friction }: Parameters): string {
   const leans = turn === "plane" || turn === "tilted" ? `, inclined by ${significant(seenAngle(BODIES[body].size, angle), 4)}°${turn === "tilted" ? ` and turned by ${significant(tilt, 4)}° before` : ""}` : "";
   const falls = drop === "height" ? `, let go ${significant(height, 4)} m above the floor` : drop === "speed" ? `, comes down at ${significant(speed, 4)} m/s` : "";
   const floor = friction > 0 ? `, friction μ = ${significant(friction, 4)}` : "";
@@ -27,7 +27,7 @@ export function dropInWords({ body, angle, tilt, turn, drop, height, speed, grav
 }
 
 /** On what the continuous model runs, of which the discrete one knows nothing; whether nobody else chose it. */
-export function groundInWords({ stiffness, damping, follow, e }: Parameters, isOfPage: boolean): string {
+function groundInWords({ stiffness, damping, follow, e }: Parameters, isOfPage: boolean): string {
   const numbers = `k = ${significant(stiffness, 4)} N/m³, c = ${significant(damping, 4)} N·s/m⁴`;
   const given = follow && e < LEAST ? `e = ${LEAST}, the least that the page gives it` : "e";
   const choice = isOfPage || given !== "e" ? `${isOfPage ? ", chosen by the page" : ""}; c is such that it gives ${given}` : "";
@@ -91,4 +91,13 @@ const OUTCOMES: Readonly<Record<string, string>> = {
 
 export function outcomeInWords(outcome: string): string {
   return OUTCOMES[outcome] ?? outcome.replace(/-/g, " ");
+}
+
+export function showNotes(parameters: Parameters): void {
+  byId("handout-drop").textContent = dropInWords({ ...parameters, e: restitutionOf(parameters) });
+  byId("body-note").textContent = bodyInWords(parameters.body);
+  // A scene that gives a stiffness gives the damping, too.
+  const isOfPage = parameters.stiffness === DEFAULT_PARAMETERS.stiffness && parameters.follow;
+  const ground = groundInWords({ ...parameters, damping: dampingOf(parameters) }, isOfPage);
+  for (const note of document.querySelectorAll(".ground-note")) note.textContent = ground;
 }
