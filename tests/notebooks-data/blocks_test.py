@@ -67,6 +67,9 @@ class Blocks(unittest.TestCase):
             (self.folder / name).write_text(scene + "[[probe]]\nname = 'camera'\nplace = [0.04, 0.01, 0]\n", encoding="utf-8")
         pulse = (100 * math.sin(math.pi * (n - 100) / 20) * (100 <= n <= 120) for n in range(300))  # g, 2 ms long
         (self.folder / "drop.csv").write_text("time,acceleration\n" + "".join(f"{n / 1e4},{a}\n" for n, a in enumerate(pulse)), encoding="utf-8")
+        truth = run_folder.printed("benchmark", "truth", "rod-10", "--format", "csv")
+        for step in ("0.001", "0.002"):
+            (self.folder / f"rod-10-{step}-1.csv").write_text(f"# step: {step}\n{truth}", encoding="utf-8")
         return self.folder
 
     def test_every_block_runs_or_is_listed(self):
@@ -83,7 +86,7 @@ class Blocks(unittest.TestCase):
                     self.ran("clatter", "sequence", "scene.toml")
                     continue
                 self.assertTrue(text.startswith("clatter "), "neither run here nor listed")
-                if re.search(r"part\.|drop\.csv", text):
+                if re.search(r"part\.|drop\.csv|rod-10-", text):
                     self.with_parts()
                 for command in text.replace("\\\n", " ").splitlines():
                     if "part.3mf" not in command:  # tests/validation/scene/mesh_files_test.py writes and reads such files

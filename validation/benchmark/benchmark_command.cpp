@@ -67,7 +67,9 @@ int run_score(const BenchmarkInput& input, const OutputChoice& choice) {
   bool is_met = true;
   for (const std::string& file : input.names) {
     submissions.push_back(judge_file(file, input.problem, input.columns));
-    is_met = is_met && requirement.is_met(submissions.back());
+    if (requirement.is_met(submissions.back())) continue;
+    say(missed_words(submissions.back(), requirement));
+    is_met = false;
   }
   write_report(choice, score_report("benchmark", submissions, input.details));
   const Picture picture = score_picture(submissions);

@@ -157,7 +157,8 @@ std::string equations_of(const Problem& problem) {
 
 std::vector<std::string> data_lines(const Problem& problem) {
   std::vector<std::string> lines{
-      "data: the scene below in the keys of scene files (clatter help keys); floor z = 0, x to the right, y into the page; "
+      "data: the scene below in the keys of scene files (clatter help keys); floor z = 0, x to the right, y into the "
+      "page; "
       "the body has the speed given at the first touch, at t = 0 in the truth"};
   std::istringstream text(problem.scene_text);
   std::string table;

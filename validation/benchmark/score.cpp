@@ -149,7 +149,7 @@ std::string flight_words(std::size_t n) { return n == 0 ? "before impact 1" : fm
 void explain(Score& score, double tolerance, double time) {
   const auto add = [&](double error, const std::string& words) {
     if (error <= tolerance) return;
-    score.findings.push_back(words + (std::isfinite(error) ? ", error " + significant(error, 2) : ""));
+    score.findings.push_back(words + (std::isfinite(error) ? ", error " + significant(rounded_up(error), 2) : ""));
   };
   add(score.start_error,
       "the run does not start as the problem says" + (score.start_words.empty() ? "" : ": " + score.start_words));

@@ -99,7 +99,8 @@ Value group_value(const SubmissionGroup& group) {
   value["settings"] = text_or_nothing(group.head.settings);
   value["law"] = text_or_nothing(group.head.law);
   value["verdict"] = verdict_name(group.verdict);
-  value["order"] = group.order ? Value(*group.order) : Value();
+  value["order"] = group.order ? Value(group.order->value) : Value();
+  value["order_error"] = group.order ? error_or_nothing(*group.order) : Value();
   for (const SubmissionGroup::Step& step : group.steps) {
     Value one;
     one["step"] = step.step ? Value(*step.step) : Value();
@@ -107,6 +108,7 @@ Value group_value(const SubmissionGroup& group) {
     one["motion_error"] = rounded_up(step.motion_error);
     one["law_error"] = rounded_up(step.law_error);
     one["error"] = step.error;
+    one["verdict"] = verdict_name(step.verdict);
     value["steps"].push_back(std::move(one));
   }
   return value;
@@ -125,34 +127,57 @@ std::vector<std::string> cause_words(const std::vector<Cause>& causes) {
   return lines;
 }
 
-/// "coarse by energy, off by 0.0042"
+/// With two digits, as errors are everywhere.
+std::string error_words(double error) { return std::isfinite(error) ? significant(rounded_up(error), 2) : "?"; }
+
+/// " of impact 3": whose error it is that decides; empty: none's alone.
+std::string deciding_impact(const Score& score) {
+  const std::string by = score.decided_by();
+  const auto error = [&](const ImpactScore& one) {
+    return by == "law" ? one.law_error
+           : by == "V" ? one.velocity_error
+           : by == "Ω" ? one.angular_error
+           : by == "t" ? std::fabs(one.time_error)
+                       : std::nan("");
+  };
+  const auto worst = std::ranges::max_element(score.impacts, {}, error);
+  if (worst == score.impacts.end() || !(error(*worst) > 0)) return "";
+  return fmt::format(" of impact {}", worst - score.impacts.begin() + 1);
+}
+
+/// "coarse by t of impact 3, off by 0.0042"
 std::string class_words(const Submission& one) {
   const double error = one.score.error();
-  return fmt::format("{} by {}{}", verdict_name(one.verdict), one.score.decided_by(),
-                     std::isfinite(error) ? ", off by " + significant(error, 2) : "");
+  return fmt::format("{} by {}{}{}", verdict_name(one.verdict), one.score.decided_by(), deciding_impact(one.score),
+                     std::isfinite(error) ? ", off by " + error_words(error) : "");
 }
 
-/// "box, some engine: order 1.17 with 5 steps from 0.00208 to 0.000130 s; at the shortest off by 0.0038, coarse"
+/// "box, some engine: order 1.17 ± 0.05 with 5 steps; 0.00208 s: off by 0.085, fails; 0.000130 s: off by 0.0039,
+/// coarse"
 std::string group_words(const SubmissionGroup& group) {
-  std::string name;
+  std::string words;
   for (const std::string& part : {group.head.problem, group.head.engine, group.head.version, group.head.settings}) {
-    if (!part.empty()) name += (name.empty() ? "" : ", ") + part;
+    if (!part.empty()) words += (words.empty() ? "" : ", ") + part;
   }
-  const auto number = [](double error) { return std::isfinite(error) ? significant(error, 2) : "?"; };
+  if (words.empty()) words = "all files";
+  const auto off = [](const SubmissionGroup::Step& step) {
+    return fmt::format("off by {}, {}", error_words(step.error), verdict_name(step.verdict));
+  };
   const SubmissionGroup::Step &longest = group.steps.front(), &shortest = group.steps.back();
-  const bool has_steps = group.steps.size() > 1 && longest.step && shortest.step;
-  std::string words = name.empty() ? "all files" : name;
-  if (!has_steps) return fmt::format("{}: {}, off by {}", words, verdict_name(group.verdict), number(shortest.error));
-  return words + fmt::format(": {} with {} steps from {} to {} s; at the longest off by {}, at the shortest by {}; {}",
-                             group.order ? fmt::format("order {:.2f}", *group.order) : "no order", group.steps.size(),
-                             significant(*longest.step, 3), significant(*shortest.step, 3), number(longest.error),
-                             number(shortest.error), verdict_name(group.verdict));
+  if (group.steps.size() < 2 || !longest.step || !shortest.step) return words + ": " + off(shortest);
+  std::string order = "no order";
+  if (group.order) order = fmt::format("order {:.2f}", group.order->value);
+  if (group.order && std::isfinite(group.order->error)) order += " ± " + significant(rounded_up(group.order->error), 1);
+  const auto known = std::ranges::count_if(
+      group.steps, [](const SubmissionGroup::Step& step) { return std::isfinite(step.motion_error); });
+  return words + fmt::format(": {} with {} steps; {} s: {}; {} s: {}", order, known, significant(*longest.step, 3),
+                             off(longest), significant(*shortest.step, 3), off(shortest));
 }
 
-/// Why an answer is not exact, in a few words: an impact that is wrong, or the likely cause.
+/// Why an answer is not exact, in a few words: the likely cause, or an impact that is wrong.
 std::string short_reason(const Submission& one) {
-  if (!one.score.order_is_right && !one.score.findings.empty()) return one.score.findings.front();
-  return one.causes.empty() ? "" : one.causes.front().name;
+  if (!one.causes.empty()) return one.causes.front().name;
+  return one.score.order_is_right || one.score.findings.empty() ? "" : one.score.findings.front();
 }
 
 /// A line for each of many files, those of a group together, the longest step first.
@@ -266,6 +291,11 @@ bool Requirement::is_met(const Submission& submission) const {
   return !error || (submission.verdict != Verdict::incomplete && submission.score.error() <= *error);
 }
 
+std::string missed_words(const Submission& submission, const Requirement& requirement) {
+  return fmt::format("{}: {}; asked for {}", submission.path, class_words(submission),
+                     requirement.verdict ? verdict_name(*requirement.verdict) : fmt::format("{}", *requirement.error));
+}
+
 Requirement read_requirement(const std::string& name, const std::string& text) {
   double error = 0;
   if (read_number(text, error)) return {.verdict = {}, .error = read_number_option(name, text, positive_number)};
@@ -301,8 +331,11 @@ void add_answer(const Submission& submission, double curve, PicturePanel& panel)
 /// The worst error of V, Ω and t of a group over its steps, by which its order is told.
 void add_steps(const SubmissionGroup& group, double curve, PicturePanel& panel) {
   for (const SubmissionGroup::Step& step : group.steps) {
-    if (!step.step) continue;
-    panel.rows.push_back({curve, *step.step, std::clamp(step.motion_error, least_drawn, most_drawn)});
+    if (!step.step || !std::isfinite(step.motion_error)) continue;
+    const double error = std::clamp(step.motion_error, least_drawn, most_drawn);
+    panel.rows.push_back({curve, *step.step, error});
+    Range2& y = panel.plot.y;
+    y = {std::fmin(y.low, error / 5), std::fmax(y.high, error * 5)};
     Range2& x = panel.plot.x;
     x = {std::fmin(x.low, *step.step / 1.3), std::fmax(x.high, *step.step * 1.3)};
   }
@@ -310,19 +343,25 @@ void add_steps(const SubmissionGroup& group, double curve, PicturePanel& panel) 
   for (const std::string& part : {group.head.engine, group.head.settings}) name += (part.empty() ? "" : " ") + part;
   panel.plot.curves.push_back({.x = "step",
                                .y = "error",
-                               .legend = name + (group.order ? fmt::format(": order {:.2f}", *group.order) : ""),
+                               .legend = name + (group.order ? fmt::format(": order {:.2f}", group.order->value) : ""),
                                .style = FigureCurve::Style::line_points,
                                .where = {{"curve", curve}}});
 }
 
-void add_classes(const std::vector<double>& tolerances, const std::string& of_what, PicturePanel& panel) {
+/// Their limits as dotted lines, those within the axis; by name each if there is room in the legend.
+void add_classes(const std::vector<double>& tolerances, const std::string& of_what, bool names_each,
+                 PicturePanel& panel) {
   const std::string& axis = panel.columns[1].name;
   for (std::size_t k = 0; k < tolerances.size(); ++k) {
+    if (!(tolerances[k] > panel.plot.y.low && tolerances[k] < panel.plot.y.high)) continue;
     const double curve = -1 - static_cast<double>(k);
     for (const double x : {panel.plot.x.low, panel.plot.x.high}) panel.rows.push_back({curve, x, tolerances[k]});
+    std::string legend;
+    if (names_each) legend = fmt::format("limit of {}{}", verdict_name(static_cast<Verdict>(k)), of_what);
+    else if (k == 0) legend = "from below up to: exact, sharp, good, coarse" + of_what;
     panel.plot.curves.push_back({.x = axis,
                                  .y = "error",
-                                 .legend = k == 0 ? "from below up to: exact, sharp, good, coarse" + of_what : "",
+                                 .legend = legend,
                                  .style = FigureCurve::Style::dotted,
                                  .where = {{"curve", curve}},
                                  .colour = ink});
@@ -350,7 +389,7 @@ Picture score_picture(const std::vector<Submission>& submissions) {
     panel.columns[2].quantity = "the largest of V, Ω and t";
     panel.plot.x_label = "step [s]";
     panel.plot.y_label = "largest error of V, Ω and t, relative";
-    panel.plot.y.low = problem_named("", submissions.front().head.problem).tolerances.front() / 30;
+    panel.plot.y = {};
     for (std::size_t i = 0; i < groups.size(); ++i) add_steps(groups[i], static_cast<double>(i), panel);
   } else {
     std::size_t most = 1;
@@ -369,7 +408,7 @@ Picture score_picture(const std::vector<Submission>& submissions) {
     if (std::find(problems.begin(), problems.end(), name) == problems.end()) problems.push_back(name);
     have_one_scale = have_one_scale && problem_named("", one.head.problem).tolerances == tolerances;
   }
-  add_classes(tolerances, have_one_scale ? "" : " of " + first, panel);
+  add_classes(tolerances, have_one_scale ? "" : " of " + first, over_steps, panel);
   return {.what = over_steps ? "Errors of answers over their time steps" : "Errors of answers, impact by impact",
           .scene = problems,
           .panels = {panel}};

@@ -4,7 +4,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <numbers>
 #include <sstream>
@@ -266,17 +268,21 @@ Submission judge(const ReadFile& file, const SubmissionHead& head, const Referen
   return submission;
 }
 
-/// Least-squares slope of ln(error) over ln(step).
-std::optional<double> observed_order(const std::vector<SubmissionGroup::Step>& steps) {
-  double n = 0, x = 0, y = 0, xx = 0, xy = 0;
+/// Least-squares slope of ln(error) over ln(step), with its standard error.
+std::optional<Estimated> observed_order(const std::vector<SubmissionGroup::Step>& steps) {
+  std::vector<std::array<double, 2>> points;
   for (const SubmissionGroup::Step& one : steps) {
-    if (!one.step || !(one.motion_error > 0 && std::isfinite(one.motion_error))) continue;
-    const double a = std::log(*one.step), b = std::log(one.motion_error);
-    n += 1, x += a, y += b, xx += a * a, xy += a * b;
+    if (one.step && one.motion_error > 0 && std::isfinite(one.motion_error))
+      points.push_back({std::log(*one.step), std::log(one.motion_error)});
   }
-  const double spread = n * xx - x * x;
-  if (!(n >= 2 && spread > 1e-12 * n * xx)) return std::nullopt;
-  return (n * xy - x * y) / spread;
+  if (points.size() < 2 || !(points.front()[0] - points.back()[0] > 1e-6)) return std::nullopt;
+  const auto n = static_cast<double>(points.size());
+  double x = 0, y = 0, xx = 0, xy = 0, left = 0;
+  for (const auto& [a, b] : points) x += a / n, y += b / n;
+  for (const auto& [a, b] : points) xx += (a - x) * (a - x), xy += (a - x) * (b - y);
+  const double slope = xy / xx;
+  for (const auto& [a, b] : points) left += std::pow(b - y - slope * (a - x), 2);
+  return Estimated{slope, points.size() > 2 ? std::sqrt(left / (n - 2) / xx) : std::nan("")};
 }
 
 }  // namespace
@@ -339,7 +345,9 @@ std::vector<SubmissionGroup> group_submissions(const std::vector<Submission>& su
                              [&](const SubmissionGroup::Step& other) { return other.step == head.step; });
     if (step == group.steps.end()) step = group.steps.insert(step, {.step = head.step});
     ++step->files;
-    step->motion_error = std::max(step->motion_error, one.score.motion_error());
+    constexpr double unknown = std::numeric_limits<double>::infinity();
+    step->motion_error = std::max(step->motion_error, one.score.order_is_right ? one.score.motion_error() : unknown);
+    step->verdict = std::max(step->verdict, one.verdict);
     step->law_error = std::max(step->law_error, one.score.law_error);
     step->error = std::max(step->error, one.score.error());
   }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "validation/benchmark/cause.hpp"
+#include "validation/output/estimated.hpp"
 
 namespace clatter::validation {
 
@@ -35,11 +36,14 @@ struct SubmissionGroup {
   struct Step {
     std::optional<double> step;                         ///< [s]
     std::size_t files = 0;                              ///< phases: starting gaps
-    double motion_error = 0, law_error = 0, error = 0;  ///< of the worst phase
+    double motion_error = 0, law_error = 0, error = 0;  ///< of the worst phase; infinite: not known
+    Verdict verdict = Verdict::exact;                   ///< of the worst phase
   };
   SubmissionHead head;
-  std::vector<Step> steps;           ///< the longest first
-  std::optional<double> order;       ///< of V, Ω and t in the step, by least squares; nothing for fewer than two steps
+  std::vector<Step> steps;  ///< the longest first
+  /// Of V, Ω and t in the step, by least squares over the steps at which all impacts are right; nothing for fewer than
+  /// two.  The error is the estimate of the fit, NaN for fewer than three.
+  std::optional<Estimated> order;
   Verdict verdict = Verdict::exact;  ///< of the worst file
 };
 

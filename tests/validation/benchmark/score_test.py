@@ -218,10 +218,25 @@ class Exact(EmptyFolder):
         for n, gap, error, of, verdict in lines:
             file = judged[f"{n}_{gap}"]
             self.assertEqual((float(error), of, verdict), (file["error"], file["decided_by"], file["verdict"]))
-        self.assertIn("rod-45, some engine, tuned: order 1.00 with 3 steps from 0.01 to 0.0025 s;", re.sub(r"\n  ", " ", text).replace("0.0100", "0.01").replace("0.00250", "0.0025"))
+        words = re.search(r"rod-45, some engine, tuned: order (\S+) ± (\S+) with 3 steps; 0.0100 s: off by (\S+), (\w+); 0.00250 s: off by (\S+), (\w+)",
+                          re.sub(r"\n  ", " ", text))
+        self.assertEqual(words[1], "1.00")
+        self.assertLess(float(words[2]), 0.01)
+        for n, error, verdict in ((100, words[3], words[4]), (400, words[5], words[6])):
+            worst = max((judged[f"{n}_{gap}"] for gap in (0, 2)), key=lambda file: file["error"])
+            self.assertEqual((float(error), verdict), (worst["error"], worst["verdict"]))
         self.assertNotIn("is off, error", text)
         self.assertIn("velocity of impact 1 is off, error", printed("benchmark", "score", *files, "--details"))
         self.assertEqual(printed("benchmark", "score", files[0]), printed("benchmark", "score", files[0], "--details"))
+
+    def test_a_step_at_which_an_impact_is_missing_has_no_error_and_no_part_in_the_order(self):
+        files = [self.write(f"{n}.csv", self.delayed(1 / n, 0, 1)) for n in (100, 200, 400)]
+        lost = "\n".join(line for line in self.delayed(1 / 50, 0, 1).splitlines() if not re.match(r"0\.[01]", line)) + "\n"
+        files += [self.write("lost.csv", lost)]
+        group, = told("benchmark", "score", *files)["problems"]
+        self.assertIsNone(group["steps"][0]["motion_error"])
+        self.assertAlmostEqual(group["order"], 1, delta=0.02)
+        self.assertIn("with 3 steps; 0.0200 s: off by ?, fails;", re.sub(r"\n  ", " ", printed("benchmark", "score", *files)))
 
     @unittest.skipUnless(shutil.which("gnuplot"), "no gnuplot here")
     def test_the_picture_of_several_steps_is_of_errors_over_steps(self):
@@ -247,6 +262,8 @@ class Exact(EmptyFolder):
                                        ("sharp", [bad], 1), ("1e-2", [bad], 0), ("1e-5", [bad, good], 1)):
             self.assertEqual(run("benchmark", "score", *files, "--require", require).returncode, status, require)
         self.assertEqual(run("benchmark", "score", bad).returncode, 0)
+        self.assertRegex(run("benchmark", "score", good, bad, "--require", "sharp").stderr,
+                         r"\Aclatter: \S*bad.csv: \w+ by \S+, off by \S+; asked for sharp\n\Z")
         self.refused("coarse, incomplete, or a largest error such as 1e-3", "benchmark", "score", bad, "--require", "fine")
 
     FLAGS = ("--angle", "25", "--speed", "1.3", "--impacts", "3")
