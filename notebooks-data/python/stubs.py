@@ -79,7 +79,9 @@ def type_of(values: list[Any]) -> str:
     """What the values of one name are."""
     def one(value: Any) -> str:
         name = type(value[0] if isinstance(value, list) else value).__name__
-        name = {"ndarray": "Array", "dict": "dict[str, Any]"}.get(name, name)
+        if name == "ndarray" or isinstance(value, list) and name == "float":
+            return "Array"  # without NumPy a list
+        name = {"dict": "dict[str, Any]"}.get(name, name)
         return f"list[{name}]" if isinstance(value, list) else name
     known = {one(value) for value in values if value is not None and not (isinstance(value, list) and not value)}
     if not known:

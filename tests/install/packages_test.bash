@@ -24,7 +24,10 @@ fail() {
 test_the_wheel() {
   local wheel
   /usr/bin/python3 -m venv "$folder/venv"
-  "$folder/venv/bin/pip" wheel --no-deps --no-index --config-settings build-dir="$root/build/release" --wheel-dir "$folder" .
+  # On a terminal, where it says how far it is.
+  script -qec "$(printf '%q ' "$folder/venv/bin/pip" wheel --no-deps --no-index --config-settings build-dir="$root/build/release" \
+    --wheel-dir "$folder" .)" "$folder/terminal"
+  grep -q '^clatter: compiling with' "$folder/terminal" || fail "the build says nothing on the terminal"
   wheel=$(echo "$folder"/clatter-*.whl)
   printf 'wheel: %d bytes\n' "$(stat -c %s "$wheel")"
   (($(stat -c %s "$wheel") <= 10000000)) || fail "the wheel is larger than 10 MB"

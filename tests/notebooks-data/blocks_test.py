@@ -2,6 +2,7 @@
 """Every block of code of README and the reference runs in an empty folder, but for what documents.py fills and holds, and
 what is listed here with who runs it."""
 
+import doctest
 import math
 import os
 import re
@@ -13,6 +14,7 @@ import textwrap
 import unittest
 from pathlib import Path
 
+import clatter
 import run_folder
 
 ROOT = Path(run_folder.ROOT)
@@ -113,3 +115,13 @@ class Blocks(unittest.TestCase):
             with self.subTest(page=str(page)):
                 self.ran(sys.executable, "-B", "-W", "error", "-c", "\n".join(lines))
         self.assertGreater(promised, 1)
+
+    def test_examples_of_the_documentation_give_what_stands_below_them(self):
+        seen = 0
+        for name in clatter.__all__:
+            for example in doctest.DocTestParser().get_examples(getattr(clatter, name).__doc__ or ""):
+                if example.want:
+                    with self.subTest(name=name):
+                        seen += 1
+                        self.assertEqual(repr(eval(example.source, {"clatter": clatter})).split(), example.want.split())
+        self.assertGreater(seen, 5)

@@ -81,7 +81,7 @@ def gradient(scene: Scene | float | None = None, **changes: DiscreteKey) -> Grad
     Raises BadInput, OutsideModel, NotComputed.
 
     >>> clatter.gradient(angle=10).of("speed")[0].velocity_after_z
-    -0.48562167860692465
+    -0.48843072413223654
     """
     report, shortfall = called(_clatter.gradient, *scene_text(scene, changes))
     _warn([shortfall] if shortfall else [])

@@ -87,7 +87,7 @@ def benchmark_show(problem: str) -> Problem:
     """The statement of a problem: data, starts, what is asked, tolerances, certified answer.
 
     >>> clatter.benchmark_show("rod-10").starts[0].position
-    array([0.        , 0.        , 0.17364818])
+    array([0.        , 0.        , 0.08682409])
     """
     return Problem(called(_clatter.benchmark_show, problem))
 

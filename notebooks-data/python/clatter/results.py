@@ -106,11 +106,11 @@ class Result(Generic[Row]):
     def column(self, name: str) -> Array:
         """One value of each row, vectors as rows; NaN where there is none.  NAME_error is its error, NAME_z a vector's part."""
         if name in self._columns:
-            return as_array(self._columns[name][:len(self)])
+            return as_array(self._columns[name])
         return column_of(self._objects(), name)
 
     def __len__(self) -> int:
-        return len(self.rows)
+        return len(next(iter(self._columns.values()), []))
 
     def __iter__(self) -> Iterator[Row]:
         return iter(self.rows)
@@ -210,8 +210,15 @@ class Run(Result[OneImpact]):
     _row_class = Impact
 
     def _objects(self) -> list[dict[str, Any]]:
-        impacts: list[dict[str, Any]] = self._data["impacts"]  # the table may end with the sum of those that follow
+        impacts: list[dict[str, Any]] = self._data["impacts"]
         return impacts
+
+    @functools.cached_property
+    def _columns(self) -> dict[str, list[Any]]:
+        """Without the table's last row, where that is the sum of the impacts that follow."""
+        columns = self._report.columns()
+        count = len(columns["n"]) - (columns["n"][-1:] == ["tail"])
+        return {name: values[:count] for name, values in columns.items()}
 
     @property
     def impacts(self) -> list[OneImpact]:

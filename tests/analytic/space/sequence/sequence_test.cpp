@@ -5,6 +5,7 @@
 #include <cmath>
 #include <string>
 
+#include "analytic/plane/sequence.hpp"
 #include "analytic/space/flight/body.hpp"
 #include "validation/oracles/reference_scene.hpp"
 
@@ -153,4 +154,36 @@ BOOST_AUTO_TEST_CASE(a_sequence_that_ends_without_contact_ends_as_in_the_referen
     ++ended;
   }
   BOOST_TEST(ended > 0);
+}
+
+/// Two models' roundings, grown by the impacts.
+constexpr double rounding = 1e-10;
+
+BOOST_AUTO_TEST_CASE(a_drop_of_the_plane_has_the_same_rows_in_space) {
+  namespace analytic = clatter::analytic;
+  constexpr analytic::BoxSize size{.mass = 0.18, .length = 0.14, .width = 0.07, .thickness = 0.008};
+  analytic::Drop drop;
+  drop.body = analytic::make_box(size);
+  drop.velocity = {.normal = -1, .tangential = 0.2, .angular = 0.5};
+  drop.gravity = 9.81;
+  drop.law = {.restitution = 0.8, .friction = analytic::FrictionKind::coulomb, .friction_value = 0.3};
+  for (const double angle : {-35.0, 20.0, 65.0}) {
+    drop.inclination = analytic::Angle::from_degrees(angle);
+    const Drop spatial = in_space(drop, analytic::space::make_box(size));
+    const analytic::Sequence plane = impact_sequence(drop, {.impacts = 3});
+    const Sequence space = impact_sequence(spatial, {.impacts = 3});
+    BOOST_TEST_REQUIRE(plane.rows.size() == space.rows.size());
+    for (std::size_t i = 0; i < plane.rows.size(); ++i) {
+      const analytic::ImpactRow& one = plane.rows[i];
+      const ImpactRow& other = space.rows[i];
+      BOOST_TEST(std::fabs(one.start - other.start) <= rounding);
+      BOOST_TEST((one.impulse() - other.impulse()).norm() <= rounding * one.impulse().norm());
+      BOOST_TEST((one.velocity_after() - other.velocity_after()).norm() <= rounding);
+      BOOST_TEST((one.angular_velocity_after() - other.angular_velocity_after()).norm() <= 100 * rounding);
+    }
+  }
+  Law law;
+  law = drop.law;
+  BOOST_TEST(law.law.friction_value == 0.3);
+  BOOST_TEST(make_rod({.mass = 2, .length = 3, .radius = 0.1}).rims.size() == 2U);
 }
