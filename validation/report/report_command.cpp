@@ -138,7 +138,8 @@ std::string handout_page(const std::string& title, const std::vector<std::string
 std::string handout_table(Report report) {
   report.title.clear();
   report.head.clear();
-  return "<div class=\"wide\">\n" + html_table(report) + "</div>\n";
+  // Who has no pointer scrolls a wide one by keys.
+  return "<div class=\"wide\" tabindex=\"0\" role=\"group\" aria-label=\"Table\">\n" + html_table(report) + "</div>\n";
 }
 
 std::string handout_list(const std::vector<std::string>& items) {

@@ -54,8 +54,8 @@ after(async () => { for (const browser of browsers.values()) await (await browse
  */
 export async function onPage(fragment, use, { browser = "chromium", at = address, before: prepare, more = true, ...options } = {}) {
   const context = await (await browserOf(browser)).newContext({ viewport: LARGE, reducedMotion: "reduce", ...options });
+  context.setDefaultTimeout(PATIENCE);
   const page = await context.newPage();
-  page.setDefaultTimeout(PATIENCE);
   const wrong = [];
   const foreign = [];
   page.on("console", (message) => {

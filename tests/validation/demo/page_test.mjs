@@ -278,7 +278,7 @@ test("who waits long for the continuous model can leave it, and ask for it again
   // Steps so short that the contact would take many minutes.
   "#predict=0&stiffness=1e8&with.method=tvd-rk3&with.step=1e-12&with.evaluation_limit=2000000000&hide=map,explain", async (page) => {
     await page.waitForSelector("#leave-continuous:visible");
-    assert.equal(await page.locator('tr[data-model="discrete"]').count(), 3);
+    await page.waitForFunction(() => document.querySelectorAll('tr[data-model="discrete"]').length === 3);
     await page.click("#leave-continuous");
     assert.deepEqual([await page.textContent("#spinner"), await page.textContent("#leave-continuous")], ["continuous model: left out", "Compute it"]);
     await page.click("#leave-continuous");
