@@ -41,8 +41,8 @@ struct SubmissionGroup {
   };
   SubmissionHead head;
   std::vector<Step> steps;  ///< the longest first
-  /// Of V, Ω and t in the step, by least squares over the steps at which all impacts are right; nothing for fewer than
-  /// two.  The error is the estimate of the fit, NaN for fewer than three.
+  /// The order of V, Ω and t in the step, by least squares over the steps at which all impacts are right; nothing for
+  /// fewer than two.  The error is the estimate of the fit, NaN for fewer than three.
   std::optional<Estimated> order;
   Verdict verdict = Verdict::exact;  ///< of the worst file
 };

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What `clatter angles --regimes` says, in words and as a picture: how many impacts happen, over a parameter of the rod.
+// What `clatter angles --regimes` says, in words and as a picture: how many impacts happen, over a parameter of the
+// rod.
 #pragma once
 
 #include <functional>

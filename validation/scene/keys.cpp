@@ -453,7 +453,8 @@ void append_ground(std::vector<Key>& keys) {
            [](const Scene& s, Model) { return only_if(s.half_space.body_modulus.has_value()); }, false,
            all_but_half_space},
           {"ground.body_material", Use::both, "--body-material", "NAME", "",
-           "or what the body is made of: abs, steel, glass and others of clatter help keys; on a named floor abs without it",
+           "or what the body is made of: abs, steel, glass and others of clatter help keys; on a named floor abs "
+           "without it",
            NameValue{&body_material_names(), [](const Scene& s) { return s.half_space.body_material.value_or(0); },
                      [](Scene& s, std::size_t i) { s.half_space.body_material = i; }},
            [](const Scene& s, Model) {

@@ -197,9 +197,10 @@ void check_ground(const SceneValues& values, Scene& scene, Model model) {
     only_for(values, {"ground.body_modulus", "ground.body_material"}, "a ground with a modulus or a floor");
   if (!is_pad) only_for(values, {"ground.curve_units", "ground.thickness", "ground.under"}, "a pad with a curve");
   if (model == Model::continuous && is_springs)
-    values.require("ground.stiffness",
-                   "k_G in N/m3, such as 1e11, which clatter shock --ground finds; or ground.modulus of an elastic half-space, "
-                   "ground.floor by name, or ground.curve of a pad");
+    values.require(
+        "ground.stiffness",
+        "k_G in N/m3, such as 1e11, which clatter shock --ground finds; or ground.modulus of an elastic half-space, "
+        "ground.floor by name, or ground.curve of a pad");
   if (is_half_space) settle_half_space(scene.half_space, ground);
   if (!values.has("ground.stiffness") && is_springs) {
     only_for(values, {"ground.damping", "ground.restitution", "ground.static_friction", "ground.sliding_friction"},

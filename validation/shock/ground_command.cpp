@@ -391,7 +391,8 @@ Command ground_command() {
                          material)});
     add_output_options(command, input.output);
     command.footer =
-        "Example: clatter shock --ground --body box --size 0.1057x0.0439x0.0191 --mass 0.088 --angle 0 --measured-e 0.5 "
+        "Example: clatter shock --ground --body box --size 0.1057x0.0439x0.0191 --mass 0.088 --angle 0 --measured-e "
+        "0.5 "
         "--contact-time 5e-4\n"
         "The drop is the scene's: flat, or on one corner, with the speed that was measured.\n"
         "With --floor, --ground-modulus or --curve --measured-e alone gives the dissipation; --floor alone shows "

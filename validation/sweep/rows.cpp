@@ -432,7 +432,8 @@ void read_impact_columns(const std::string& names, int impacts, RowLayout& layou
 
 std::vector<Column> sweep_columns(const RowLayout& layout) {
   std::vector<Column> columns{{"index", "index", "", "number of the scene, from 0"}};
-  for (const std::string& key : layout.swept) columns.push_back({key, key, "", "swept key; clatter help keys explains it"});
+  for (const std::string& key : layout.swept)
+    columns.push_back({key, key, "", "swept key; clatter help keys explains it"});
   const std::vector<Column> results = result_columns(layout);
   columns.insert(columns.end(), results.begin(), results.end());
   return columns;
