@@ -192,7 +192,7 @@ std::optional<Picture> probe_history_picture(const ShockRun& run, int asked_impa
 
 struct ReportInput : ShockInput {
   std::string output;
-  bool json = false;
+  enum class Form { html, table, csv, json, markdown } form = Form::html;
   std::optional<int> drops, threads;
   std::optional<double> scatter;  ///< [°]
   std::string rank_by;            ///< column of the sweep
@@ -267,6 +267,7 @@ struct SweptDrop {
   double beyond_value = 0;  ///< the same with the impacts that the ranking leaves out, or NaN
   int beyond_impact = 0;
   double curve_depth = 0;  ///< depth over that of the pad's last point, or NaN
+  double peak_g = 0;       ///< the largest specific force at the first probe in any of its blows, or NaN
 };
 
 /// What the drops in all attitudes give.
@@ -282,6 +283,7 @@ struct AllAttitudes {
   std::string command;                     ///< empty: no file that a command could name
 
   [[nodiscard]] bool is_least_worst() const { return is_worst_least(column.name); }
+  [[nodiscard]] bool is_ranked_by_peak() const { return column.name.starts_with(peak_column); }
   [[nodiscard]] bool is_worse(double one, double other) const { return is_least_worst() ? one < other : one > other; }
   [[nodiscard]] std::ptrdiff_t count(auto&& wanted) const { return std::ranges::count_if(drops, wanted); }
 };
@@ -391,7 +393,10 @@ std::optional<AllAttitudes> all_attitudes(const ReportInput& input, const Scene&
   const std::string& by = all.column.name;
   const std::string beyond = by.starts_with(of_landing) ? by.substr(of_landing.size()) : "";
   const std::size_t curve = place_of("curve_depth"), beyond_value = place_of(beyond),
-                    beyond_impact = place_of(beyond + "_impact");
+                    beyond_impact = place_of(beyond + "_impact"),
+                    peak = plan.layout.probes.empty()
+                               ? columns.size()
+                               : place_of(std::string(peak_column) + plan.layout.probes.front().name);
   RangeQueue queue({0, plan.points.count()}, range_size(plan));
   SweepHooks hooks;
   Progress progress;
@@ -407,6 +412,7 @@ std::optional<AllAttitudes> all_attitudes(const ReportInput& input, const Scene&
       drop.down = down_of(Eigen::Quaterniond(values[0], values[1], values[2], values[3]));
       drop.attitude = static_cast<int>(plan.points.attitude_of(drop.point));
       drop.curve_depth = number(curve);
+      drop.peak_g = number(peak);
       drop.beyond_value = number(beyond_value);
       drop.beyond_impact = std::isfinite(number(beyond_impact)) ? static_cast<int>(number(beyond_impact)) : 0;
       all.drops.push_back(drop);
@@ -456,6 +462,22 @@ std::string ranked_words(const Column& ranking) {
   return words + (is_landing ? ", first landing" : "") + (ranking.unit.empty() ? "" : " [" + ranking.unit + "]");
 }
 
+/// The columns of the table of faces, edges and corners, whatever a report has of them.
+std::vector<Column> attitude_columns() {
+  return {word_column("attitude", "down", "part of the box that points down"),
+          {"off_deg", "off", "°", "how far its worst drop is off that"},
+          {"impact", "impact", "", "whose blow is the worst of that drop"},
+          {"peak_g", "peak", "g", "largest specific force at the probe in that blow"},
+          {"delta_v", "|ΔV|", "m/s", "change of the probe's velocity in it"},
+          {"margin", "margin", "", "of the part in it: at 1 and below it fails"},
+          {"depth_mm", "depth", "mm", "of the body's deepest point in it"},
+          {"depth_percent", "of pad", "%", "the same in parts of the pad's thickness"},
+          {"worst", "worst", "", "what the drops are ranked by, of that drop"},
+          {"mildest", "mildest", "", "the same of the mildest of its drops"},
+          {"largest_peak_g", "any peak", "g", "largest specific force at the first probe in any blow of any of them"},
+          {"drops", "drops", "", "of this attitude"}};
+}
+
 /// Each face, edge and corner by the worst blow of its worst drop, the worst kind first and in it the worst attitude.
 Grid attitudes_grid(const AllAttitudes& all) {
   const bool has_peaks = std::ranges::any_of(all.blows, [](const auto& blow) { return blow && blow->peak_g > 0; });
@@ -469,24 +491,22 @@ Grid attitudes_grid(const AllAttitudes& all) {
   });
   const auto& pad = all.scene.pad.thickness;
   const bool has_share = has_depth && all.scene.world.ground.is_pad() && pad;
-  Grid grid{{word_column("attitude", "down", "part of the box that points down"),
-             {"off_deg", "off", "°", "how far its worst drop is off that"},
-             {"impact", "impact", "", "whose blow is the worst of that drop"},
-             {"peak_g", "peak", "g", "largest specific force at the probe in that blow", has_peaks},
-             {"delta_v", "|ΔV|", "m/s", "change of the probe's velocity in it", has_velocity},
-             {"margin", "margin", "", "of the part in it: at 1 and below it fails", has_margin},
-             {"depth_mm", "depth", "mm", "of the body's deepest point in it", has_depth},
-             {"depth_percent", "of pad", "%", "the same in parts of the pad's thickness", has_share},
-             {"worst", "worst", all.column.unit, ranked_words(all.column) + " of that drop", !is_of_blow},
-             {"mildest", "mildest", all.column.unit,
-              (is_of_blow ? std::string(has_margin  ? "margin"
-                                        : has_peaks ? "peak"
-                                                    : "|ΔV|")
-                          : ranked_words(all.column)) +
-                  " of the mildest of its drops"},
-             {"drops", "drops", "", "of this attitude"}},
-            {},
-            1};
+  Grid grid{attitude_columns(), {}, 1};
+  for (Column& column : grid.columns) {
+    if (column.name == "worst" || column.name == "mildest") {
+      column.unit = all.column.unit;
+      column.meaning =
+          ranked_words(all.column) + (column.name == "worst" ? " of that drop" : " of the mildest of them");
+    }
+    column.shown = column.name == "peak_g"           ? has_peaks
+                   : column.name == "delta_v"        ? has_velocity
+                   : column.name == "margin"         ? has_margin
+                   : column.name == "depth_mm"       ? has_depth
+                   : column.name == "depth_percent"  ? has_share
+                   : column.name == "worst"          ? !is_of_blow
+                   : column.name == "largest_peak_g" ? has_peaks && !all.is_ranked_by_peak()
+                                                     : true;
+  }
   std::vector<std::size_t> order(all.worst_of.size());
   std::iota(order.begin(), order.end(), 0U);
   std::array<double, 4> worst_of_kind;
@@ -505,10 +525,12 @@ Grid attitudes_grid(const AllAttitudes& all) {
   for (const std::size_t i : order) {
     const std::optional<Blow>& blow = all.blows[i];
     const SweptDrop& worst = drop(i);
-    double mildest = worst.value;
+    double mildest = worst.value, largest_peak = std::nan("");
     const auto drops = all.count([&](const SweptDrop& one) { return one.attitude == worst.attitude; });
     for (const SweptDrop& one : all.drops) {
-      if (one.attitude == worst.attitude && all.is_worse(mildest, one.value)) mildest = one.value;
+      if (one.attitude != worst.attitude) continue;
+      if (all.is_worse(mildest, one.value)) mildest = one.value;
+      largest_peak = std::fmax(largest_peak, one.peak_g);
     }
     const auto cell = [&](bool there, double value) { return there ? Cell(value, 3) : Cell(); };
     const bool is_deep = blow && blow->depth;
@@ -520,7 +542,7 @@ Grid attitudes_grid(const AllAttitudes& all) {
          cell(blow && blow->margin, blow && blow->margin ? blow->margin->value : 0),
          cell(is_deep, is_deep ? 1e3 * *blow->depth : 0),
          cell(is_deep && has_share, is_deep && has_share ? 100 * *blow->depth / *pad : 0), Cell(worst.value, 3),
-         Cell(mildest, 3), Cell(static_cast<int>(drops))});
+         Cell(mildest, 3), cell(std::isfinite(largest_peak), three_digits(largest_peak)), Cell(static_cast<int>(drops))});
   }
   return grid;
 }
@@ -854,6 +876,10 @@ void add_fields(const ReportInput& input, const ShockView& view, Findings& found
   fields[is_continuous ? "simulation" : "sequence"] = found.impacts.fields;
   found.commands.push_back((is_continuous ? "clatter simulate" : "clatter sequence") + words);
   fields["commands"] = found.commands;
+  found.report.head = {scene.summary(model_of(input))};
+  found.report.grid = found.all ? attitudes_grid(*found.all) : found.impacts.grid;
+  found.report.notes = {found.lead};
+  found.report.notes.insert(found.report.notes.end(), found.notes.begin(), found.notes.end());
 }
 
 /// Nothing where it was interrupted.
@@ -926,6 +952,7 @@ std::optional<Findings> findings_of(ReportInput& input, const Attitudes& attitud
   for (const std::string& note : assumed_words(scene, model, found.answer.blow.value_or(Blow{.impact = 1})))
     found.notes.push_back(note);
   fields["answer"]["notes"] = found.notes;
+  fields["message"] = found.lead;
   add_fields(input, view, found);
   return found;
 }
@@ -988,15 +1015,17 @@ std::string page_of(const ReportInput& input, const Findings& found, const Attit
 
 int run_report(const ReportInput& given) {
   ReportInput input = given;
-  if (!input.json) {
+  const bool is_page = input.form == ReportInput::Form::html;
+  if (is_page) {
     if (input.output.empty()) throw BadInput("--output: required, the page's file");
     if (!input.output.ends_with(".html")) throw BadInput(fmt::format("--output '{}': must end in .html", input.output));
     require_gnuplot("report");
   }
-  const OutputChoice choice{.style = {.format = Format::json}, .path = input.output};
-  if (input.json) check_files(choice);
+  constexpr Format formats[]{Format::json, Format::table, Format::csv, Format::json, Format::markdown};
+  const OutputChoice choice{.style = {.format = formats[static_cast<std::size_t>(input.form)]}, .path = input.output};
+  if (!is_page) check_files(choice);
   std::optional<Sink> sink;
-  if (!input.json) sink.emplace(input.output);
+  if (is_page) sink.emplace(input.output);
   const CooperativeInterrupt interrupt;
   Attitudes attitudes;
   attitudes.drops = input.drops.value_or(attitudes.drops);
@@ -1004,7 +1033,7 @@ int run_report(const ReportInput& given) {
   const ShockView view = view_of(input);
   const auto found = findings_of(input, attitudes, view, interrupt);
   if (!found) return interrupted_status;
-  if (input.json) {
+  if (!is_page) {
     write_report(choice, found->report);
   } else {
     sink->write(page_of(input, *found, attitudes, view));
@@ -1032,9 +1061,12 @@ Command report_command() {
     command.add({.name = "--output",
                  .target = &input.output,
                  .type = "FILE",
-                 .help = "the page, or its JSON (stdout)",
+                 .help = "the page, or its rows or JSON (stdout)",
                  .group = "Output"});
-    command.add(choice_argument("--format", input.json, {"html", "json"}, "(html)", "Output"));
+    command.add(choice_argument("--format", input.form, {"html", "table", "csv", "json", "markdown"},
+                                "the page (html), its table of faces, edges and corners, or all of it as JSON",
+                                "Output"));
+    command.columns = {{"report", attitude_columns}};
     command.footer =
         "Example: clatter report phone-damped --impacts 2 --probe camera:0.048,0.016,0.0095 --part 300:500 --output "
         "phone.html\n"

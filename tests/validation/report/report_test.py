@@ -102,6 +102,23 @@ class Report(EmptyFolder):
         self.assertEqual((found["answer"]["failing"], found["answer"]["least"]), (sum(not margin > 1 for margin in margins), min(margins)))
         self.assertTrue(0 < found["answer"]["failing"] < 52)
 
+    def test_the_table_of_faces_edges_and_corners_is_had_for_a_spreadsheet_with_each_one_s_largest_peak(self):
+        scene = ("phone-damped", "--impacts", "2", "--probe", "camera:0.048,0.016,0.0095", "--part", "300:500", "--drops", "52")
+        rows = rows_of("report", *scene)
+        self.assertEqual(len(rows), 26)
+        found = json_of("report", *scene)
+        self.assertIn(f"survives in {52 - found['answer']['failing']} of 52 drops", found["message"])
+        swept = rows_of(*shlex.split(found["commands"][0].replace(" --summary", "").replace(" --rank-by margin_camera", ""))[1:])
+        for row in rows:
+            number = next(int(one["attitude"].split()[0]) for one in found["attitudes"] if f"({row['attitude'].split()[1]})" in one["attitude"])
+            own = [one for one in swept if int(one["index"]) % 26 == number - 1]
+            self.assertEqual(len(own), int(row["drops"]))
+            peak, margin = max(float(one["peak_g_camera"]) for one in own), min(float(one["margin_camera"]) for one in own)
+            self.assertAlmostEqual(float(row["largest_peak_g"]), peak, delta=0.006 * peak)
+            self.assertAlmostEqual(float(row["margin"]), margin, delta=1e-6 * margin)
+            self.assertLessEqual(float(row["peak_g"]), float(row["largest_peak_g"]) * 1.006)
+        self.assertIn("down", run("report", *scene[:-1], "26", "--format", "markdown").stdout)
+
     def test_without_loss_the_first_landing_alone_is_ranked_and_what_was_assumed_is_told(self):
         scene = [*BOX, "--floor", "concrete", *PROBE, "--part", "300:500", "--drops", "26"]
         answer = json_of("report", *scene, "--restitution", "0.4")["answer"]
