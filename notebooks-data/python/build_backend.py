@@ -132,9 +132,11 @@ def bring_libraries(package: Path) -> None:
             raise RuntimeError(f"{name}: not found, with which {module.name} is linked")
         library = Path(place).resolve()
         shutil.copyfile(library, package / name)
-        owner = subprocess.run(["dpkg", "-S", str(library)], check=True, capture_output=True, text=True).stdout.partition(":")[0]
-        (package / "licences").mkdir(exist_ok=True)
-        shutil.copyfile(f"/usr/share/doc/{owner}/copyright", package / "licences" / f"{owner}.txt")
+        owned = shutil.which("dpkg") and subprocess.run(["dpkg", "-S", str(library)], capture_output=True, text=True).stdout
+        if owned:  # else it is of this machine alone
+            owner = owned.partition(":")[0]
+            (package / "licences").mkdir(exist_ok=True)
+            shutil.copyfile(f"/usr/share/doc/{owner}/copyright", package / "licences" / f"{owner}.txt")
 
 
 def digest(data: bytes) -> str:
