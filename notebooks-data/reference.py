@@ -165,8 +165,9 @@ def build(program, folder):
         subprocess.run([sys.executable, "-m", "sphinx", "-q", "-W", "--keep-going", "-b", "html", "-d", f"{scratch}/trees", source, folder],
                        env=os.environ | settings, check=True)
     mend_theme(folder / "_static/styles/furo.css")
-    for page in folder.rglob("*.html"):  # whose theme gives its headings no level
-        page.write_text(page.read_text(encoding="utf-8").replace('role="heading">', 'role="heading" aria-level="2">'), encoding="utf-8")
+    for page in folder.rglob("*.html"):  # whose theme gives its headings no level, and keys nothing to scroll wide tables by
+        text = page.read_text(encoding="utf-8").replace('role="heading">', 'role="heading" aria-level="2">')
+        page.write_text(text.replace('<table class="docutils', '<table tabindex="0" class="docutils'), encoding="utf-8")
     for made_by_sphinx in (".buildinfo", "objects.inv"):
         (folder / made_by_sphinx).unlink(missing_ok=True)
 

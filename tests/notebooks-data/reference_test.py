@@ -151,6 +151,11 @@ class Reference(unittest.TestCase):
         self.assertIn('role="heading" aria-level="2"', page)
         self.assertNotIn('role="heading">', page)
 
+    def test_its_tables_take_the_keyboard(self):
+        page = (self.folder / "league.html").read_text(encoding="utf-8")
+        self.assertIn('<table tabindex="0" class="docutils', page)
+        self.assertNotIn('<table class="docutils', page)
+
     def test_search_finds_what_a_reader_asks_for(self):
         # The words of the index, which the browser reads without a server.
         index = (self.folder / "searchindex.js").read_text(encoding="utf-8")

@@ -161,7 +161,7 @@ export function frameAt(motions: Motions, time: number, scales: Scales, side: bo
   }
   frame.bounds = boundsOfParts(frame.figures, side);
   frame.inSpace = frame.figures.some(leavesPlane);
-  if (traces && !frame.inSpace && motions.discrete && !side) addArc(frame, motions.discrete, time);
+  if (traces && !frame.inSpace && motions.discrete && !side && !hasEnded(motions.discrete, time)) addArc(frame, motions.discrete, time);
   return frame;
 }
 
