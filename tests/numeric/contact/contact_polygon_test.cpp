@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "numeric/contact/contact_polygon.hpp"
 
-#include "tests/numeric/support.hpp"
-
 namespace {
 
 using namespace clatter::numeric;
