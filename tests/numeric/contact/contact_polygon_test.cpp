@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "numeric/contact/contact_polygon.hpp"
 
+#include "tests/numeric/support.hpp"
+
 namespace {
 
 using namespace clatter::numeric;

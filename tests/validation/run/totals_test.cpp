@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Errors of sums over a run and of the difference of both models.
+#include "tests/support.hpp"
 #include "validation/compare/comparison.hpp"
 #include "validation/run/run.hpp"
 
