@@ -2,8 +2,6 @@
 // Roots of smooth functions of one variable by GSL, inside a bracket and with a count of evaluations.
 #pragma once
 
-#include <utility>
-
 namespace clatter::analytic::detail {
 
 /// Value and derivative of a function, with the size of the value's rounding error.

@@ -2,7 +2,6 @@
 #include "analytic/batch/batch.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <limits>
 #include <stdexcept>

@@ -6,7 +6,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
-#include <vector>
 
 #include "analytic/batch/lanes.hpp"
 #include "analytic/law/impact_law.hpp"

@@ -145,11 +145,11 @@ Ending<Number> viscoelastic_ending(const Phases<Number>& phases, const PathStart
 template <class Number>
 Ending<Number> ending(const Phases<Number>& phases, const PathStart<Number>& start, const ImpactLaw& law) {
   const Number &v = start.approach_speed, &e = start.restitution;
-  if (law.law == RestitutionLaw::viscoelastic) {
-    return viscoelastic_ending(phases, start, law.damping_per_stiffness);
-  }
-  if (law.law == RestitutionLaw::newton) {
-    return {impulse_for_rise<Number>(phases, (1 + e) * v), e * v};
+  switch (law.law) {
+    case RestitutionLaw::newton: return {impulse_for_rise<Number>(phases, (1 + e) * v), e * v};
+    case RestitutionLaw::viscoelastic: return viscoelastic_ending(phases, start, law.damping_per_stiffness);
+    case RestitutionLaw::poisson:
+    case RestitutionLaw::stronge: break;
   }
   const Number compression = impulse_for_rise(phases, v);
   if (law.law == RestitutionLaw::poisson) {

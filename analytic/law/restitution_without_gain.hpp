@@ -15,8 +15,7 @@ namespace clatter::analytic {
 /// Accuracy: the loss is between zero and 1e-13 of `energy`, or rounding of `loss`.
 /// @param energy  before the landing; a gain of its rounding is none
 /// @param loss  of energy, as a function of the restitution
-template <class Loss>
-[[nodiscard]] double restitution_without_gain(double e, double energy, const Loss& loss) {
+[[nodiscard]] double restitution_without_gain(double e, double energy, const auto& loss) {
   constexpr double rounding = 8 * detail::epsilon;
   const double at_law = loss(e);
   if (!(at_law < -rounding * energy)) return e;

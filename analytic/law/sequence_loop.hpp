@@ -6,7 +6,6 @@
 #include <cstddef>
 #include <limits>
 #include <optional>
-#include <stdexcept>
 #include <string>
 #include <utility>
 
@@ -46,8 +45,7 @@ class SequenceLoop {
   explicit SequenceLoop(const SequenceOptions& options) : options_(options) {}
 
   /// Runs the impacts; what ends them early keeps the rows so far.  @throws what `go_on` throws before the first row
-  template <class GoOn>
-  void follow(GoOn&& go_on) {
+  void follow(auto&& go_on) {
     try {
       go_on();
     } catch (const NumericalError& error) {
@@ -128,8 +126,7 @@ class SequenceLoop {
     result_.tail = std::move(tail);
   }
 
-  template <class Miss>
-  void end_in_flight(const Miss& near_miss) {
+  void end_in_flight(const auto& near_miss) {
     result_.outcome = Outcome::no_further_impact;
     result_.near_miss = near_miss;
     result_.message = near_miss.within_margin()
@@ -138,8 +135,7 @@ class SequenceLoop {
   }
 
   /// What an extrapolated end must be known to: the digits asked for, or 4 ulp of what came before.
-  template <class AnyAccumulation>
-  [[nodiscard]] auto extrapolated(const AnyAccumulation& accumulation, const Resolution& now) const {
+  [[nodiscard]] auto extrapolated(const auto& accumulation, const Resolution& now) const {
     constexpr double ulps = 4 * std::numeric_limits<double>::epsilon();
     return accumulation.extrapolate({.relative = std::pow(10.0, -options_.digits),
                                      .time = std::fmax(ulps * now.time, now.of_flight),

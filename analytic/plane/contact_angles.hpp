@@ -2,8 +2,6 @@
 // Contact angles of the first three impacts of the thin rod: β(θ) and γ(θ), Eq. 12 and its relatives.
 #pragma once
 
-#include <string>
-
 #include "analytic/base/angle.hpp"
 
 namespace clatter::analytic {

@@ -57,8 +57,7 @@ Lanes combined(const StateVector& factors, const Block& block) {
 }
 
 /// From column k on.
-template <class Rows>
-Block block_of(const Rows& rows, std::size_t k) {
+Block block_of(const auto& rows, std::size_t k) {
   Block block;
   for (std::size_t i = 0; i < state_size; ++i) std::copy_n(&rows[i][k], lanes, block[i].begin());
   return block;

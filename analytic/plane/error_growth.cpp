@@ -6,7 +6,6 @@
 #include <cmath>
 #include <limits>
 
-#include "analytic/base/errors.hpp"
 #include "analytic/base/limits.hpp"
 
 namespace clatter::analytic {
@@ -305,14 +304,14 @@ void ErrorGrowth::add_rounding(const StruckState& struck, const Impact& impact) 
 }
 
 void ErrorGrowth::strike(const BodyMotion& motion, const ImpactLaw& law, ImpactRow& row) {
-  row.error = RowErrors::unknown();
+  row.error = {};
   total_impulse_ += row.impact.normal_impulse;
   if (!predictable_) return;
   row.error.predictable = true;
   const StruckState struck = struck_state(motion, law, row);
   if (!(row.impact.approach_speed > 0)) {  // an arrival that rounding has turned into a departure
     predictable_ = false;
-    row.error = RowErrors::unknown();
+    row.error = {};
     return;
   }
   const ImpactDerivatives d = impact_derivatives(struck, row.impact.mode);

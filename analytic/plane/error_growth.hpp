@@ -43,8 +43,7 @@ class ErrorGrowth {
   [[nodiscard]] double alone(const StateVector& gradient) const { return deviations * factor_.deviation(gradient); }
   [[nodiscard]] double alone(StateIndex number) const { return deviations * factor_.deviation_of(number); }
   /// @param of a gradient, or one number of the state
-  template <class Of>
-  [[nodiscard]] double bound(const Of& of, double rounding) const {
+  [[nodiscard]] double bound(const auto& of, double rounding) const {
     return (alone(of) + 2 * rounding) * (1 + curvature_);
   }
   void fill_summed(const StruckState& struck, const ImpactDerivatives& d, ImpactRow& row) const;

@@ -5,7 +5,7 @@
 
 #include "analytic/base/angle.hpp"
 #include "analytic/base/limits.hpp"
-#include "analytic/plane/no_root.hpp"
+#include "analytic/plane/first_root.hpp"
 
 namespace clatter::analytic {
 

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <limits>
 #include <optional>
 
 #include "analytic/base/errors.hpp"
@@ -17,7 +16,6 @@ namespace clatter::analytic {
 namespace {
 
 using detail::epsilon;
-using detail::infinite;
 
 constexpr double shift = 0x1p-24;    ///< of a neighbour's angle, speed, tangential velocity or spin, relative
 constexpr double state_error = 16;   ///< of the state beside that of a number of the drop, in units of the last place

@@ -9,7 +9,6 @@
 #pragma once
 
 #include <optional>
-#include <string>
 
 #include "analytic/law/impact_law.hpp"
 #include "analytic/law/impact_limits.hpp"

@@ -1,139 +1,105 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analytic/plane/impact_rows.hpp"
 
-#include <bit>
 #include <cmath>
-#include <cstdint>
-#include <cstdlib>
-#include <limits>
 
 #include "analytic/base/errors.hpp"
 
 namespace clatter::analytic {
 
+using detail::require;
+using detail::Scales;
+namespace of = detail::of;
 namespace {
 
-/// std::ldexp, by a product where the factor is a normal double: rounded once, as by std::ldexp.
-void scale(double& value, int exponent) {
-  if (std::abs(exponent) > 1022) {
-    value = std::ldexp(value, exponent);
-    return;
-  }
-  constexpr int bias = 1023, fraction_bits = 52;
-  value *= std::bit_cast<double>(static_cast<std::uint64_t>(exponent + bias) << fraction_bits);
+int exponent_of(double value) { return value == 0 ? 0 : std::ilogb(value); }
+
+void apply(const Scales& scale, PlanarVelocity& v) {
+  scale(of::speed, v.normal, v.tangential);
+  scale(of::rate, v.angular);
 }
 
-int exponent_of(double value) { return value == 0 ? 0 : std::ilogb(value); }
+void apply(const Scales& scale, NearMiss& miss) {
+  scale(of::length, miss.clearance, miss.margin);
+  scale(of::time, miss.time);
+}
+
+void apply(const Scales& scale, Impact& impact) {
+  scale(of::impulse, impact.normal_impulse, impact.tangential_impulse);
+  scale(of::speed, impact.approach_speed, impact.separation_speed, impact.slip_before, impact.slip_after);
+  scale(of::energy, impact.energy_loss);
+  apply(scale, impact.after);
+}
+
+void apply(const Scales& scale, RowErrors& error) {
+  scale(of::time, error.start);
+  scale(of::speed, error.approach_speed);
+  scale(of::impulse, error.normal_impulse, error.tangential_impulse);
+  apply(scale, error.after);
+  scale(of::energy, error.energy_before, error.energy_after, error.energy_loss);
+}
+
+void apply(const Scales& scale, ImpactRow& row) {
+  scale(of::time, row.start, row.flight.arrival.time, row.flight.arrival.bracket_low, row.flight.arrival.bracket_high);
+  scale(of::length, row.centre_height);
+  scale(of::energy, row.energy_before, row.energy_after);
+  apply(scale, row.error);
+  apply(scale, row.before);
+  apply(scale, row.impact);
+  apply(scale, row.flight.near_miss);
+  scale(of::speed, row.departure.normal, row.departure.rebound_speed);
+  scale(of::rate, row.departure.angular);
+  scale(of::acceleration, row.departure.gravity, row.departure.gravity_along);
+}
+
+void apply(const Scales& scale, Tail& tail) {
+  scale(of::time, tail.end_time, tail.end_time_error);
+  scale(of::impulse, tail.normal_impulse, tail.normal_impulse_error, tail.tangential_impulse,
+        tail.tangential_impulse_error);
+  apply(scale, tail.after_error);
+  apply(scale, tail.after);
+}
 
 }  // namespace
 
 Units::Units(const Drop& drop)
-    : length_(exponent_of(drop.body.reach())), speed_(exponent_of(drop.velocity.normal)),
-      mass_(exponent_of(drop.body.mass)) {}
+    : scales_{.length = exponent_of(drop.body.reach()),
+              .speed = exponent_of(drop.velocity.normal),
+              .mass = exponent_of(drop.body.mass)} {}
 
 Drop Units::to_internal(Drop drop) const {
-  scale(drop.body.mass, -mass_);
-  scale(drop.body.gyration_square, -2 * length_);
-  for (Vertex& vertex : drop.body.vertices) {
-    scale(vertex.x, -length_);
-    scale(vertex.z, -length_);
-  }
-  scale(drop.velocity.normal, -speed_);
-  scale(drop.velocity.tangential, -speed_);
-  scale(drop.velocity.angular, length_ - speed_);
-  scale(drop.gravity, length_ - 2 * speed_);
-  scale(drop.gravity_along, length_ - 2 * speed_);
-  scale(drop.law.damping_per_stiffness, speed_);
-  if (drop.fall) scale(drop.fall->normal_error, -speed_);
+  const Scales scale = scales_.inverse();
+  scale(of::mass, drop.body.mass);
+  scale(of::area, drop.body.gyration_square);
+  for (Vertex& vertex : drop.body.vertices) scale(of::length, vertex.x, vertex.z);
+  apply(scale, drop.velocity);
+  scale(of::acceleration, drop.gravity, drop.gravity_along);
+  scale(of::slowness, drop.law.damping_per_stiffness);
+  if (drop.fall) scale(of::speed, drop.fall->normal_error);
   return drop;
 }
 
-SequenceOptions Units::to_internal(const SequenceOptions& options) const {
-  SequenceOptions o = options;
-  scale(o.until, speed_ - length_);
-  return o;
+SequenceOptions Units::to_internal(SequenceOptions options) const {
+  scales_.inverse()(of::time, options.until);
+  return options;
 }
 
-double Units::energy(double internal) const { return std::ldexp(internal, mass_ + 2 * speed_); }
-
-void Units::to_si(PlanarVelocity& v) const {
-  scale(v.normal, speed_);
-  scale(v.tangential, speed_);
-  scale(v.angular, speed_ - length_);
-}
-
-void Units::to_si(Impact& impact) const {
-  scale(impact.normal_impulse, mass_ + speed_);
-  scale(impact.tangential_impulse, mass_ + speed_);
-  scale(impact.approach_speed, speed_);
-  scale(impact.separation_speed, speed_);
-  scale(impact.slip_before, speed_);
-  scale(impact.slip_after, speed_);
-  scale(impact.energy_loss, mass_ + 2 * speed_);
-  to_si(impact.after);
-}
-
-void Units::to_si(RowErrors& error) const {
-  scale(error.start, length_ - speed_);
-  scale(error.approach_speed, speed_);
-  scale(error.normal_impulse, mass_ + speed_);
-  scale(error.tangential_impulse, mass_ + speed_);
-  to_si(error.after);
-  scale(error.energy_before, mass_ + 2 * speed_);
-  scale(error.energy_after, mass_ + 2 * speed_);
-  scale(error.energy_loss, mass_ + 2 * speed_);
-}
-
-void Units::to_si(NearMiss& miss) const {
-  scale(miss.clearance, length_);
-  scale(miss.margin, length_);
-  scale(miss.time, length_ - speed_);
-}
-
-void Units::to_si(ImpactRow& row) const {
-  const int time = length_ - speed_;
-  scale(row.start, time);
-  scale(row.centre_height, length_);
-  scale(row.energy_before, mass_ + 2 * speed_);
-  scale(row.energy_after, mass_ + 2 * speed_);
-  to_si(row.error);
-  to_si(row.before);
-  to_si(row.impact);
-  scale(row.flight.arrival.time, time);
-  scale(row.flight.arrival.bracket_low, time);
-  scale(row.flight.arrival.bracket_high, time);
-  to_si(row.flight.near_miss);
-  scale(row.departure.normal, speed_);
-  scale(row.departure.angular, -time);
-  scale(row.departure.gravity, 2 * speed_ - length_);
-  scale(row.departure.gravity_along, 2 * speed_ - length_);
-  scale(row.departure.rebound_speed, speed_);
+double Units::energy(double internal) const {
+  scales_(of::energy, internal);
+  return internal;
 }
 
 void Units::to_si(Sequence& sequence) const {
-  for (ImpactRow& row : sequence.rows) to_si(row);
-  scale(sequence.total_normal_impulse, mass_ + speed_);
-  scale(sequence.total_normal_impulse_error, mass_ + speed_);
-  to_si(sequence.near_miss);
+  for (ImpactRow& row : sequence.rows) apply(scales_, row);
+  scales_(of::impulse, sequence.total_normal_impulse, sequence.total_normal_impulse_error);
+  apply(scales_, sequence.near_miss);
   if (sequence.slide) {
-    scale(sequence.slide->begin, length_ - speed_);
-    scale(sequence.slide->speed, speed_);
-    scale(sequence.slide->duration, length_ - speed_);
-    scale(sequence.slide->distance, length_);
+    scales_(of::time, sequence.slide->begin, sequence.slide->duration);
+    scales_(of::speed, sequence.slide->speed);
+    scales_(of::length, sequence.slide->distance);
   }
-  if (!sequence.tail) return;
-  Tail& tail = *sequence.tail;
-  scale(tail.end_time, length_ - speed_);
-  scale(tail.end_time_error, length_ - speed_);
-  scale(tail.normal_impulse, mass_ + speed_);
-  scale(tail.normal_impulse_error, mass_ + speed_);
-  scale(tail.tangential_impulse, mass_ + speed_);
-  scale(tail.tangential_impulse_error, mass_ + speed_);
-  to_si(tail.after_error);
-  to_si(tail.after);
+  if (sequence.tail) apply(scales_, *sequence.tail);
 }
-
-using detail::require;
 
 void Drop::validate() const {
   law.validate();
@@ -147,24 +113,6 @@ void Drop::validate() const {
   // k² of lengths beyond 1e±150 m overflows or loses its digits.
   require(std::isnormal(body.gyration_square) && body.gyration_square > 0, "gyration radius squared",
           body.gyration_square, "a positive double that is not subnormal");
-}
-
-RowErrors RowErrors::unknown() {
-  constexpr double none = std::numeric_limits<double>::infinity();
-  return {.predictable = false,
-          .relative = none,
-          .start = none,
-          .inclination = none,
-          .contact_angle = none,
-          .approach_speed = none,
-          .restitution = none,
-          .normal_impulse = none,
-          .tangential_impulse = none,
-          .impulse_ratio = none,
-          .after = {.normal = none, .tangential = none, .angular = none},
-          .energy_before = none,
-          .energy_after = none,
-          .energy_loss = none};
 }
 
 }  // namespace clatter::analytic

@@ -8,6 +8,8 @@
 #include <vector>
 
 #include "analytic/base/angle.hpp"
+#include "analytic/base/limits.hpp"
+#include "analytic/base/scales.hpp"
 #include "analytic/law/sequence_options.hpp"
 #include "analytic/plane/body.hpp"
 #include "analytic/plane/flight.hpp"
@@ -19,23 +21,16 @@ namespace clatter::analytic {
 /// that cannot be predicted. They hold what errors of the start (one unit in the last place of each
 /// number given) and rounding have grown to.
 struct RowErrors {
-  bool predictable = false;   ///< errors have not grown so far that another sequence may follow
-  double relative = 0;        ///< largest of start, contact angle and normal impulse, beside the number itself
-  double start = 0;           ///< [s]
-  double inclination = 0;     ///< [rad]
-  double contact_angle = 0;   ///< [rad]
-  double approach_speed = 0;  ///< [m/s]
-  double restitution = 0;
-  double normal_impulse = 0;      ///< [N·s]
-  double tangential_impulse = 0;  ///< [N·s]
-  double impulse_ratio = 0;
-  PlanarVelocity after;
-  double energy_before = 0;  ///< [J]
-  double energy_after = 0;   ///< [J]
-  double energy_loss = 0;    ///< [J]
-
-  /// Nothing is known.
-  [[nodiscard]] static RowErrors unknown();
+  bool predictable = false;            ///< errors have not grown so far that another sequence may follow
+  double relative = detail::infinite;  ///< largest of start, contact angle and normal impulse, beside the number itself
+  double start = detail::infinite;     ///< [s]
+  double inclination = detail::infinite, contact_angle = detail::infinite;  ///< [rad]
+  double approach_speed = detail::infinite;                                 ///< [m/s]
+  double restitution = detail::infinite;
+  double normal_impulse = detail::infinite, tangential_impulse = detail::infinite;  ///< [N·s]
+  double impulse_ratio = detail::infinite;
+  PlanarVelocity after{.normal = detail::infinite, .tangential = detail::infinite, .angular = detail::infinite};
+  double energy_before = detail::infinite, energy_after = detail::infinite, energy_loss = detail::infinite;  ///< [J]
 };
 
 /// The free flight from a release to the first touch, and bounds on the errors that it leaves in the drop's numbers;
@@ -77,7 +72,7 @@ struct ImpactRow {
   /// largest over contact angle, time and impulse.  NaN if it could not be had, or is so large that the row cannot be
   /// predicted.
   double amplification = 0;
-  RowErrors error;  ///< all unknown without SequenceOptions::amplification
+  RowErrors error{};  ///< all unknown without SequenceOptions::amplification
   /// The flight that led here; for the first row all zero.
   Flight flight;
   Departure departure;  ///< how that flight began
@@ -139,19 +134,13 @@ class Units {
  public:
   explicit Units(const Drop& drop);
   [[nodiscard]] Drop to_internal(Drop drop) const;
-  [[nodiscard]] SequenceOptions to_internal(const SequenceOptions& options) const;
+  [[nodiscard]] SequenceOptions to_internal(SequenceOptions options) const;
   void to_si(Sequence& sequence) const;
   /// [J] of an energy in internal units.
   [[nodiscard]] double energy(double internal) const;
 
  private:
-  void to_si(PlanarVelocity& v) const;
-  void to_si(Impact& impact) const;
-  void to_si(RowErrors& error) const;
-  void to_si(NearMiss& miss) const;
-  void to_si(ImpactRow& row) const;
-
-  int length_, speed_, mass_;  ///< exponents of two
+  detail::Scales scales_;
 };
 
 }  // namespace clatter::analytic

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analytic/plane/rod_impact.hpp"
 
-#include <cmath>
-
 #include "analytic/base/errors.hpp"
 
 namespace clatter::analytic {

@@ -23,8 +23,6 @@ using detail::missing;
 
 namespace {
 
-using detail::require;
-
 /// In units of its own length and speed, gravity and the other speeds must still be numbers.
 void require_representable(const Drop& drop, const Drop& internal) {
   const PlanarVelocity& v = internal.velocity;
@@ -103,7 +101,6 @@ class Run : public SequenceLoop<Sequence, ErrorGrowth> {
                   .impact = {},
                   .energy_before = motion_.energy(),
                   .amplification = missing,
-                  .error = RowErrors::unknown(),
                   .flight = flight,
                   .departure = departure};
     row.contact_angle = motion_.contact_angle();

@@ -11,8 +11,7 @@ struct Triangle {
   const ContactCorner& r;
 };
 
-template <class Use>
-void for_each_triangle(const ContactPolygon& polygon, Use&& use) {
+void for_each_triangle(const ContactPolygon& polygon, auto&& use) {
   const ContactCorner* corners = polygon.corners;
   for (int i = 2; i < polygon.count; ++i) {
     const Triangle t{corners[0], corners[i - 1], corners[i]};

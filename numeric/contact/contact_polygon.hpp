@@ -23,8 +23,7 @@ struct ContactCorner {
 /// that it does not depend on the direction of the edge.
 /// @param out  room for 2 × count corners, not overlapping `in`.
 /// @return the number of corners; 0 if nothing is positive.
-template <class Value>
-int clip(const ContactCorner* in, int count, ContactCorner* out, Value&& value) {
+int clip(const ContactCorner* in, int count, ContactCorner* out, auto&& value) {
   int size = 0;
   const auto crossing = [&](const ContactCorner& inside, double at_inside, const ContactCorner& outside,
                             double at_outside) {

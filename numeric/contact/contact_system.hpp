@@ -20,28 +20,13 @@ namespace clatter::numeric {
 ///     W_d, W_r, W_f   energy dissipated by dampers, released by the clamp, dissipated by friction [J]
 using ContactState = Eigen::Matrix<double, 16, 1>;
 
-template <class State>
-auto displacement(State& y) {
-  return y.template head<3>();
-}
-template <class State>
-auto euler_parameters(State& y) {
-  return y.template segment<4>(3);
-}
-template <class State>
-auto velocity(State& y) {
-  return y.template segment<3>(7);
-}
+auto displacement(auto& y) { return y.template head<3>(); }
+auto euler_parameters(auto& y) { return y.template segment<4>(3); }
+auto velocity(auto& y) { return y.template segment<3>(7); }
 /// ω′.
-template <class State>
-auto angular_velocity(State& y) {
-  return y.template segment<3>(10);
-}
+auto angular_velocity(auto& y) { return y.template segment<3>(10); }
 /// W_d, W_r, W_f.
-template <class State>
-auto works(State& y) {
-  return y.template tail<3>();
-}
+auto works(auto& y) { return y.template tail<3>(); }
 [[nodiscard]] inline double damping_work(const ContactState& y) { return works(y)[0]; }
 [[nodiscard]] inline double released_work(const ContactState& y) { return works(y)[1]; }
 [[nodiscard]] inline double friction_work(const ContactState& y) { return works(y)[2]; }

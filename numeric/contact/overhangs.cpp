@@ -2,7 +2,6 @@
 #include "numeric/contact/overhangs.hpp"
 
 #include <algorithm>
-#include <cassert>
 
 namespace clatter::numeric {
 

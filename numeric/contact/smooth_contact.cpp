@@ -2,12 +2,10 @@
 #include "numeric/contact/smooth_contact.hpp"
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 #include <complex>
 #include <limits>
 #include <numbers>
-#include <span>
 
 #include "numeric/contact/footprint.hpp"
 

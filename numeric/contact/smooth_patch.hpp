@@ -105,8 +105,7 @@ struct Zone {
 /// Calls visit(p, area) at the points of a rule over a zone; the cap ζ < h is {0, h}:
 ///     ∫f dA = ∫dζ ∫f dψ,   p = (ρ cos ψ, ρ sin ψ, ζ),   ρ² = ζ(2 − ζ).
 /// Exact where f is a polynomial in p of a degree below `around` and 2 × heights.
-template <class Visit>
-void over_zone(const Zone& zone, const CapRule& rule, Visit&& visit) {
+void over_zone(const Zone& zone, const CapRule& rule, auto&& visit) {
   const double step = 2 * std::numbers::pi / rule.around, cosine = std::cos(step), sine = std::sin(step);
   const double half = (zone.high - zone.low) / (2 * rule.parts);
   for (int part = 0; part < rule.parts; ++part) {
@@ -135,8 +134,7 @@ void over_zone(const Zone& zone, const CapRule& rule, Visit&& visit) {
 /// The same over the part of the sphere in half-spaces: the fans between its lowest point and the arcs of the boundary,
 /// whose areas have signs, so that it matters not where that point lies.  Exact to rounding for polynomials of low
 /// degree.
-template <class Visit>
-void over_part(const HalfSpaces& half_spaces, Visit&& visit) {
+void over_part(const HalfSpaces& half_spaces, auto&& visit) {
   constexpr double piece = std::numbers::pi;
   const SphereBoundary boundary(half_spaces);
   for (int i = 0; i < boundary.count; ++i) {
@@ -194,8 +192,7 @@ struct Mantle {
 
 /// Calls visit(p, area) over the part of a mantle below the ground.  `around`: points where it lies below all around;
 /// `more`: nodes beside those that sines and cosines need.
-template <class Visit>
-void over_mantle(const Mantle& mantle, int around, int more, Visit&& visit) {
+void over_mantle(const Mantle& mantle, int around, int more, auto&& visit) {
   const int along = 8 + more;
   if (const double end = mantle.full_end(); end > 0) {
     for (const GaussNode& node : gauss_rule(along)) {
@@ -247,8 +244,7 @@ class Slices {
   [[nodiscard]] const Vector3& across() const { return across_; }
 
   /// Calls visit(slice, from, to, weight): ∫f dA = Σ weight ∫f dφ.
-  template <class Visit>
-  void each_piece(Visit&& visit) const {
+  void each_piece(auto&& visit) const {
     constexpr int along = 20;
     for (int i = 0; i < intervals(); ++i) {
       for (const GaussNode& node : gauss_rule(along)) {
@@ -261,8 +257,7 @@ class Slices {
     }
   }
   /// Calls visit(p, area).  Right to some 1e-10.
-  template <class Visit>
-  void visit(Visit&& visit) const {
+  void visit(auto&& visit) const {
     constexpr int across = 14;
     each_piece([&](const Slice& slice, double from, double to, double weight) {
       for (const GaussNode& node : gauss_rule(across)) {

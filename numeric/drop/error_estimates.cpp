@@ -39,8 +39,7 @@ constexpr double least_part = 0.1;
 constexpr Vector3 ImpactNumbers::*vectors[] = {&ImpactNumbers::impulse, &ImpactNumbers::velocity_after,
                                                &ImpactNumbers::angular_velocity_after};
 
-template <class Use>
-void for_each_number(const ImpactNumbers& a, const ImpactNumbers& b, ImpactNumbers& out, Use&& use) {
+void for_each_number(const ImpactNumbers& a, const ImpactNumbers& b, ImpactNumbers& out, auto&& use) {
   using Numbers = ImpactNumbers;
   for (const auto member :
        {&Numbers::start, &Numbers::duration, &Numbers::inclination, &Numbers::contact_angle, &Numbers::approach_speed,

@@ -47,22 +47,10 @@ Turning integrate(const Body& body, Turning at, double time) {
 }
 
 // Blocks of a deviation.
-template <class Deviation>
-auto shift(Deviation& d) {
-  return d.template head<3>();
-}
-template <class Deviation>
-auto turn(Deviation& d) {
-  return d.template segment<3>(3);
-}
-template <class Deviation>
-auto velocity_change(Deviation& d) {
-  return d.template segment<3>(6);
-}
-template <class Deviation>
-auto angular_velocity_change(Deviation& d) {
-  return d.template tail<3>();
-}
+auto shift(auto& d) { return d.template head<3>(); }
+auto turn(auto& d) { return d.template segment<3>(3); }
+auto velocity_change(auto& d) { return d.template segment<3>(6); }
+auto angular_velocity_change(auto& d) { return d.template tail<3>(); }
 
 }  // namespace
 

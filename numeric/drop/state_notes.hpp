@@ -3,7 +3,6 @@
 #pragma once
 
 #include <limits>
-#include <span>
 #include <utility>
 #include <vector>
 

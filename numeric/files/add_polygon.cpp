@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
-#include <cmath>
 
 #include "numeric/base/errors.hpp"
 #include "numeric/files/triangle_files.hpp"

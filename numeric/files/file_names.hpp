@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <string>
 #include <string_view>
 
 namespace clatter::numeric {
@@ -16,8 +15,7 @@ inline constexpr std::array<std::string_view, 8> surface_extensions{".stl",  ".o
 inline constexpr std::array<std::string_view, 4> gmsh_extensions{".msh", ".geo", ".step", ".stp"};
 
 /// Index of the extension, of whatever case, with which the path ends; their number if there is none.
-template <class Extensions>
-[[nodiscard]] std::size_t extension_index(const Extensions& extensions, std::string_view path) {
+[[nodiscard]] std::size_t extension_index(const auto& extensions, std::string_view path) {
   const auto small = [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; };
   const auto ends_path = [&](std::string_view extension) {
     return path.size() > extension.size() &&

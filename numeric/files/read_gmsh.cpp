@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <fstream>
-#include <memory>
 #include <optional>
 #include <span>
 #include <string_view>

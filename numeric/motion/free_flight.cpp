@@ -42,8 +42,7 @@ double safe_time(const Approach& at) {
   return speed > 0 ? 2 * height / speed : std::numeric_limits<double>::infinity();
 }
 
-template <class Visit>
-void for_each_vertex(const Body& body, int facet, Visit&& visit) {
+void for_each_vertex(const Body& body, int facet, auto&& visit) {
   const Facets& facets = body.facets();
   facets.for_each_corner(facet, [&](int vertex) { visit(facets.vertices[static_cast<std::size_t>(vertex)]); });
 }

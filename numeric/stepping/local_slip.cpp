@@ -15,8 +15,7 @@ constexpr int sweeps = 2, most_trials = 12;
 constexpr double near = 0.05;  ///< relative, of the deviation
 
 /// A place where a rising function is at most `small`, searched from `start` in steps that begin with `reach`.
-template <class Function>
-double zero_of(Function&& function, double start, double reach, double small) {
+double zero_of(auto&& function, double start, double reach, double small) {
   const double at_start = function(start);
   if (std::fabs(at_start) <= small) return start;
   double inner = start, outer = start, at_inner = at_start, at_outer = at_start;
@@ -39,9 +38,7 @@ double zero_of(Function&& function, double start, double reach, double small) {
 }
 
 /// The slip at which the misfit is small, one component after the other; `reach` is how far a component may go.
-template <class Misfit>
-AlongGround without_misfit(const Misfit& misfit, AlongGround slip, const AlongGround& reach, double small,
-                           bool planar) {
+AlongGround without_misfit(const auto& misfit, AlongGround slip, const AlongGround& reach, double small, bool planar) {
   for (int sweep = 0; sweep < (planar ? 1 : sweeps); ++sweep) {
     slip.east = zero_of([&](double east) { return misfit({east, slip.north}).east; }, slip.east, reach.east, small);
     if (planar) continue;

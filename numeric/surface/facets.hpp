@@ -30,8 +30,7 @@ struct Facets {
   std::vector<Facet> facets;
 
   /// Calls visit(index into vertices) for each corner of a facet.
-  template <class Visit>
-  void for_each_corner(int facet, Visit&& visit) const {
+  void for_each_corner(int facet, auto&& visit) const {
     const Facet& which = this->facets[static_cast<std::size_t>(facet)];
     for (int l = which.begin; l < which.end; ++l) {
       const Loop& loop = loops[static_cast<std::size_t>(l)];

@@ -24,14 +24,12 @@ class Hierarchy {
 
   /// Calls visit(facet index) for each facet whose box reaches below height `margin`.
   /// Cost: log(facets) + facets visited.  No allocation.
-  template <class Visit>
-  void visit_below(const GroundPlane& plane, double margin, Visit&& visit) const {
+  void visit_below(const GroundPlane& plane, double margin, auto&& visit) const {
     search([&](const Node& node) { return lowest(node, plane) < margin; }, visit);
   }
 
   /// Visits every facet in a box that `wanted(centre, half extents)` accepts, nearer children first or not: no order.
-  template <class Wanted, class Visit>
-  void visit_if(Wanted&& wanted, Visit&& visit) const {
+  void visit_if(auto&& wanted, auto&& visit) const {
     search([&](const Node& node) { return wanted(node.centre, node.half); }, visit);
   }
 
@@ -47,8 +45,7 @@ class Hierarchy {
     return plane.height(node.centre) - plane.normal.cwiseAbs().dot(node.half);
   }
 
-  template <class Wanted, class Visit>
-  void search(Wanted&& wanted, Visit&& visit) const {
+  void search(auto&& wanted, auto&& visit) const {
     if (nodes_.empty()) return;
     int stack[64];  // deeper than a balanced tree over all ints
     int top = 0;

@@ -93,8 +93,7 @@ class Sorter {
   }
 
  private:
-  template <class Index>
-  [[nodiscard]] const Vector3& node(Index t, std::size_t k) const {
+  [[nodiscard]] const Vector3& node(auto t, std::size_t k) const {
     return all_.nodes[all_.triangles[static_cast<std::size_t>(t)][k]];
   }
   [[nodiscard]] Vector3 middle(int t) const { return (node(t, 0) + node(t, 1) + node(t, 2)) / 3; }

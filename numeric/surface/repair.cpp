@@ -121,8 +121,7 @@ class Mender {
   }
 
   /// Keeps the triangles for which `keeps(t)` holds.
-  template <class Keeps>
-  int keep(Keeps keeps) {
+  int keep(auto keeps) {
     int kept = 0;
     for (int t = 0; t < count(); ++t) {
       if (!keeps(t)) continue;

@@ -2,7 +2,6 @@
 #include "numeric/surface/surface.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <sstream>
 #include <string>

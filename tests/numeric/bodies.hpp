@@ -37,6 +37,27 @@ inline Body round_body(const SmoothShape& shape, double mass, const Matrix3& ine
           SmoothShape{shape.semiaxes, shape.straight, Vector3::Zero()}};
 }
 
+/// The same with the inertia of a ball of this size.
+inline Body round_body(const SmoothShape& shape, double mass = 1) {
+  return round_body(shape, mass, 0.4 * mass * shape.semiaxes.squaredNorm() / 3 * Matrix3::Identity());
+}
+
+/// At rest, `depth` below the attitude at which the body touches; the ground's normal in the body frame.
+inline GroundView pressed(const Body& body, const Vector3& normal, double depth) {
+  double low = std::numeric_limits<double>::infinity();
+  if (const auto& smooth = body.smooth()) {
+    for (int end = 0; end < smooth->ends(); ++end) low = std::min(low, normal.dot(smooth->lowest(end, normal)));
+  } else {
+    for (const Vector3& u : body.facets().vertices) low = std::min(low, normal.dot(u));
+  }
+  GroundView view;
+  view.reference = {normal, -low};
+  view.sink = -depth;
+  view.east = normal.unitOrthogonal();
+  view.north = normal.cross(view.east);
+  return view;
+}
+
 /// The ground as a body at rest sees it that was pushed `depth` below the attitude at which it touches.
 inline GroundView pressed(const MotionState& touch, double depth) {
   const Eigen::Quaterniond back = touch.attitude.conjugate();

@@ -188,8 +188,7 @@ struct FlightSteps {
 };
 
 /// (1) of what a step changes and the mean rate by which it should; nothing where they agree.
-template <class Change>
-std::optional<Rate> lag_of(const Motion& motion, const Reference& reference, Change&& change) {
+std::optional<Rate> lag_of(const Motion& motion, const Reference& reference, auto&& change) {
   constexpr double least_lag = 1e-2;  // less is what the steps of a code may leave
   Steps lags;
   for (std::size_t row = 0; row + 1 < motion.size(); row += 1 + motion.size() / looked_at) {

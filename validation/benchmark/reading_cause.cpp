@@ -237,8 +237,7 @@ class ReadingCauses {
     return listed_impacts(table, reference_, answer_.is_counter_clockwise);
   }
 
-  template <class Judge>
-  void add(const Reading& reading, Judge&& judge) {
+  void add(const Reading& reading, auto&& judge) {
     double left = Score::unknown;
     try {
       left = judge().error();

@@ -8,7 +8,6 @@
 #include "validation/command/command.hpp"
 #include "validation/command/options.hpp"
 #include "validation/compare/comparison_report.hpp"
-#include "validation/compare/swept_comparison_report.hpp"
 #include "validation/output/bad_input.hpp"
 #include "validation/output/interrupt.hpp"
 #include "validation/output/number.hpp"

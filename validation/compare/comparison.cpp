@@ -18,7 +18,6 @@ namespace clatter::validation {
 namespace {
 
 using numeric::ImpactRecord;
-using numeric::Vector3;
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
 constexpr double bars_apart =

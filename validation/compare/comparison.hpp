@@ -2,6 +2,7 @@
 // The same scene through both models, aligned by impact.
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
@@ -9,6 +10,7 @@
 #include "numeric/simulate.hpp"
 #include "validation/compare/discrete_side.hpp"
 #include "validation/compare/stiff_limit.hpp"
+#include "validation/output/estimated.hpp"
 #include "validation/run/motion_numbers.hpp"
 #include "validation/scene/scene.hpp"
 
@@ -79,5 +81,31 @@ struct Comparison {
 /// Runs the scene through both models and over ever stiffer grounds.
 /// @throws analytic::OutsideModelError if the discrete model cannot represent the scene.
 [[nodiscard]] Comparison compare_models(const Scene& scene, const numeric::Body& body);
+
+// One number of an impact in both models.
+
+/// A number of an impact in both models.  Each function needs the models, or the limit, that its words name.
+struct NumberPair {
+  const ComparedImpact& impact;
+  std::size_t quantity;
+
+  [[nodiscard]] double discrete() const { return (*impact.discrete)[quantity]; }
+  /// The number of the discrete model with the body as given, whose corners may not be the mesh's.
+  [[nodiscard]] Estimated given_number() const {
+    if (!impact.as_given) return discrete_number();
+    return {(*impact.as_given)[quantity], impact.as_given_error[quantity]};
+  }
+  [[nodiscard]] double continuous() const { return (*impact.continuous)[quantity]; }
+  [[nodiscard]] double deviation() const { return continuous() - discrete(); }
+  [[nodiscard]] Estimated discrete_number() const { return {discrete(), impact.discrete_error[quantity]}; }
+  [[nodiscard]] Estimated continuous_number() const { return {continuous(), impact.continuous_error[quantity]}; }
+  [[nodiscard]] Estimated deviation_number() const { return continuous_number() - discrete_number(); }
+  /// How far the limit is off the discrete value; its own error bar stands beside it.
+  [[nodiscard]] Estimated miss_number() const { return {miss(), impact.discrete_error[quantity] + bar()}; }
+  [[nodiscard]] double predicted() const { return impact.predicted.total()[quantity]; }
+  [[nodiscard]] double miss() const { return impact.limit->value[quantity] - discrete(); }
+  [[nodiscard]] double allowance() const { return impact.allowance[quantity]; }
+  [[nodiscard]] double bar() const { return impact.limit->error[quantity]; }
+};
 
 }  // namespace clatter::validation

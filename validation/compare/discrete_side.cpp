@@ -39,8 +39,7 @@ void turn_over(Drop& drop, double& inclination) {
   for (Vertex& vertex : drop.body.vertices) vertex = {-vertex.x, -vertex.z};
 }
 
-template <class AnyDrop>
-auto run(const AnyDrop& drop, std::size_t impacts) {
+auto run(const auto& drop, std::size_t impacts) {
   return impact_sequence(drop, {.impacts = static_cast<int>(impacts), .amplification = false});
 }
 
@@ -140,9 +139,7 @@ void add_effects(const space::Drop& drop, const space::ImpactRow& row, double ti
   for (std::size_t i = index + 1; i < sizes.size(); ++i) sizes[i].delay[0] += time / 2;
 }
 
-template <class AnyDrop, class AnySequence>
-std::vector<PredictedSize> sizes_of(const AnyDrop& drop, const AnySequence& sequence,
-                                    const std::vector<double>& contact_times) {
+std::vector<PredictedSize> sizes_of(const auto& drop, const auto& sequence, const std::vector<double>& contact_times) {
   std::vector<PredictedSize> sizes(std::min(sequence.rows.size(), contact_times.size()));
   const auto give_up_from = [&](std::size_t i) {
     for (; i < sizes.size(); ++i) sizes[i].turning.fill(unknown_error);

@@ -8,7 +8,7 @@
 
 #include "analytic/law/viscoelastic.hpp"
 #include "numeric/mesh/mesh.hpp"
-#include "validation/compare/number_pair.hpp"
+#include "validation/compare/comparison.hpp"
 
 namespace clatter::validation {
 namespace {

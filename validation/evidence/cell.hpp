@@ -119,8 +119,7 @@ void add_cases(std::vector<ExtremeCase>& cases, const MapAxis& axis, ModelLevel 
 [[nodiscard]] std::string cell_failure(const ExtremeCell& cell, double seconds);
 
 /// Wall time of `work` [s].
-template <class Work>
-[[nodiscard]] double timed(const Work& work) {
+[[nodiscard]] double timed(const auto& work) {
   const auto begin = CellClock::Clock::now();
   work();
   return std::chrono::duration<double>(CellClock::Clock::now() - begin).count();

@@ -93,8 +93,7 @@ Measured gravity_changes_little(CaseRuns&) {
 struct Converged {
   double value = 0, error = 0;
 };
-template <class Number>
-Converged converged(CaseRuns& case_runs, const std::string& name, const Number& of, RunOptions options = {}) {
+Converged converged(CaseRuns& case_runs, const std::string& name, const auto& of, RunOptions options = {}) {
   const double value = of(case_runs.run(name, options));
   options.digits = 10;
   options.method = numeric::Method::rkck;

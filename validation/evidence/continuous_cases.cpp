@@ -172,8 +172,7 @@ class ScaledComparison {
 };
 
 /// Infinite where one is no number.
-template <class Measure>
-double worst_over(const Simulation& run, const Measure& measure) {
+double worst_over(const Simulation& run, const auto& measure) {
   double worst = 0;
   for (const numeric::ImpactRecord& row : run.impacts) {
     const double value = measure(row);

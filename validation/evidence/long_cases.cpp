@@ -189,8 +189,7 @@ void run_continuous(Draw draw, int index, Tally& tally) {
   }
 }
 
-template <class Run>
-CellMeasure run_scenes(int count, double bound, const std::function<bool()>& goes_on, const Run& run) {
+CellMeasure run_scenes(int count, double bound, const std::function<bool()>& goes_on, const auto& run) {
   Tally tally;
   CellMeasure measure{.bound = bound};
   int done = 0;

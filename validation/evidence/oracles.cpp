@@ -96,8 +96,7 @@ TrueImpacts solve(const oracle::RodCase<Digits50>& rod, const RodImpacts& found,
 }
 
 /// visit(number found, the true one, the size that its error is relative to)
-template <class Visit>
-void for_each_number(const RodImpacts& found, const TrueImpacts& truth, const Visit& visit) {
+void for_each_number(const RodImpacts& found, const TrueImpacts& truth, const auto& visit) {
   const Digits50 speed = std::max(Digits50(1), Digits50(abs(truth.velocity[0].value)));
   for (int i = 0; i < truth.count; ++i) {
     if (i > 0) {

@@ -71,8 +71,7 @@ Derivatives listed(const space::SpaceImpactGradient& g, const space::SpaceGradie
   return d;
 }
 
-template <class Gradient>
-DropGradient listed(std::vector<std::string> names, Gradient gradient) {
+DropGradient listed(std::vector<std::string> names, auto gradient) {
   DropGradient all{.parameters = {}, .rows = gradient.rows.size(), .sequence = std::move(gradient.sequence)};
   for (std::size_t i = 0; i < names.size(); ++i) {
     ParameterGradient& one = all.parameters.emplace_back();

@@ -5,7 +5,6 @@
 #include <cstddef>
 #include <fstream>
 #include <map>
-#include <optional>
 #include <sstream>
 #include <stdexcept>
 #include <string>

@@ -2,8 +2,6 @@
 // A bounce on a damped spring, integrated in time.
 #pragma once
 
-#include <cmath>
-
 namespace clatter::analytic::test {
 
 /// e of a mass that meets the ground force (1 + τ δ̇) δ with the approach speed u: δ̈ = −(1 + τ δ̇) δ from δ = 0, δ̇ = u

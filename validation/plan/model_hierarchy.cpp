@@ -118,7 +118,6 @@ ImpactRow row_of(const Drop& drop, int i, double start, double angle, const Plan
   row.energy_before = kinetic_energy(drop, before) + height;
   row.energy_after = kinetic_energy(drop, impact.after) + height;
   row.amplification = std::numeric_limits<double>::quiet_NaN();
-  row.error = analytic::RowErrors::unknown();
   return row;
 }
 

@@ -217,8 +217,7 @@ class Planner {
   }
 
   /// What gravity, turning, indentation and delay of the contacts change, carried on by the discrete model.
-  template <class Drop>
-  [[nodiscard]] double contact_effects(const Drop& drop) const {
+  [[nodiscard]] double contact_effects(const auto& drop) const {
     const auto sequence = impact_sequence(drop, {.impacts = impacts(), .amplification = false});
     double worst = 0;
     for (const PredictedSize& row : predicted_sizes(drop, sequence, contact_times_)) {

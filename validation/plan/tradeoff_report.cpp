@@ -26,8 +26,7 @@ constexpr double tolerance_of_meshes = 1e-10;
 constexpr int mesh_factors[] = {1, 2, 4, 8};
 
 /// Runs `work` until it has been repeated often and long enough; least time.
-template <class Work>
-void time_it(const TradeoffOptions& options, TradePoint& point, const Work& work) {
+void time_it(const TradeoffOptions& options, TradePoint& point, const auto& work) {
   using Clock = std::chrono::steady_clock;
   double total = 0;
   point.seconds = std::numeric_limits<double>::infinity();

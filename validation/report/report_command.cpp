@@ -5,7 +5,6 @@
 #include <array>
 #include <atomic>
 #include <cmath>
-#include <iterator>
 #include <numbers>
 #include <numeric>
 #include <optional>
@@ -19,7 +18,6 @@
 #include "validation/output/gnuplot.hpp"
 #include "validation/output/html.hpp"
 #include "validation/output/interrupt.hpp"
-#include "validation/output/json.hpp"
 #include "validation/output/number.hpp"
 #include "validation/output/picture.hpp"
 #include "validation/output/report.hpp"
@@ -94,8 +92,7 @@ std::string svg_element(const std::string& svg) {
 }
 
 /// The samples of contacts that `wanted` takes, over the time from `origin` on [s], a column for each probe in g.
-template <class Wanted>
-PicturePanel history_panel(const ShockRun& run, double origin, const Wanted& wanted) {
+PicturePanel history_panel(const ShockRun& run, double origin, const auto& wanted) {
   const BodyProperties body = body_properties(run.scene, Model::continuous);
   PicturePanel panel{.columns = {{"time", "s", "time"}}};
   panel.plot.x_factor = 1e3;

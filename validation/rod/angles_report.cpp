@@ -203,8 +203,7 @@ AnglesRow angles_row(const AnglesRequest& request, long long i) {
 namespace {
 
 /// Calls use(row, errors) for rows `begin` … `end` − 1.
-template <class Use>
-void for_known_rows(const AnglesRequest& request, long long begin, long long end, const Use& use) {
+void for_known_rows(const AnglesRequest& request, long long begin, long long end, const auto& use) {
   constexpr long long part = 512;
   std::vector<AnglesRow> rows;
   for (; begin < end; begin += part) {

@@ -79,32 +79,14 @@ const std::vector<std::string>& history_names() {
 std::vector<double> history_numbers(const HistorySample& s) {
   const Eigen::Quaterniond& beta = s.state.attitude;
   const Vector3 omega = beta * s.state.angular_velocity;
-  return {s.time,
-          s.state.centre.x(),
-          s.state.centre.y(),
-          s.state.centre.z(),
-          beta.w(),
-          beta.x(),
-          beta.y(),
-          beta.z(),
-          s.state.velocity.x(),
-          s.state.velocity.y(),
-          s.state.velocity.z(),
-          omega.x(),
-          omega.y(),
-          omega.z(),
-          s.force.x(),
-          s.force.y(),
-          s.force.z(),
-          s.point_velocity.x(),
-          s.point_velocity.y(),
-          s.point_velocity.z(),
-          s.energy_translation,
-          s.energy_rotation,
-          s.energy_potential,
-          s.energy_ground,
-          s.energy_total(),
-          s.in_contact ? 1.0 : 0.0};
+  std::vector<double> numbers{s.time};
+  const auto add = [&](const Vector3& v) { numbers.insert(numbers.end(), v.begin(), v.end()); };
+  add(s.state.centre);
+  numbers.push_back(beta.w());
+  for (const Vector3& v : {Vector3(beta.vec()), s.state.velocity, omega, s.force, s.point_velocity}) add(v);
+  numbers.insert(numbers.end(), {s.energy_translation, s.energy_rotation, s.energy_potential, s.energy_ground,
+                                 s.energy_total(), s.in_contact ? 1.0 : 0.0});
+  return numbers;
 }
 
 HistoryFile::HistoryFile(const std::string& path, const std::vector<std::string>& head, const TimeWindow& window)

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <variant>
 
@@ -59,10 +58,7 @@ std::string name_of_face(const BodyScene& body, const Vector3& down, double alig
 Vector3 lower_side(const Eigen::Quaterniond& attitude) { return attitude.conjugate() * -Vector3::UnitZ(); }
 
 /// @param tail  the sum of the impacts after the last row, if there is one
-template <class Tail>
-Estimated end_of(const Tail& tail) {
-  return {tail.end_time, tail.end_time_error};
-}
+Estimated end_of(const auto& tail) { return {tail.end_time, tail.end_time_error}; }
 
 std::optional<RestFace> rest_face(const Scene& scene, const space::Drop& drop, const space::Sequence& sequence) {
   if (!sequence.rest && !sequence.last_motion) return {};

@@ -196,8 +196,7 @@ double relative_error(const space::Sequence& sequence) {
 }
 
 /// What the sequences of the discrete model have in common.
-template <class Sequence>
-Run begun_run(RunModel model, const Sequence& sequence, long evaluations) {
+Run begun_run(RunModel model, const auto& sequence, long evaluations) {
   Run run{.model = model,
           .outcome = outcome_name(sequence.outcome),
           .message = sequence.message,

@@ -61,8 +61,7 @@ using Arguments = std::vector<Argument>;
 // Rows whose value is put into `value`, a plain one or a std::optional, which stays empty where nothing is given.
 
 /// By `read`, (name, text) to value.
-template <class Value, class Read>
-[[nodiscard]] Argument read_argument(std::string name, Value& value, Read read, std::string type, std::string help,
+[[nodiscard]] Argument read_argument(std::string name, auto& value, auto read, std::string type, std::string help,
                                      std::string group = "") {
   return {.name = std::move(name),
           .target = Argument::Reader(
@@ -73,8 +72,7 @@ template <class Value, class Read>
 }
 
 /// A number in a range.
-template <class Value>
-[[nodiscard]] Argument number_argument(std::string name, Value& value, const Range& range, std::string type,
+[[nodiscard]] Argument number_argument(std::string name, auto& value, const Range& range, std::string type,
                                        std::string help, std::string group = "") {
   const auto read = [range](const std::string& as, const std::string& text) {
     return read_number_option(as, text, range);
@@ -83,8 +81,7 @@ template <class Value>
 }
 
 /// A whole number from `low` to `high`.
-template <class Value>
-[[nodiscard]] Argument whole_argument(std::string name, Value& value, int low, int high, std::string type,
+[[nodiscard]] Argument whole_argument(std::string name, auto& value, int low, int high, std::string type,
                                       std::string help, std::string group = "") {
   const auto read = [low, high](const std::string& as, const std::string& text) {
     return read_integer_option(as, text, low, high);

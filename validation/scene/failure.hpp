@@ -29,8 +29,7 @@ inline constexpr int check_failed = 1;
 
 /// Computes one scene among many.  @returns why it failed; nothing if it did not.
 /// @throws what is not the scene's fault: a defect, or memory that is lacking, which another time may be there
-template <class Compute>
-[[nodiscard]] std::optional<Failure> failure_of_scene(Compute&& compute) {
+[[nodiscard]] std::optional<Failure> failure_of_scene(auto&& compute) {
   try {
     compute();
     return {};

@@ -105,10 +105,7 @@ Echo of_area(const Scene& scene, Model model) {
   return scene.world.ground.is_half_space() || scene.half_space.floor ? Echo::absent : of_ground(scene, model);
 }
 
-template <class Enum>
-std::size_t index_of(Enum value) {
-  return static_cast<std::size_t>(value);
-}
+std::size_t index_of(auto value) { return static_cast<std::size_t>(value); }
 
 /// @param at  std::vector<double>& of a Scene&
 template <auto at>

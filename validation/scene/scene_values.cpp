@@ -26,8 +26,7 @@ std::string position(const std::string& path, const toml::source_region& region)
 /// One line: the parser quotes what it met, the end of a line as well.
 std::string words_of(const toml::parse_error& error) { return printable(error.description()); }
 
-template <class Node>
-std::string as_given(const Node& node) {
+std::string as_given(const auto& node) {
   std::ostringstream text;
   node.visit([&](const auto& value) { text << value; });
   std::string line = text.str();

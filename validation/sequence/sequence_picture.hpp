@@ -5,7 +5,6 @@
 #include "validation/output/picture.hpp"
 #include "validation/run/discrete_scene.hpp"
 #include "validation/run/history_file.hpp"
-#include "validation/scene/scene.hpp"
 
 namespace clatter::validation {
 

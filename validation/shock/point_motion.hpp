@@ -56,8 +56,7 @@ struct MotionPiece {
 using VectorPolynomial = std::array<ChebyshevPolynomial, 3>;
 [[nodiscard]] Vector3 value_at(const VectorPolynomial& vector, double x);
 /// The polynomial of `value(sample)`, a vector.
-template <class Function>
-[[nodiscard]] VectorPolynomial polynomial_of(const MotionPiece& piece, const Function& value) {
+[[nodiscard]] VectorPolynomial polynomial_of(const MotionPiece& piece, const auto& value) {
   std::array<Samples, 3> samples{};
   for (std::size_t j = 0; j < sample_count; ++j) {
     const Vector3 v = value(piece.samples[j]);

@@ -74,8 +74,7 @@ struct PiecePolynomials {
 };
 
 /// Largest value, between `low` and `high`, of a function that rises and then falls.
-template <class Function>
-double largest_of(Function&& function, double low = 0, double high = 1) {
+double largest_of(auto&& function, double low = 0, double high = 1) {
   for (int i = 0; i < 80; ++i) {
     const double one = (2 * low + high) / 3, other = (low + 2 * high) / 3;
     (function(one) < function(other) ? low : high) = function(one) < function(other) ? one : other;

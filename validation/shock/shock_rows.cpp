@@ -49,8 +49,7 @@ void look(const VectorPolynomial& vector, std::size_t piece, Largest& best) {
   if (found.size > best.size) best = found;
 }
 
-template <class Function>
-Largest largest(std::span<const MotionPiece> contact, const Function& value) {
+Largest largest(std::span<const MotionPiece> contact, const auto& value) {
   Largest best;
   for (std::size_t i = 0; i < contact.size(); ++i) look(polynomial_of(contact[i], value), i, best);
   return best;
@@ -60,9 +59,8 @@ double time_at(const MotionPiece& piece, double x) { return piece.piece.start + 
 
 /// Time after the touch-down at which the size first falls to `level` from the peak on, forward or backward; the
 /// contact's end where it does not.
-template <class Function>
 double crossing(std::span<const MotionPiece> contact, const Largest& peak, double level, bool forward,
-                const Function& value) {
+                const auto& value) {
   constexpr int points = 4 * numeric::piece_points;
   std::size_t i = peak.piece;
   double above = peak.x;

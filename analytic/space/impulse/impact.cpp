@@ -2,10 +2,7 @@
 #include "analytic/space/impulse/impact.hpp"
 
 #include <Eigen/LU>
-#include <cmath>
 #include <limits>
-#include <sstream>
-#include <stdexcept>
 
 #include "analytic/base/errors.hpp"
 #include "analytic/space/flight/body.hpp"

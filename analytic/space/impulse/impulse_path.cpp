@@ -8,7 +8,6 @@
 #include <numbers>
 #include <optional>
 #include <sstream>
-#include <stdexcept>
 #include <type_traits>
 
 #include "analytic/base/errors.hpp"

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analytic/space/impulse/path_progress.hpp"
 
-#include <cmath>
-
 #include "analytic/law/viscoelastic.hpp"
 
 namespace clatter::analytic::space {

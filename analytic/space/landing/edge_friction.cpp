@@ -73,8 +73,7 @@ constexpr double step_of_edge = 1e-11, error_of_edge = 1e-9, error_of_edge_jump 
 constexpr int most_jumps = 16, most_steps = 1000;
 
 /// Where a function is zero, to rounding, between places where it has one sign and the other.
-template <class Function>
-double root_between(const Function& function, double low, double high, double at_low, double at_high) {
+double root_between(const auto& function, double low, double high, double at_low, double at_high) {
   std::uintmax_t most = 100;
   const auto [left, right] = boost::math::tools::toms748_solve(function, low, high, at_low, at_high,
                                                                boost::math::tools::eps_tolerance<double>(51), most);
@@ -82,8 +81,7 @@ double root_between(const Function& function, double low, double high, double at
 }
 
 /// Where a function rises through zero, to rounding, not far from a place; by secants.
-template <class Function>
-std::optional<double> root_near(const Function& function, double place) {
+std::optional<double> root_near(const auto& function, double place) {
   constexpr int most_turns = 30;
   constexpr double first = 1e-6, far = 0.2, settled = 1e-12;
   double x = place, at = function(x), step = first;

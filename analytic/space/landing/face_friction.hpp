@@ -19,8 +19,6 @@
 // and while the face sticks x̂ is the point nearest to R in the metric of the tilt about points that stay.
 #pragma once
 
-#include <optional>
-
 #include "analytic/space/impulse/contact_area.hpp"
 #include "analytic/space/impulse/impulse_path.hpp"
 

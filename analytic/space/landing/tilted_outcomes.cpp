@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <numbers>
 #include <tuple>
@@ -11,7 +10,6 @@
 #include <vector>
 
 #include "analytic/base/errors.hpp"
-#include "analytic/base/limits.hpp"
 #include "analytic/space/landing/level_rim.hpp"
 #include "analytic/space/landing/simultaneous.hpp"
 

@@ -54,8 +54,7 @@ constexpr double friction_rounding = 5e-14;
 constexpr double face_rounding = 5e-13;
 
 /// Bound on the length of a vector whose errors are these combinations of independent ones.
-template <class Image>
-double bound(const Image& image) {
+double bound(const auto& image) {
   const double value = deviations * image.norm();
   return std::isfinite(value) ? value : infinite;
 }
@@ -267,7 +266,7 @@ void ErrorGrowth::fill(const Struck& struck, ImpactRow& row) const {
 }
 
 void ErrorGrowth::strike(const Strike& strike, const StrikeDerivatives& closed, ImpactRow& row) {
-  row.error = RowErrors::unknown();
+  row.error = {};
   row.amplification = std::numeric_limits<double>::quiet_NaN();
   const Factor arriving = std::exchange(arriving_, Factor(size, 0));
   const bool turns = row.before.angular_velocity.norm() > 0;

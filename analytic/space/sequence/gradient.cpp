@@ -6,7 +6,6 @@
 #include <functional>
 #include <limits>
 #include <optional>
-#include <stdexcept>
 
 #include "analytic/base/errors.hpp"
 #include "analytic/base/limits.hpp"
@@ -38,8 +37,7 @@ struct Carried {
   std::array<double, 4> error{};
 
   /// Bound on the error of the part `rows` × the value.
-  template <class Rows>
-  [[nodiscard]] double error_of(const Rows& rows) const {
+  [[nodiscard]] double error_of(const auto& rows) const {
     double sum = 0;
     for (std::size_t k = 0; k < state_parts.size(); ++k) {
       const auto [from, size] = state_parts[k];

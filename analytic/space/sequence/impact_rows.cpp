@@ -10,192 +10,156 @@ namespace clatter::analytic::space {
 
 using detail::infinite;
 using detail::require;
+using detail::Scales;
+namespace of = detail::of;
 namespace {
-
-void scale(double& value, int exponent) { value = std::ldexp(value, exponent); }
-
-template <class Derived>
-void scale(Eigen::MatrixBase<Derived>& value, int exponent) {
-  for (Eigen::Index i = 0; i < value.rows(); ++i) {
-    for (Eigen::Index j = 0; j < value.cols(); ++j) value(i, j) = std::ldexp(value(i, j), exponent);
-  }
-}
 
 int exponent_of(double value) { return value > 0 && std::isfinite(value) ? std::ilogb(value) : 0; }
 
-}  // namespace
-
-SequenceUnits::SequenceUnits(const Drop& drop)
-    : length_(exponent_of(drop.body.reach())), mass_(exponent_of(drop.body.mass)) {
+Scales scales_of(const Drop& drop) {
   const double fall = drop.release_height ? std::sqrt(2 * drop.gravity * *drop.release_height) : 0;
   const double vertical = std::fabs(drop.velocity.z()) + fall;
-  speed_ = exponent_of(vertical > 0 ? vertical : drop.angular_velocity.cwiseAbs().maxCoeff() * drop.body.reach());
+  return {
+      .length = exponent_of(drop.body.reach()),
+      .speed = exponent_of(vertical > 0 ? vertical : drop.angular_velocity.cwiseAbs().maxCoeff() * drop.body.reach()),
+      .mass = exponent_of(drop.body.mass)};
 }
 
-Drop SequenceUnits::to_internal(const Drop& drop) const {
-  Drop d = drop;
-  scale(d.body.mass, -mass_);
-  scale(d.body.inertia, -mass_ - 2 * length_);
-  for (Vector3& vertex : d.body.vertices) scale(vertex, -length_);
-  for (Rim& rim : d.body.rims) {
-    scale(rim.centre, -length_);
-    scale(rim.radius, -length_);
-  }
-  for (Ellipsoid& part : d.body.ellipsoids) {
-    scale(part.centre, -length_);
-    scale(part.semiaxes, -length_);
-  }
-  scale(d.velocity, -speed_);
-  scale(d.angular_velocity, length_ - speed_);
-  scale(d.gravity, length_ - 2 * speed_);
-  scale(d.gravity_along, length_ - 2 * speed_);
-  if (d.release_height) scale(*d.release_height, -length_);
-  scale(d.law.law.damping_per_stiffness, speed_);
-  return d;
+void apply(const Scales& scale, State& state) {
+  scale(of::length, state.position);
+  scale(of::speed, state.velocity);
+  scale(of::rate, state.angular_velocity);
 }
 
-SequenceOptions SequenceUnits::to_internal(const SequenceOptions& options) const {
-  SequenceOptions o = options;
-  scale(o.until, speed_ - length_);
-  for (double& time : o.times) scale(time, speed_ - length_);
-  return o;
+void apply(const Scales& scale, Impact& impact) {
+  scale(of::impulse, impact.impulse, impact.compression_impulse, impact.slip_stop_impulse);
+  scale(of::speed, impact.contact_before, impact.contact_after, impact.velocity_after, impact.least_slip);
+  scale(of::rate, impact.angular_velocity_after);
+  scale(of::energy, impact.energy_loss);
 }
 
-double SequenceUnits::energy(double internal) const { return std::ldexp(internal, mass_ + 2 * speed_); }
-
-void SequenceUnits::to_si(State& state) const {
-  scale(state.position, length_);
-  scale(state.velocity, speed_);
-  scale(state.angular_velocity, speed_ - length_);
+void apply(const Scales& scale, GroupImpact& group) {
+  scale(of::impulse, group.impulse);
+  scale(of::angular_impulse, group.moment);
+  scale(of::speed, group.velocity_after, group.approach_speed);
+  scale(of::rate, group.angular_velocity_after);
+  scale(of::energy, group.energy_loss);
 }
 
-void SequenceUnits::to_si(Impact& impact) const {
-  scale(impact.impulse, mass_ + speed_);
-  scale(impact.contact_before, speed_);
-  scale(impact.contact_after, speed_);
-  scale(impact.velocity_after, speed_);
-  scale(impact.angular_velocity_after, speed_ - length_);
-  scale(impact.compression_impulse, mass_ + speed_);
-  scale(impact.slip_stop_impulse, mass_ + speed_);
-  scale(impact.least_slip, speed_);
-  scale(impact.energy_loss, mass_ + 2 * speed_);
+void apply(const Scales& scale, NearMiss& miss) {
+  scale(of::length, miss.clearance, miss.margin);
+  scale(of::time, miss.time);
 }
 
-void SequenceUnits::to_si(GroupImpact& group) const {
-  scale(group.impulse, mass_ + speed_);
-  scale(group.moment, mass_ + speed_ + length_);
-  scale(group.velocity_after, speed_);
-  scale(group.angular_velocity_after, speed_ - length_);
-  scale(group.approach_speed, speed_);
-  scale(group.energy_loss, mass_ + 2 * speed_);
+void apply(const Scales& scale, FirstContact& flight) {
+  scale(of::time, flight.time, flight.time_error, flight.bracket_low, flight.bracket_high);
+  scale(of::speed, flight.normal_velocity, flight.velocity_error);
+  scale(of::acceleration, flight.acceleration);
+  apply(scale, flight.near_miss);
 }
 
-void SequenceUnits::to_si(NearMiss& miss) const {
-  scale(miss.clearance, length_);
-  scale(miss.margin, length_);
-  scale(miss.time, length_ - speed_);
+void apply(const Scales& scale, ImpactRow& row) {
+  for (Corner& corner : row.corners) scale(of::length, corner.place, corner.radius);
+  apply(scale, row.before);
+  apply(scale, row.impact);
+  if (row.group) apply(scale, *row.group);
+  scale(of::time, row.start, row.error.start);
+  scale(of::speed, row.approach_speed, row.error.approach_speed, row.error.velocity_after);
+  scale(of::impulse, row.error.impulse);
+  scale(of::rate, row.error.angular_velocity_after);
+  scale(of::energy, row.energy_before, row.energy_after, row.error.energy_before, row.error.energy_after);
+  apply(scale, row.flight);
 }
 
-void SequenceUnits::to_si(FirstContact& flight) const {
-  scale(flight.time, length_ - speed_);
-  scale(flight.time_error, length_ - speed_);
-  scale(flight.bracket_low, length_ - speed_);
-  scale(flight.bracket_high, length_ - speed_);
-  scale(flight.normal_velocity, speed_);
-  scale(flight.velocity_error, speed_);
-  scale(flight.acceleration, 2 * speed_ - length_);
-  to_si(flight.near_miss);
+void apply(const Scales& scale, Tail& tail) {
+  scale(of::time, tail.end_time, tail.end_time_error);
+  scale(of::impulse, tail.normal_impulse, tail.normal_impulse_error, tail.tangential_impulse,
+        tail.tangential_impulse_error);
+  scale(of::energy, tail.energy_loss);
+  scale(of::speed, tail.velocity_after, tail.velocity_error);
+  scale(of::rate, tail.angular_velocity_after, tail.angular_velocity_error);
 }
 
-void SequenceUnits::to_si(ImpactRow& row) const {
-  scale(row.start, length_ - speed_);
-  for (Corner& corner : row.corners) {
-    scale(corner.place, length_);
-    scale(corner.radius, length_);
-  }
-  to_si(row.before);
-  to_si(row.impact);
-  if (row.group) to_si(*row.group);
-  scale(row.approach_speed, speed_);
-  scale(row.energy_before, mass_ + 2 * speed_);
-  scale(row.energy_after, mass_ + 2 * speed_);
-  scale(row.error.start, length_ - speed_);
-  scale(row.error.approach_speed, speed_);
-  scale(row.error.impulse, mass_ + speed_);
-  scale(row.error.velocity_after, speed_);
-  scale(row.error.angular_velocity_after, speed_ - length_);
-  scale(row.error.energy_before, mass_ + 2 * speed_);
-  scale(row.error.energy_after, mass_ + 2 * speed_);
-  to_si(row.flight);
+void apply(const Scales& scale, StateErrors& error) {
+  scale(of::time, error.time);
+  scale(of::speed, error.velocity);
+  scale(of::rate, error.angular_velocity);
 }
 
-void SequenceUnits::to_si(Tail& tail) const {
-  scale(tail.end_time, length_ - speed_);
-  scale(tail.end_time_error, length_ - speed_);
-  scale(tail.normal_impulse, mass_ + speed_);
-  scale(tail.normal_impulse_error, mass_ + speed_);
-  scale(tail.tangential_impulse, mass_ + speed_);
-  scale(tail.tangential_impulse_error, mass_ + speed_);
-  scale(tail.energy_loss, mass_ + 2 * speed_);
-  scale(tail.velocity_after, speed_);
-  scale(tail.velocity_error, speed_);
-  scale(tail.angular_velocity_after, speed_ - length_);
-  scale(tail.angular_velocity_error, speed_ - length_);
+void apply(const Scales& scale, SustainedContact& contact) {
+  scale(of::time, contact.begin, contact.duration);
+  if (contact.tail) apply(scale, *contact.tail);
+  scale(of::speed, contact.approach_speed);
+  apply(scale, contact.after);
+  apply(scale, contact.error);
+  scale(of::impulse, contact.normal_impulse, contact.normal_impulse_error);
+  scale(of::energy, contact.energy_loss);
 }
 
-void SequenceUnits::to_si(StateErrors& error) const {
-  scale(error.time, length_ - speed_);
-  scale(error.velocity, speed_);
-  scale(error.angular_velocity, speed_ - length_);
+void apply(const Scales& scale, StateAt& at) {
+  scale(of::time, at.time);
+  apply(scale, at.state);
+  apply(scale, at.error);
+  scale(of::length, at.position_error);
+  scale(of::energy, at.energy, at.energy_error);
 }
 
-void SequenceUnits::to_si(SustainedContact& contact) const {
-  scale(contact.begin, length_ - speed_);
-  scale(contact.duration, length_ - speed_);
-  if (contact.tail) to_si(*contact.tail);
-  scale(contact.approach_speed, speed_);
-  to_si(contact.after);
-  to_si(contact.error);
-  scale(contact.normal_impulse, mass_ + speed_);
-  scale(contact.normal_impulse_error, mass_ + speed_);
-  scale(contact.energy_loss, mass_ + 2 * speed_);
+void apply(const Scales& scale, LastMotion& motion) {
+  scale(of::time, motion.begin, motion.begin_error, motion.duration);
+  apply(scale, motion.state);
+  scale(of::length, motion.distance);
+  scale(of::speed, motion.velocity_after);
+  scale(of::rate, motion.angular_velocity_after);
 }
 
-void SequenceUnits::to_si(StateAt& at) const {
-  scale(at.time, length_ - speed_);
-  to_si(at.state);
-  to_si(at.error);
-  scale(at.position_error, length_);
-  scale(at.energy, mass_ + 2 * speed_);
-  scale(at.energy_error, mass_ + 2 * speed_);
+}  // namespace
+
+SequenceUnits::SequenceUnits(const Drop& drop) : scales_(scales_of(drop)) {}
+
+Drop SequenceUnits::to_internal(Drop drop) const {
+  const Scales scale = scales_.inverse();
+  scale(of::mass, drop.body.mass);
+  scale(of::inertia, drop.body.inertia);
+  for (Vector3& vertex : drop.body.vertices) scale(of::length, vertex);
+  for (Rim& rim : drop.body.rims) scale(of::length, rim.centre, rim.radius);
+  for (Ellipsoid& part : drop.body.ellipsoids) scale(of::length, part.centre, part.semiaxes);
+  scale(of::speed, drop.velocity);
+  scale(of::rate, drop.angular_velocity);
+  scale(of::acceleration, drop.gravity, drop.gravity_along);
+  if (drop.release_height) scale(of::length, *drop.release_height);
+  scale(of::slowness, drop.law.law.damping_per_stiffness);
+  return drop;
 }
 
-void SequenceUnits::to_si(LastMotion& motion) const {
-  for (double* time : {&motion.begin, &motion.begin_error}) scale(*time, length_ - speed_);
-  to_si(motion.state);
-  scale(motion.duration, length_ - speed_);
-  scale(motion.distance, length_);
-  scale(motion.velocity_after, speed_);
-  scale(motion.angular_velocity_after, speed_ - length_);
+SequenceOptions SequenceUnits::to_internal(SequenceOptions options) const {
+  const Scales scale = scales_.inverse();
+  scale(of::time, options.until);
+  for (double& time : options.times) scale(of::time, time);
+  return options;
+}
+
+double SequenceUnits::energy(double internal) const {
+  scales_(of::energy, internal);
+  return internal;
 }
 
 void SequenceUnits::to_si(Sequence& sequence) const {
-  if (sequence.last_motion) to_si(*sequence.last_motion);
-  for (StateAt& state : sequence.states) to_si(state);
-  for (ImpactRow& row : sequence.rows) to_si(row);
-  if (sequence.tail) to_si(*sequence.tail);
-  for (SustainedContact& contact : sequence.contacts) to_si(contact);
+  if (sequence.last_motion) apply(scales_, *sequence.last_motion);
+  for (StateAt& state : sequence.states) apply(scales_, state);
+  for (ImpactRow& row : sequence.rows) apply(scales_, row);
+  if (sequence.tail) apply(scales_, *sequence.tail);
+  for (SustainedContact& contact : sequence.contacts) apply(scales_, contact);
   if (sequence.standing) {
-    scale(sequence.standing->time, length_ - speed_);
-    to_si(sequence.standing->state);
-    to_si(sequence.standing->error);
+    scales_(of::time, sequence.standing->time);
+    apply(scales_, sequence.standing->state);
+    apply(scales_, sequence.standing->error);
   }
-  scale(sequence.energy_at_end, mass_ + 2 * speed_);
-  if (sequence.rest) scale(sequence.rest->latest, length_ - speed_);
-  to_si(sequence.near_miss);
-  scale(sequence.end_acceleration, 2 * speed_ - length_);
-  scale(sequence.total_normal_impulse, mass_ + speed_);
-  scale(sequence.first_flight_error, length_ - speed_);
+  scales_(of::energy, sequence.energy_at_end);
+  if (sequence.rest) scales_(of::time, sequence.rest->latest);
+  apply(scales_, sequence.near_miss);
+  scales_(of::acceleration, sequence.end_acceleration);
+  scales_(of::impulse, sequence.total_normal_impulse);
+  scales_(of::time, sequence.first_flight_error);
 }
 
 void Drop::validate() const {
@@ -256,18 +220,6 @@ State state_after(const ImpactRow& row) {
 void Tail::forget() {
   end_time_error = normal_impulse_error = tangential_impulse_error = infinite;
   velocity_error = angular_velocity_error = infinite;
-}
-
-RowErrors RowErrors::unknown() {
-  return {.predictable = false,
-          .start = infinite,
-          .attitude = infinite,
-          .approach_speed = infinite,
-          .impulse = infinite,
-          .velocity_after = infinite,
-          .angular_velocity_after = infinite,
-          .energy_before = infinite,
-          .energy_after = infinite};
 }
 
 }  // namespace clatter::analytic::space

@@ -3,12 +3,12 @@
 #pragma once
 
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "analytic/base/limits.hpp"
 #include "analytic/plane/impact_rows.hpp"
 #include "analytic/space/flight/first_contact.hpp"
 #include "analytic/space/impulse/impact.hpp"
@@ -51,17 +51,14 @@ struct Drop {
 /// Bounds on the errors of an impact's numbers, each in the unit of its number (of a vector: on the length of its
 /// error); infinite in a row that cannot be predicted.
 struct RowErrors {
-  bool predictable = false;  ///< errors have not grown so far that another sequence may follow
-  double start = 0;          ///< [s]
-  double attitude = 0;       ///< angle of the rotation between the attitude and the true one [rad]
-  double approach_speed = 0;
-  double impulse = 0;                 ///< [N·s]
-  double velocity_after = 0;          ///< [m/s]
-  double angular_velocity_after = 0;  ///< [rad/s]
-  double energy_before = 0;           ///< [J]
-  double energy_after = 0;            ///< [J]
-
-  [[nodiscard]] static RowErrors unknown();
+  bool predictable = false;                  ///< errors have not grown so far that another sequence may follow
+  double start = detail::infinite;           ///< [s]
+  double attitude = detail::infinite;        ///< angle of the rotation between the attitude and the true one [rad]
+  double approach_speed = detail::infinite;  ///< [m/s]
+  double impulse = detail::infinite;         ///< [N·s]
+  double velocity_after = detail::infinite;  ///< [m/s]
+  double angular_velocity_after = detail::infinite;                          ///< [rad/s]
+  double energy_before = detail::infinite, energy_after = detail::infinite;  ///< [J]
 };
 
 /// One impact.
@@ -119,10 +116,10 @@ struct Tail {
 
 /// Bounds on the errors of a state and its time; infinite where not known.
 struct StateErrors {
-  double time = std::numeric_limits<double>::infinity();              ///< [s]
-  double attitude = std::numeric_limits<double>::infinity();          ///< [rad]
-  double velocity = std::numeric_limits<double>::infinity();          ///< [m/s]
-  double angular_velocity = std::numeric_limits<double>::infinity();  ///< [rad/s]
+  double time = detail::infinite;              ///< [s]
+  double attitude = detail::infinite;          ///< [rad]
+  double velocity = detail::infinite;          ///< [m/s]
+  double angular_velocity = detail::infinite;  ///< [rad/s]
 
   /// Errors of the time, and of the others in each direction: attitude, velocity, angular velocity.
   [[nodiscard]] Eigen::Matrix<double, 10, 1> in_each_direction() const;
@@ -138,16 +135,16 @@ struct Standing {
 
 /// The body at a time that was asked for.
 struct StateAt {
-  double time = 0;                                                  ///< since the first impact [s]
-  std::size_t rows = 0;                                             ///< impacts until then
-  bool touches = false;                                             ///< some of it stays on the ground
-  bool is_known = false;                                            ///< else the model does not say how it moves then
-  State state;                                                      ///< x, y from those of the first impact
-  double energy = 0;                                                ///< as mechanical_energy() [J]
-  StateErrors error;                                                ///< bounds, of the state at exactly that time
-  double position_error = std::numeric_limits<double>::infinity();  ///< bound on the length of its error [m]
-  double tilt_error = std::numeric_limits<double>::infinity();    ///< part of the attitude's across the vertical [rad]
-  double energy_error = std::numeric_limits<double>::infinity();  ///< [J]
+  double time = 0;                           ///< since the first impact [s]
+  std::size_t rows = 0;                      ///< impacts until then
+  bool touches = false;                      ///< some of it stays on the ground
+  bool is_known = false;                     ///< else the model does not say how it moves then
+  State state;                               ///< x, y from those of the first impact
+  double energy = 0;                         ///< as mechanical_energy() [J]
+  StateErrors error;                         ///< bounds, of the state at exactly that time
+  double position_error = detail::infinite;  ///< bound on the length of its error [m]
+  double tilt_error = detail::infinite;      ///< part of the attitude's across the vertical [rad]
+  double energy_error = detail::infinite;    ///< [J]
   /// Impact whose time is so near that errors decide on which side this is; 0: none.  The errors bear both.
   std::size_t beside = 0;
 };
@@ -177,7 +174,7 @@ struct SustainedContact {
   State after;                ///< at the end
   StateErrors error;          ///< of `after`, and of its time
   double normal_impulse = 0;  ///< of the ground meanwhile [N·s]
-  double normal_impulse_error = std::numeric_limits<double>::infinity();
+  double normal_impulse_error = detail::infinite;
   double energy_loss = 0;  ///< by friction, and of what normal velocity and slip hops have left [J]
 };
 
@@ -196,9 +193,9 @@ struct LastMotion {
     spins,   ///< about the vertical, on the spot
     rolls,   ///< rolls on for ever, after it may have slipped
   } kind = Kind::rests;
-  double begin = 0;                                              ///< since the first impact [s]
-  double begin_error = std::numeric_limits<double>::infinity();  ///< bound on its error [s]
-  State state;                                                   ///< then
+  double begin = 0;                          ///< since the first impact [s]
+  double begin_error = detail::infinite;     ///< bound on its error [s]
+  State state;                               ///< then
   double duration = 0;                       ///< until it is at rest or, if it rolls, rolls; infinite: never [s]
   double distance = 0;                       ///< that the centre of mass goes meanwhile [m]
   Vector3 velocity_after = Vector3::Zero();  ///< then; if it never is, now [m/s]
@@ -234,25 +231,13 @@ struct Sequence {
 class SequenceUnits {
  public:
   explicit SequenceUnits(const Drop& drop);
-  [[nodiscard]] Drop to_internal(const Drop& drop) const;
+  [[nodiscard]] Drop to_internal(Drop drop) const;
+  [[nodiscard]] SequenceOptions to_internal(SequenceOptions options) const;
   void to_si(Sequence& sequence) const;
   [[nodiscard]] double energy(double internal) const;
-  [[nodiscard]] SequenceOptions to_internal(const SequenceOptions& options) const;
 
  private:
-  void to_si(State& state) const;
-  void to_si(Impact& impact) const;
-  void to_si(GroupImpact& group) const;
-  void to_si(FirstContact& flight) const;
-  void to_si(NearMiss& miss) const;
-  void to_si(ImpactRow& row) const;
-  void to_si(Tail& tail) const;
-  void to_si(StateErrors& error) const;
-  void to_si(SustainedContact& contact) const;
-  void to_si(StateAt& state) const;
-  void to_si(LastMotion& motion) const;
-
-  int length_ = 0, speed_ = 0, mass_ = 0;
+  detail::Scales scales_;
 };
 
 /// @throws NumericalError for numbers that leave the doubles on the way back to SI units.

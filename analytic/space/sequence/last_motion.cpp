@@ -10,7 +10,6 @@
 
 namespace clatter::analytic::space {
 
-using detail::epsilon;
 using detail::infinite;
 
 namespace {

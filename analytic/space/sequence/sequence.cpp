@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <span>
 #include <utility>
 #include <vector>
 
@@ -483,7 +482,6 @@ class Run : public SequenceLoop<Sequence, ErrorGrowth> {
     row.energy_before = energy(state_);
     row.flight = flown;
     row.amplification = missing;
-    row.error = RowErrors::unknown();
     for (const int point : arriving) row.corners.push_back(touching_corner(body_, state_.attitude, point));
     row.held = held_.size();
     for (const int point : std::exchange(held_, {})) {

@@ -5,17 +5,70 @@
 // the direction φ₀ with g(φ₀) = 0, where σ = f t and φ₀ = φ₀(0) + φ₀′ t,
 //     φ = φ₀ + σ φ₀′/(g_φ − f),   g_φ < 0,                                                               (1)
 // and whatever is beside this solution goes away as t^(g_φ/f).  Velocities are smooth functions of time on it, from
-// the moment when slip is zero on.  One step of radau_rule.hpp, implicit in the directions of all that slips, finds
+// the moment when slip is zero on.  One step of RadauRule, implicit in the directions of all that slips, finds
 // them without (1): at each point of the step slip has the direction in which friction acts against it.
 #pragma once
 
+#include <Eigen/Core>
+#include <optional>
 #include <vector>
 
-#include "analytic/space/impulse/radau_rule.hpp"
-#include "analytic/space/sequence/ground_motion.hpp"
-#include "analytic/space/sequence/slip_onset.hpp"
+#include "analytic/space/sequence/ground_forces.hpp"
 
 namespace clatter::analytic::space {
+
+// Collocation at Radau points: an implicit Runge–Kutta method for motions that are stiff at first.
+//
+// The rates K_j at the points c_j of a step h from y give
+//     Y_i = y + h Σ_j A_ij K_j,   A_ij = ∫₀^{c_i} l_j(c) dc,   c_s = 1,                                     (1)
+// l_j the polynomials of Lagrange.  The error of Y_s is of order h^(2s) where the motion is not stiff; one that is
+// driven back to where its slow solution lies is damped whatever the step (Hairer and Wanner, Radau IIA).
+
+struct RadauRule {
+  static constexpr int points = 6;
+  using Array = Eigen::Matrix<double, points, 1>;
+
+  RadauRule();
+
+  Array at;                                      ///< c_j, ascending, the last is 1
+  Eigen::Matrix<double, points, points> weight;  ///< A
+  /// Coefficient of the highest Legendre polynomial of what has these values at the points: it falls off geometrically
+  /// with the number of points, and times h bounds what the polynomial through them leaves out of Y_s.
+  Array highest;
+};
+
+// How slip begins at corners that stay on the ground and stuck.
+//
+// Where friction gives way, slip grows from zero, in the directions of the friction that held the corners.  The
+// directions φ_i and speeds σ_i obey
+//     σ_i φ_i′ = g_i(φ),   g_i the acceleration of corner i across its slip,                            (1)
+// which is stiff while σ is small, and where slip that leaves g = 0 is driven back there has one solution that begins
+// at rest, with g(φ₀) = 0 (slip_start()).  An edge one corner of which sticks lets the other slip across it only,
+// either way.
+
+/// Directions of the corners that turning_points() names [rad].
+using SlipAngles = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, 2, 1>;
+
+/// The corners that begin to slip in a direction that nothing but (1) says.
+[[nodiscard]] std::vector<std::size_t> turning_points(std::span<const GroundPoint> points);
+
+/// The points with these directions of slip.
+[[nodiscard]] std::vector<GroundPoint> directed(std::vector<GroundPoint> points, const SlipAngles& angles);
+
+/// The angles with g = target, near those of the points; NaN where there are none.
+[[nodiscard]] SlipAngles slip_angles(const GroundLaw& law, const State& s, const std::vector<GroundPoint>& points,
+                                     const SlipAngles& target);
+
+/// The points where friction has just given way, with the directions in which they begin to slip; nothing where slip
+/// would not be driven back to g = 0.
+/// @param slow  slip of other corners below which it is rounding, and begins, too [m/s]
+[[nodiscard]] std::optional<std::vector<GroundPoint>> give_way(const GroundLaw& law, const State& s,
+                                                               std::vector<GroundPoint> points, double slow);
+
+/// All ways in which corners that stick where friction does not hold them can begin to slip: those that do accelerate
+/// along their slip, the others are held.
+[[nodiscard]] std::vector<std::vector<GroundPoint>> ways_to_slip(const GroundLaw& law, const State& s,
+                                                                 const std::vector<GroundPoint>& points);
 
 struct SlipStart {
   static constexpr int order = RadauRule::points;  ///< of `error` in the length of the step

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "analytic/base/errors.hpp"
 #include "analytic/base/limits.hpp"
 #include "analytic/space/sequence/contact_motion.hpp"
 

@@ -3,7 +3,7 @@
 //
 // ground_forces.hpp has the forces, contact_motion.hpp solves the equations of motion.
 //     corner sticks   while |f_t| <= μ N; where that ends, slip begins against the friction that held it
-//                     (slip_onset.hpp).  An edge sticks while some division of the friction along it holds both
+//                     (slip_start.hpp).  An edge sticks while some division of the friction along it holds both
 //                     corners; then one slips across it, or both slip
 //     corner slips    until its velocity is zero; thereafter it sticks if it can, else goes on in the direction in
 //                     which its acceleration then is, if there is one such direction only

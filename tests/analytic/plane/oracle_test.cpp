@@ -51,8 +51,6 @@ void check_row(const oracle::ReferenceRow& row) {
   }
 }
 
-Digits50 degrees(const Digits50& angle) { return angle * 180 / boost::math::constants::pi<Digits50>(); }
-
 const oracle::EventBody<long double> thin_rod{1, 1 / 12.0L, {{-0.5L, 0}, {0.5L, 0}}};
 
 /// The simulation's impacts as the rod oracle names them.
@@ -95,34 +93,6 @@ BOOST_AUTO_TEST_CASE(the_rod_oracle_reproduces_the_tables_without_gravity_and_wi
     BOOST_TEST(rows.size() > 20U);
     for (const auto& row : rows) check_row(row);
   }
-}
-
-BOOST_AUTO_TEST_CASE(the_folds_lie_at_the_known_angles) {
-  const Digits50 last_digit("1e-12");  // [°], of the known values
-  const Digits50 second = oracle::elastic_fold<Digits50>(oracle::Fold::second);
-  const Digits50 third = oracle::elastic_fold<Digits50>(oracle::Fold::third);
-  BOOST_TEST(abs(degrees(second) - Digits50("58.488442288312")) < last_digit);
-  BOOST_TEST(abs(degrees(third) - Digits50("27.577809606636")) < last_digit);
-}
-
-BOOST_AUTO_TEST_CASE(the_first_impulse_is_the_closed_form_of_eq_8) {
-  const Digits50 tolerance("1e-47");
-  for (const char* ratio : {"-0.3", "0", "0.3"}) {
-    const Digits50 mu(ratio), e("0.7");
-    const auto solution = oracle::solve_rod<Digits50>({Digits50("0.6"), 0, e, mu}, 1);
-    const Digits50 s = sin(Digits50("0.6")), c = cos(Digits50("0.6"));
-    const Digits50 closed_form = (1 + e) / (1 + 3 * c * c - 3 * mu * s * c);
-    const Digits50 impulse = solution.quantities[oracle::impulse_1]->value;
-    BOOST_TEST(abs(impulse - closed_form) <= tolerance * closed_form);
-  }
-}
-
-BOOST_AUTO_TEST_CASE(small_angles_follow_the_known_expansion) {
-  // β/θ − 1/2 = (17/64) θ² (1 + O(θ²)).
-  const Digits150 theta("1e-20");
-  const auto solution = oracle::solve_rod<Digits150>({theta, 0, 1, 0});
-  const Digits150 rest = solution.quantities[oracle::beta]->value / theta - Digits150(0.5);
-  BOOST_TEST(abs(rest / (theta * theta) * 64 / 17 - 1) < Digits150("1e-38"));
 }
 
 BOOST_AUTO_TEST_CASE(the_small_angle_law_continues_the_direct_solution) {

@@ -2,13 +2,12 @@
 #include "numeric/contact/half_space.hpp"
 
 #include <boost/test/unit_test.hpp>
-
 #include <cmath>
 #include <numbers>
-#include <random>
 
 #include "numeric/contact/contact_system.hpp"
 #include "tests/numeric/bodies.hpp"
+#include "tests/numeric/support.hpp"
 
 namespace {
 
@@ -17,32 +16,6 @@ using namespace clatter::numeric::test;
 
 constexpr double pi = std::numbers::pi;
 constexpr double relative = 1e-12;
-
-class Uniform {
- public:
-  explicit Uniform(unsigned seed) : random_(seed) {}
-  double operator()(double low, double high) { return std::uniform_real_distribution<double>(low, high)(random_); }
-  Vector3 vector(double size) { return {(*this)(-size, size), (*this)(-size, size), (*this)(-size, size)}; }
-  Vector3 direction() {
-    for (;;) {
-      const Vector3 v = vector(1);
-      if (v.norm() > 0.1 && v.norm() < 1) return v.normalized();
-    }
-  }
-
- private:
-  std::mt19937 random_;
-};
-
-Body round_body(const SmoothShape& shape, double mass = 1) {
-  const Mesh mesh = round_mesh({.semiaxes = shape.semiaxes, .straight = shape.straight, .sectors = 8, .rings = 2});
-  return {{.mass = mass,
-           .centre = -shape.centre,
-           .inertia = 0.4 * mass * shape.semiaxes.squaredNorm() / 3 * Matrix3::Identity()},
-          boundary_surface(mesh),
-          true,
-          SmoothShape{shape.semiaxes, shape.straight, Vector3::Zero()}};
-}
 
 /// An upright cone on its tip, of a slope of its side.
 Body cone(double slope, int sectors) {
@@ -56,22 +29,6 @@ Body cone(double slope, int sectors) {
     mesh.elements.push_back({ElementShape::tetrahedron, {0, 2 + i, 2 + (i + 1) % sectors, 1, -1, -1, -1, -1}, 1});
   }
   return Body(mesh);
-}
-
-/// At rest, `depth` below the attitude at which the body touches; the ground's normal in the body frame.
-GroundView pressed(const Body& body, const Vector3& normal, double depth) {
-  double low = std::numeric_limits<double>::infinity();
-  if (const auto& smooth = body.smooth()) {
-    for (int end = 0; end < smooth->ends(); ++end) low = std::min(low, normal.dot(smooth->lowest(end, normal)));
-  } else {
-    for (const Vector3& u : body.facets().vertices) low = std::min(low, normal.dot(u));
-  }
-  GroundView view;
-  view.reference = {normal, -low};
-  view.sink = -depth;
-  view.east = normal.unitOrthogonal();
-  view.north = normal.cross(view.east);
-  return view;
 }
 
 Ground half_space(double modulus, double dissipation = 0) {
@@ -225,7 +182,7 @@ BOOST_AUTO_TEST_CASE(a_flat_end_turns_more_easily_than_it_does) {
 
 /// A strip 1e5 times as long as wide, turned in the ground's plane by anything: κ to its digits.
 BOOST_AUTO_TEST_CASE(long_patches_keep_their_digits) {
-  Uniform random(4);
+  Random random(4);
   const double aspect = 1e5;
   const Body strip = box_body({aspect, 1, 1}, 1);
   const double level = force_at(strip, Vector3::UnitZ(), 1e-3);
@@ -236,7 +193,7 @@ BOOST_AUTO_TEST_CASE(long_patches_keep_their_digits) {
 
 /// The load is the gradient of U, over sinking and over turning: U is a potential.
 BOOST_AUTO_TEST_CASE(force_and_moment_are_derivatives_of_the_stored_energy) {
-  Uniform random(1);
+  Random random(1);
   for (const Body& body : bodies()) {
     const auto surface = contact_on(body, half_space(1));
     for (int i = 0; i < 40; ++i) {
@@ -259,7 +216,7 @@ BOOST_AUTO_TEST_CASE(force_and_moment_are_derivatives_of_the_stored_energy) {
 
 /// Power of the load = U̇ + what is dissipated, never negative, and the ground never pulls.
 BOOST_AUTO_TEST_CASE(damping_takes_energy_and_gives_none) {
-  Uniform random(2);
+  Random random(2);
   for (const Body& body : bodies()) {
     for (int i = 0; i < 200; ++i) {
       const double depth = body.radius() * std::pow(10, random(-4, -0.7)), number = std::pow(10, random(-2, 1.5));
@@ -288,7 +245,7 @@ BOOST_AUTO_TEST_CASE(damping_takes_energy_and_gives_none) {
 /// A plate on a narrow foot is where that law by itself would give energy: just below the depth at which nothing
 /// presses.
 BOOST_AUTO_TEST_CASE(where_damping_would_give_energy_it_takes_none) {
-  Uniform random(7);
+  Random random(7);
   const Body body = plate_on_foot();
   int without = 0;
   for (int i = 0; i < 60000; ++i) {
@@ -308,7 +265,7 @@ BOOST_AUTO_TEST_CASE(where_damping_would_give_energy_it_takes_none) {
 
 /// The rates that events and stick take, against a difference along the motion with its accelerations.
 BOOST_AUTO_TEST_CASE(the_rate_of_the_force_is_that_along_the_motion) {
-  Uniform random(3);
+  Random random(3);
   for (const Body& body : bodies()) {
     for (int i = 0; i < 20; ++i) {
       Ground ground = half_space(1e6, i % 2 == 0 ? 0 : 0.3);
@@ -378,7 +335,7 @@ BOOST_AUTO_TEST_CASE(restitution_is_that_of_hunt_and_crossley_s_factor) {
 }
 
 BOOST_AUTO_TEST_CASE(the_ledger_of_drops_closes) {
-  Uniform random(5);
+  Random random(5);
   for (int i = 0; i < 8; ++i) {
     Ground ground = half_space(std::pow(10, random(6, 9)), i % 2 == 0 ? 0 : random(0.05, 1));
     if (i % 4 > 1) ground.static_friction = ground.sliding_friction = random(0.05, 0.8);

@@ -38,11 +38,10 @@ struct Curve {
 /// Stiff, all but level, and stiffer than at first, as a foam is.
 Curve foam(double depth) { return {{0, 0.1 * depth, 0.6 * depth, 100 * depth}, {0, 2e4, 2.5e4, 2e7}}; }
 
-Body ball() { return round_body({.semiaxes = Vector3::Constant(0.1)}, 1, 0.004 * Matrix3::Identity()); }
+Body ball() { return round_body({.semiaxes = Vector3::Constant(0.1)}); }
 
 /// Five points a piece between breaks, each piece a polynomial of degree 9 at most.
-template <class F>
-double integral(double from, double to, const std::vector<double>& breaks, F&& f) {
+double integral(double from, double to, const std::vector<double>& breaks, auto&& f) {
   static const double nodes[] = {0, 0.5384693101056831, 0.9061798459386640};
   static const double weights[] = {0.5688888888888889, 0.4786286704993665, 0.2369268850561891};
   std::vector<double> ends{from, to};

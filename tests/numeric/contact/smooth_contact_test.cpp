@@ -17,19 +17,8 @@ constexpr double relative = 1e-12;
 /// A body of this shape, whose mass properties play no part.
 Body body_of(const SmoothShape& shape) { return round_body(shape, 1, Matrix3::Identity()); }
 
-/// At rest `depth` below the touch, the ground's normal given in the body frame.
 GroundView pressed(const SmoothShape& shape, const Vector3& normal, double depth) {
-  GroundView view;
-  double low = 0;
-  for (int end = 0; end < shape.ends(); ++end) {
-    const double height = normal.dot(shape.lowest(end, normal));
-    low = end == 0 ? height : std::min(low, height);
-  }
-  view.reference = {normal, -low};
-  view.sink = -depth;
-  view.east = normal.unitOrthogonal();
-  view.north = normal.cross(view.east);
-  return view;
+  return test::pressed(body_of(shape), normal, depth);
 }
 
 ContactLoad load_of(const SmoothShape& shape, const Ground& ground, const GroundView& view) {

@@ -55,7 +55,7 @@ MotionState some_drop(const Body& body, Random& random) {
 
 /// A ball's flight is a parabola, and its turning uniform; after the last impact, and before the first.
 BOOST_AUTO_TEST_CASE(states_in_flight_have_their_closed_form) {
-  const Body ball = round_body({.semiaxes = Vector3::Constant(0.1)}, 1, 4e-3 * Matrix3::Identity());
+  const Body ball = round_body({.semiaxes = Vector3::Constant(0.1)});
   const World world{.ground = {.stiffness = 1e7, .area = AreaMeasure::projected}, .gravity = 9.81};
   MotionState touch;
   touch.velocity = {0.3, -0.2, -4};

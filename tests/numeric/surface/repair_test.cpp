@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "numeric/surface/repair.hpp"
 
-#include <numeric>
-
 #include "numeric/body/mass_properties.hpp"
 #include "tests/numeric/support.hpp"
 

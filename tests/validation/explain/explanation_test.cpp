@@ -10,7 +10,6 @@
 #include "tests/support.hpp"
 #include "validation/explain/explanation_report.hpp"
 #include "validation/explain/formula.hpp"
-#include "validation/output/bad_input.hpp"
 #include "validation/run/discrete_scene.hpp"
 
 namespace {

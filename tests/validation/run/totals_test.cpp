@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Errors of sums over a run and of the difference of both models.
 #include "tests/support.hpp"
-#include "validation/compare/number_pair.hpp"
+#include "validation/compare/comparison.hpp"
 #include "validation/run/run.hpp"
 
 using namespace clatter::validation;

@@ -62,8 +62,7 @@ struct Count {
   int read = 0, refused = 0;
 };
 
-template <class Read>
-void try_to_read(const std::string& what, Count& count, Read&& read) {
+void try_to_read(const std::string& what, Count& count, auto&& read) {
   try {
     read();
     ++count.read;
@@ -96,8 +95,7 @@ bool says(const Scene& scene, std::string_view name) {
   return std::any_of(keys.begin(), keys.end(), [&](const Key* key) { return key->name == name; });
 }
 
-template <class Error>
-int status_after(const Error& error) {
+int status_after(const auto& error) {
   return guarded([&]() -> int { throw error; });
 }
 

@@ -6,8 +6,6 @@
 #include <array>
 #include <boost/test/unit_test.hpp>
 #include <cmath>
-#include <numbers>
-#include <optional>
 #include <random>
 
 #include "analytic/space/flight/body.hpp"
@@ -34,8 +32,7 @@ double lowest(const Scene& s) {
   return least;
 }
 
-template <class Random>
-Scene random_scene(Random& random) {
+Scene random_scene(auto& random) {
   std::uniform_real_distribution<double> share(0, 1), sided(-1, 1);
   std::normal_distribution<double> normal;
   const auto vector = [&] { return Vector3(normal(random), normal(random), normal(random)); };

@@ -4,7 +4,6 @@
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 #include <numbers>
-#include <random>
 
 #include "validation/oracles/free_top.hpp"
 

@@ -27,10 +27,7 @@ using RealMatrix = Eigen::Matrix<Real, 3, 3>;
 constexpr int corners = CLATTER_TEST_SLOW_BUILD ? 10 : 30, strikes = CLATTER_TEST_SLOW_BUILD ? 1 : 2;
 
 /// Fourth-order differences of f(h).
-template <class Function>
-auto difference(const Function& f, Real h) {
-  return ((8 * (f(h) - f(-h)) - (f(2 * h) - f(-2 * h))) / (12 * h)).eval();
-}
+auto difference(const auto& f, Real h) { return ((8 * (f(h) - f(-h)) - (f(2 * h) - f(-2 * h))) / (12 * h)).eval(); }
 
 /// Largest error of a 3 × 3 block beside its row of blocks.
 template <class Matrix>

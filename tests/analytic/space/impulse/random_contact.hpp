@@ -3,8 +3,6 @@
 #pragma once
 
 #include <Eigen/LU>
-#include <cmath>
-#include <numbers>
 #include <random>
 
 #include "analytic/space/impulse/impact.hpp"

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <Eigen/LU>
-#include <cmath>
 #include <string>
 #include <vector>
 

@@ -39,8 +39,7 @@ Matrix3 leaning_box(double a, double b, double c, double angle = 0) {
 }
 
 /// The landing turned by `angle` about the vertical, on a ground with c/k = `damping` for the viscoelastic law.
-template <class How>
-auto land_by(const How& how, const EdgeLanding& l, double angle, double damping) {
+auto land_by(const auto& how, const EdgeLanding& l, double angle, double damping) {
   const Body body{.mass = mass, .inertia = l.inertia, .vertices = {}, .rims = {}};
   State before;
   before.attitude = Eigen::AngleAxisd(angle, Vector3::UnitZ());

@@ -3,7 +3,6 @@
 
 #include <boost/test/unit_test.hpp>
 #include <cmath>
-#include <numbers>
 
 #include "analytic/space/sequence/sequence.hpp"
 #include "tests/analytic/space/impulse/random_contact.hpp"
@@ -12,7 +11,6 @@
 namespace {
 
 using namespace clatter::analytic::space;
-using clatter::analytic::Outcome;
 using clatter::oracle::check_energy_account;
 using clatter::oracle::check_turned;
 using clatter::oracle::coulomb;

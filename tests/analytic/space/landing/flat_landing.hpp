@@ -56,8 +56,7 @@ struct FlatBox {
 };
 
 /// What a landing lost is what its motion has less than before, `velocity` and `angular_velocity`.
-template <class Landing>
-void check_energy_account(const Body& body, const Landing& before, const analytic::space::GroupImpact& struck) {
+void check_energy_account(const Body& body, const auto& before, const analytic::space::GroupImpact& struck) {
   const auto energy = [&](const Vector3& v, const Vector3& w) {
     return (body.mass * v.squaredNorm() + w.dot(body.inertia * w)) / 2;
   };

@@ -5,7 +5,6 @@
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 #include <random>
-#include <string>
 
 #include "analytic/space/sequence/sequence.hpp"
 
@@ -15,7 +14,6 @@ using namespace clatter::analytic::space;
 using clatter::analytic::FrictionKind;
 using clatter::analytic::Outcome;
 using clatter::analytic::RestitutionLaw;
-using clatter::analytic::SequenceOptions;
 
 struct Uneven {
   double mass;

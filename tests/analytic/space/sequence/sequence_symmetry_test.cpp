@@ -3,7 +3,6 @@
 #include <cmath>
 #include <random>
 
-#include "analytic/base/errors.hpp"
 #include "analytic/plane/sequence.hpp"
 #include "analytic/space/flight/body.hpp"
 #include "analytic/space/sequence/sequence.hpp"
@@ -12,7 +11,6 @@ namespace {
 
 using namespace clatter::analytic;
 namespace space = clatter::analytic::space;
-using space::Matrix3;
 using space::Quaternion;
 using space::Vector3;
 
@@ -27,8 +25,7 @@ struct PlanarScene {
 };
 
 /// A body with four vertices in the plane; y is its axis of largest inertia, so that turning about y is stable.
-template <class Random>
-PlanarScene planar_scene(Random& random) {
+PlanarScene planar_scene(auto& random) {
   std::uniform_real_distribution<double> share(0, 1), sided(-1, 1);
   PlanarScene s;
   const double length = std::exp2(2 * sided(random)), thickness = length * (0.05 + 0.7 * share(random));
@@ -61,8 +58,7 @@ PlanarScene planar_scene(Random& random) {
 }
 
 /// A box in any attitude, with friction or without.
-template <class Random>
-space::Drop random_drop(Random& random) {
+space::Drop random_drop(auto& random) {
   std::uniform_real_distribution<double> share(0, 1), sided(-1, 1);
   std::normal_distribution<double> normal;
   const auto vector = [&] { return Vector3(normal(random), normal(random), normal(random)); };

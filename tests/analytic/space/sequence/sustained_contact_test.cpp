@@ -8,12 +8,10 @@
 #include <boost/math/quadrature/gauss_kronrod.hpp>
 #include <boost/test/unit_test.hpp>
 #include <cmath>
-#include <numbers>
 #include <optional>
 #include <random>
 #include <utility>
 
-#include "analytic/base/errors.hpp"
 #include "analytic/space/sequence/sequence.hpp"
 
 namespace {
