@@ -9,7 +9,8 @@ std::string energy_warning(FrictionKind friction, const CreatedEnergy& created, 
   std::ostringstream text;
   text.precision(6);
   text << (friction != FrictionKind::impulse_ratio ? "the law of restitution, with friction," : "the impulse ratio")
-       << " creates energy: " << joules << " J in all, from impact " << created.first << " on";
+       << " creates energy: " << joules << " J in all, from impact " << created.first << " on"
+       << (friction != FrictionKind::impulse_ratio ? "; Stronge's law never does" : "");
   return text.str();
 }
 

@@ -28,7 +28,8 @@ struct CreatedEnergy {
   std::size_t first = 0;  ///< number of the first impact to do so, from 1; 0: none
 };
 
-/// "the impulse ratio creates energy: ... J in all, from impact ... on".
+/// "the impulse ratio creates energy: ... J in all, from impact ... on", of a law of restitution with the one that
+/// never does.
 /// @param joules  the sum
 [[nodiscard]] std::string energy_warning(FrictionKind friction, const CreatedEnergy& created, double joules);
 

@@ -38,7 +38,9 @@ std::string oracle_letter(const std::string& oracle) {
 
 /// The answer with a mark that says whether the check passed.
 std::string marked_answer(const CheckResult& result) {
-  return !result.done ? "not run" : std::string(answer_name(result.measured.answer)) + (result.passed() ? "✓" : "✗");
+  if (!result.done) return "not run";
+  const bool is_erratum = result.check->id.starts_with('E') && result.measured.answer == Finding::holds;
+  return std::string(is_erratum ? "misprint" : answer_name(result.measured.answer)) + (result.passed() ? "✓" : "✗");
 }
 
 /// The number to four digits; a whole one has no zeros behind its point.
@@ -232,7 +234,8 @@ Report verify_report(const std::vector<CheckResult>& results, const std::string&
        "by: the oracle, c closed form, t 30-digit table, l conservation law, m other model, o convergence, v "
        "independent value; limit: of the error",
        "answer: what became of the claim, which --only ID --format json prints in full; a refuted one is an error of "
-       "the paper.  ✓: the check passed, with the answer that was expected and an error within its limit"});
+       "the paper, a misprint one of its formulas, which holds as corrected.  ✓: the check passed, with the answer "
+       "that was expected and an error within its limit"});
   report.fields["model"] = "verification";
   report.fields["selection"] = selection;
   report.fields["checks"] = row_objects(report.grid);

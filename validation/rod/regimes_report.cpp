@@ -54,9 +54,17 @@ const std::vector<VariedQuantity>& all_quantities() {
   return all;
 }
 
-std::vector<double> values_of(const RegimesRequest& input, const VariedQuantity& quantity) {
+/// A value of the varied quantity that is given by itself is the one value asked for.
+std::vector<double> values_of(const RegimesRequest& input, const VariedQuantity& quantity, const RodParameters& rod) {
   const RangeRequest& range = input.range;
-  if (!range.from && !range.to && !range.step && !range.count) return quantity.values;
+  const double given = rod.*quantity.member;
+  const bool is_given = given != RodParameters{}.*quantity.member;
+  if (!range.from && !range.to && !range.step && !range.count)
+    return is_given ? std::vector<double>{given} : quantity.values;
+  if (is_given) {
+    throw BadInput(fmt::format("--{} {}: is what --from and --to vary; give one of them, not both", quantity.name,
+                               shortest(given)));
+  }
   if (!range.from || !range.to || (!range.step && !range.count))
     throw BadInput("--from, --to and --step or --count: a range needs all three");
   Sweep sweep = sweep_of(range, {0, 0, 1}, quantity.range);
@@ -79,8 +87,10 @@ const char* kind_name(BoundaryKind kind) {
   return "";
 }
 
+/// An angle that is nothing but rounding is 0.
 Cell angle_cell(double radians, int digits) {
-  return std::isnan(radians) ? Cell() : Cell(radians * degrees_per_radian, digits);
+  if (std::isnan(radians)) return {};
+  return std::fabs(radians) < 1e-13 ? Cell(0) : Cell(radians * degrees_per_radian, digits);
 }
 
 /// Columns of a boundary: `number` is "2" or "3", the other impact's angle there is not shown.
@@ -187,7 +197,7 @@ FoundRegimes find_regimes(const RegimesRequest& input) {
   FoundRegimes found;
   found.name = quantity.name;
   found.words = quantity.words;
-  found.values = values_of(input, quantity);
+  found.values = values_of(input, quantity, rod);
   found.logarithmic =
       input.logarithmic || (quantity.member == &RodParameters::gravity_number && spans_decades(found.values));
   found.rod_words = rod_words(rod, quantity);

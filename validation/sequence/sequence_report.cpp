@@ -456,7 +456,7 @@ Report SequenceRows::begun() const {
 std::vector<Column> sequence_columns(bool friction, bool loses) {
   std::vector<std::string> shown{
       "n", "end", "start", "contact_angle_deg", "impulse_normal", "velocity_after_z", "angular_velocity_after_y"};
-  if (friction) shown.insert(shown.end(), {"impulse_tangential", "mode"});
+  if (friction) shown.insert(shown.end(), {"impulse_tangential", "velocity_after_x", "energy_loss", "mode"});
   else if (loses) shown.emplace_back("energy_loss");
   return impact_columns(RunModel::plane, shown);
 }

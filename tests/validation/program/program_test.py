@@ -37,7 +37,7 @@ REFUSED = {
     "sequence --angle 10 --size 1x1x1": "--size", "sequence --angle 10 --height 1 --gravity 0": "--height",
     "sequence --angle 10 --height 1 --clearance 1": "not both", "sequence --angle 90 --height 0.4 --gravity 9.81": "drop.height = 0.4",
     "angles --gravity 1 --gravity-number 1": "--gravity", "angles --step 1 --count 3": "--step", "angles --from 50 --to 40": "--from",
-    "regimes --from 1": "--from", "sequence --angle 30 --spin 10": "does not approach", "help nothing": "nothing",
+    "regimes --from 1": "--from", "angles --regimes --gravity 1 --from 0 --to 1 --count 3": "--gravity-number 1: is what --from and --to vary", "sequence --angle 30 --spin 10": "does not approach", "help nothing": "nothing",
     **{f"explain '{text}' --angle 10": text for text in ("0", "-1", "1.5", "x", "nan", "")},
     # What to type in its place.
     "sweep --angle 10": "as in clatter sweep rod-10 --set drop.angle_deg=...", "map --speed 2": "as in clatter map rod-10 --set drop.speed=...",
@@ -107,6 +107,9 @@ class Output(unittest.TestCase):
         self.assertAlmostEqual(number, 9.81 * 2 / 9, delta=1e-15)  # three roundings
 
     def test_the_regimes_of_the_json_are_the_known_folds_in_degrees(self):
+        given = json_of("angles", "--regimes", "--gravity", "9.81")
+        self.assertEqual([row["gravity-number"] for row in given["rows"]], [9.81])
+        self.assertEqual(given["rows"][0]["second"]["kind"], "order")
         first = json_of("angles", "--regimes")["rows"][0]
         self.assertEqual(first["gravity-number"], 0)
         # The values of tests/analytic/plane/regime_boundary_test.cpp, to the digits given there.
