@@ -21,13 +21,13 @@ HEAD = '''# SPDX-License-Identifier: GPL-3.0-or-later
 """Made from the keys of scenes when the module is built."""
 
 from collections.abc import Iterable, Mapping
-from typing import Literal, overload
+from typing import Any, Literal, overload
 
 from clatter.arguments import Path, Probes, Progress, Scene, Swept
 from clatter.arrays import Array
 from clatter.findings import (Explanation, Gradient, Measured, Plan, Problem, Ranking, Rows, Scored, Summary, Table,
                               Tradeoff)
-from clatter.results import Comparison, ComparisonSweep, Sequence, Simulation, Sweep, Verification
+from clatter.results import Comparison, Sequence, Simulation, Verification
 
 '''
 FIELDS_HEAD = '''# SPDX-License-Identifier: GPL-3.0-or-later
@@ -90,10 +90,13 @@ def type_of(values: list[Any]) -> str:
 
 
 def fields_of(samples: Iterable[Any]) -> dict[str, str]:
-    """The names of records of one class, and what they are."""
+    """The names of records of one class, and what they are: of the JSON, and where a table has them its columns, of which each
+    error may be unknown."""
     records = list(samples)
-    names = dict.fromkeys(name for record in records for name in record._raw)
-    return {name: type_of([record[name] for record in records if name in record._raw]) for name in names}
+    own = dict.fromkeys(name for record in records for name in record._raw)
+    names = own | dict.fromkeys(name for record in records for name in record if name.isidentifier())
+    kinds = {name: type_of([record[name] for record in records if name in record]) for name in names}
+    return {name: "float | None" if name not in own and name.endswith("_error") else kind for name, kind in kinds.items()}
 
 
 def samples() -> Mapping[str, list[Any]]:

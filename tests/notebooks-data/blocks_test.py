@@ -25,7 +25,7 @@ SPHINX = {"{eval-rst}", "{toctree}"}
 # By the beginning of the block.
 RUN_ELSEWHERE = {
     "./clatter sequence --angle 10\ntests/run": "tests/launcher_test.bash runs the first, this is the second",
-    "pip install": "tests/install/packages_test.bash",
+    "python3 -m venv": "tests/install/packages_test.bash",
     "# problem: rod-10": "tests/validation/benchmark: the beginning of a file, which tells its form",
     "mpirun ": "tests/validation/sweep/sweep_test.py", "#!/bin/bash\n#SBATCH": "needs Slurm", "#SBATCH": "needs Slurm",
     "clatter verify --extremes --quick": "tests/validation/evidence/extremes_test.py, by its parts: a minute or more",
@@ -115,6 +115,17 @@ class Blocks(unittest.TestCase):
             with self.subTest(page=str(page)):
                 self.ran(sys.executable, "-B", "-W", "error", "-c", "\n".join(lines))
         self.assertGreater(promised, 1)
+
+    def test_types_of_blocks_of_python_are_sound(self):
+        pages = {}
+        for page, _, language, text in blocks():
+            if language == "python":
+                pages.setdefault(page.stem, []).append(text)
+        self.assertIn("python", pages)
+        for name, texts in pages.items():
+            (self.folder / f"{name}_page.py").write_text("".join(texts), encoding="utf-8")
+        self.environment["MYPYPATH"] = str(Path(clatter.__file__).resolve().parents[1])
+        self.ran(sys.executable, "-m", "mypy", "--strict", "--ignore-missing-imports", *(f"{name}_page.py" for name in pages))
 
     def test_examples_of_the_documentation_give_what_stands_below_them(self):
         seen = 0

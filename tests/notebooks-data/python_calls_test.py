@@ -7,6 +7,7 @@ import inspect
 import itertools
 import pickle
 import re
+import shlex
 import signal
 import subprocess
 import sys
@@ -130,6 +131,17 @@ class Results(unittest.TestCase):
                 with self.assertRaisesRegex(clatter.BadInput, "format 'xml': must be one of table"):
                     again.to_text("xml")
 
+    def test_an_attribute_that_a_result_has_not_is_an_attribute_error(self):
+        for name, result in self.results.items():
+            for one in (attribute for attribute in dir(result) if not attribute.startswith("__")):
+                with self.subTest(result=name, attribute=one):
+                    try:
+                        getattr(result, one)
+                    except AttributeError:
+                        self.assertFalse(hasattr(result, one))
+        for result in (self.results["figure"], clatter.figure(10, gravity_numbers=1)):
+            self.assertFalse(hasattr(result, "message") or hasattr(result, "scene"))
+
     def test_what_stands_beside_the_report_is_pickled_too(self):
         run = self.results["with a history"]
         again = pickle.loads(pickle.dumps(run))
@@ -210,6 +222,15 @@ class Results(unittest.TestCase):
                 for column in frame.columns:
                     if frame[column].dtype == float:
                         np.testing.assert_array_equal(frame[column], result[column], err_msg=column)
+                        self.assertFalse(frame[column].map(lambda one: one is None).any() and frame[column].map(
+                            lambda one: isinstance(one, float)).any(), f"{column}: numbers and None")
+        kinds = pandas.DataFrame(clatter.sweep("phone-corner", orientation=[5, 10], model="discrete", columns="hardest")).dtypes
+        self.assertEqual({kinds[name] for name in ("index", "drop.orientation", "impacts", "hardest")}, {np.dtype(int)})
+        self.assertEqual(kinds["last_start"], float)
+        frame = pandas.DataFrame(self.results["Sequence"])
+        self.assertEqual((frame["n"].dtype, frame["peak_force"].dtype), (int, float))
+        self.assertIsNone(self.results["Sequence"][0].peak_force)
+        self.assertIsNone(dict(self.results["Sequence"][0].items())["peak_force"])
         history = self.results["with a history"].history
         frame = pandas.DataFrame(history[10:20])
         np.testing.assert_array_equal(frame["force_z"], history.force[10:20, 2])
@@ -298,7 +319,11 @@ class SweepsAsTheProgram(unittest.TestCase):
         self.assertEqual(clatter.ground("phone-damped", floor="concrete").to_dict(),
                          json_of("shock", "--ground", "phone-damped", "--floor", "concrete"))
         answer = clatter.report("phone-damped", impacts=1, probe={"camera": place}, drops=0, sensitivity=False)
-        self.assertIn("answer", answer.to_dict())
+        self.assertEqual(answer.answer, answer.to_dict()["answer"])
+        self.assertIn(answer.message.split(":")[0], " ".join(repr(answer).split()))
+        felt = clatter.sweep("phone-corner", orientation=[5, 10], model="discrete", probe={"camera": place}, part="1000:100")
+        self.assertTrue((felt["delta_v_camera"] > 0).all())
+        self.assertIn("margin_camera", felt.columns)
         counts = clatter.map(over={"drop.angle_deg": (0, 60), "impact.restitution": (0.1, 1)}, size=(8, 6))
         self.assertEqual(counts.shape, (6, 8))
         middle = clatter.sequence(0.5 * 60 / 8, restitution=0.1 + 0.5 * 0.9 / 6, impacts=100)
@@ -325,6 +350,12 @@ class SweepsAsTheProgram(unittest.TestCase):
             self.assertEqual((one.count, one.least, one.largest), (60, values[0], values[-1]))
             self.assertAlmostEqual(one.p50, values[29], delta=one.p50_error + 2**-11 * values[29])
         self.assertEqual(sum(summary.texts["outcome"].values()), 60)
+        self.assertEqual(run(*shlex.split(summary["last_start"].largest_command)[1:]).returncode, 0)
+        with self.assertRaisesRegex(KeyError, "did you mean energy_loss"):
+            summary["energy_los"]
+        unnamed = clatter.sweep(clatter.case("rod-10"), angle=[5, 10], model="discrete", summary=True)
+        self.assertEqual(unnamed["last_start"].largest_command or "", "")
+        self.assertNotIn("clatter sweep", repr(unnamed))
         listed = clatter.sweep("phone-damped", {"drop.attitude": 26, "run.impacts": 2}, model="discrete", summary=True)
         self.assertEqual(len(listed.attitudes), 26)
 
@@ -333,6 +364,7 @@ class SweepsAsTheProgram(unittest.TestCase):
         with_gravity = clatter.figure(7, gravity_numbers=[0.5])
         angles = clatter.angles(with_gravity["theta"].tolist(), gravity_number=0.5)
         np.testing.assert_array_equal(with_gravity["beta_G0_5"], angles.beta_deg)
+        self.assertEqual(clatter.figure(7, gravity_numbers=0.5), with_gravity)
         rods = clatter.figure(8, angles=[30, 40])
         np.testing.assert_allclose(sorted(set(rods["theta"])), [30, 40], rtol=1e-15)
         first = [row.V_centre for row in rods if row.impacts == 1 and row.panel == 2]
@@ -401,6 +433,7 @@ class SweepsAsTheProgram(unittest.TestCase):
     def test_an_unknown_argument_gets_the_nearest_known_one(self):
         self.refused("agnle: unknown argument of sequence(); did you mean angle?", clatter.sequence, agnle=10)
         self.refused("stifness: unknown argument of simulate(); did you mean stiffness?", clatter.simulate, "rod-45", stifness=1)
+        self.refused("law: unknown argument of sequence(); did you mean restitution_law?", clatter.sequence, 10, law="poison")
         self.refused("progess: unknown argument of angles(); did you mean progress?", clatter.angles, progess=print)
         self.refused("qick: unknown argument of verify(); did you mean quick?", clatter.verify, qick=True)
         self.refused("modle: unknown argument of sweep(); did you mean model?", clatter.sweep, "rod-10", {}, modle="discrete")

@@ -320,6 +320,15 @@ class ArraysOfAngles(unittest.TestCase):
         self.assertEqual(run.to_text(ascii=True).encode("ascii").decode(), run.to_text(ascii=True))
         self.assertIn("1000 values", repr(clatter.angles(count=1000)))
 
+    def test_long_results_show_their_ends(self):
+        few, many = (clatter.sweep("rod-10", angle=np.linspace(1, 80, count), model="discrete") for count in (60, 500))
+        self.assertEqual(repr(few) + "\n", few.to_text())
+        lines, whole = repr(many).splitlines(), many.to_text().splitlines()
+        self.assertEqual(lines.count("  … 500 rows"), 2)  # in each block
+        self.assertEqual([line for line in whole if line in lines], [line for line in lines if "…" not in line])
+        html = many._repr_html_()
+        self.assertEqual((html.count("<tr>"), html.count("… 500 rows")), (1 + 21, 1))
+
 
 class Calls(unittest.TestCase):
     def refused(self, words, function, *arguments, **named):
@@ -370,6 +379,22 @@ class Calls(unittest.TestCase):
         with self.assertRaisesRegex(AttributeError, "impulse_normal"):
             clatter.sequence(10)[0].momentum
 
+    def test_a_name_that_is_not_there_is_told_with_the_nearest(self):
+        run = clatter.sequence(10)
+        past = clatter.simulate("phone-damped", impacts=1, history=True).history
+        for words, call in (("^no 'impulse_norml' here; did you mean impulse_normal\\?$", lambda: run[1].impulse_norml),
+                            ("did you mean outcome", lambda: run.outcme), ("did you mean force", lambda: past.forse),
+                            ("did you mean beta_deg", lambda: clatter.angles([10]).beta_dge)):
+            with self.assertRaisesRegex(AttributeError, words):
+                call()
+        rows = clatter.sweep("rod-10", angle=[5, 10], model="discrete")
+        with self.assertRaisesRegex(KeyError, "columns='impulse_normal_2'"):
+            rows["impulse_normal"]
+        with self.assertRaisesRegex(clatter.BadInput, "did you mean impulse_normal_2, impulse_tangential_2"):
+            clatter.sweep("rod-10", angle=[5, 10], model="discrete", columns="impulse_2")
+        with self.assertRaisesRegex(clatter.BadInput, r"static_friction = 0\.075: must be at least"):
+            clatter.simulate("phone-damped", sliding_friction=0.3)
+
     def test_other_threads_run_meanwhile(self):
         """A thread answers while another simulates without end; with the lock held it could not."""
         script = ("import clatter, sys, threading\n"
@@ -411,10 +436,17 @@ run = clatter.sequence(angle=10)
 impulse: float = run[1].impulse_normal
 some: list[clatter.Impact] = run[1:3]
 peak: float = clatter.simulate("phone-damped")[0].peak_force
+part: float = run[0].impulse_z
+error: float | None = run[0].impulse_normal_error
+outcome: str = clatter.simulate("phone-damped").outcome
+worst: clatter.Record = clatter.report("phone-damped")[0]
+figure = clatter.figure(7, gravity_numbers=1)
+rows: clatter.Rows = clatter.sweep("phone-damped", probe={"camera": (0, 0, 0)}, part="100")
 counts: dict[str, dict[str, int]] = clatter.sweep("rod-10", angle=[1, 2], summary=True).texts
 """
         wrong = ["run[1].impulse_norml", "run.outcome + 1", "run[1].impulse_normal.upper()", "run[0].error_estimate.impulse_normal + 1",
-                 "run.accuracy.achieve", 'clatter.sequence(angle="x")', 'clatter.plan("rod-10").choice.modle', "run.at(1)[0:1] + 1"]
+                 "run.accuracy.achieve", 'clatter.sequence(angle="x")', 'clatter.plan("rod-10").choice.modle', "run.at(1)[0:1] + 1",
+                 'clatter.simulate("phone-damped").outcme', 'clatter.report("rod-10").answr']
         with tempfile.TemporaryDirectory() as folder:
             path = Path(folder, "call.py")
             path.write_text(right + "\n".join(wrong), encoding="utf-8")
@@ -442,7 +474,7 @@ counts: dict[str, dict[str, int]] = clatter.sweep("rod-10", angle=[1, 2], summar
                     continue
                 for record in [*run, *(impact.error_estimate for impact in run), run.accuracy, run.cost, *filter(None, [getattr(run, "tail", None)])]:
                     known = fields[type(record).__name__]
-                    for name in record._raw:
+                    for name in dict.fromkeys((*record._raw, *filter(str.isidentifier, record))):
                         with self.subTest(case=case, call=call.__name__, field=name):
                             seen += 1
                             self.assertIsInstance(record[name], tuple(kinds[kind] for kind in known[name]))

@@ -539,7 +539,8 @@ Grid attitudes_grid(const AllAttitudes& all) {
          cell(blow && blow->margin, blow && blow->margin ? blow->margin->value : 0),
          cell(is_deep, is_deep ? 1e3 * *blow->depth : 0),
          cell(is_deep && has_share, is_deep && has_share ? 100 * *blow->depth / *pad : 0), Cell(worst.value, 3),
-         Cell(mildest, 3), cell(std::isfinite(largest_peak), three_digits(largest_peak)), Cell(static_cast<int>(drops))});
+         Cell(mildest, 3), cell(std::isfinite(largest_peak), three_digits(largest_peak)),
+         Cell(static_cast<int>(drops))});
   }
   return grid;
 }

@@ -27,6 +27,7 @@ std::string position(const std::string& path, const toml::source_region& region)
 std::string words_of(const toml::parse_error& error) { return printable(error.description()); }
 
 std::string as_given(const auto& node) {
+  if (const auto real = node.template value_exact<double>()) return shortest(*real);
   std::ostringstream text;
   node.visit([&](const auto& value) { text << value; });
   std::string line = text.str();

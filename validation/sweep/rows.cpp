@@ -189,7 +189,7 @@ class AskedColumns {
     throw BadInput(
         fmt::format("--columns '{}': must be hardest, hardest_QUANTITY, QUANTITY or QUANTITY_N with N from 1 "
                     "to {}, or a column that is there anyway; did you mean {}?",
-                    name, impacts_, nearest_name(name, names_)));
+                    name, impacts_, near(name)));
   }
 
   void put_into(RowLayout& layout) && {
@@ -203,6 +203,22 @@ class AskedColumns {
   }
   [[nodiscard]] const Column& find(const std::string& name) const {
     return *std::find_if(columns_.begin(), columns_.end(), [&](const Column& column) { return column.name == name; });
+  }
+
+  /// Names like one that there is not: all quantities that begin with it, else the nearest one, with its impact.
+  [[nodiscard]] std::string near(const std::string& name) const {
+    const std::string_view prefix = "hardest_";
+    const std::size_t begin = name.starts_with(prefix) ? prefix.size() : 0, cut = name.rfind('_');
+    long long number = 0;
+    const bool is_numbered = cut != std::string::npos && cut > begin && read_integer(name.substr(cut + 1), number);
+    const std::size_t end = is_numbered ? cut : name.size();
+    const std::string quantity = name.substr(begin, end - begin);
+    std::vector<std::string> longer;
+    for (const Column& column : columns_)
+      if (column.name.starts_with(quantity + "_"))
+        longer.push_back(name.substr(0, begin) + column.name + name.substr(end));
+    if (!longer.empty()) return fmt::format("{}", fmt::join(longer, ", "));
+    return name.substr(0, begin) + nearest_name(quantity, names_) + name.substr(end);
   }
 
   void require_new(const std::string& name) const {

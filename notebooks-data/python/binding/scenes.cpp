@@ -209,7 +209,8 @@ void sweep_rows(const validation::SweepPlan& plan, const Watch& watch,
 }
 
 /// The rows of a sweep, or with `summary` what they are together.
-validation::Report swept(const validation::SweepPlan& plan, bool summary, const Watch& watch,
+/// @param commands  whether a command can show a scene: not of a dict, nor of keys alone
+validation::Report swept(const validation::SweepPlan& plan, bool summary, bool commands, const Watch& watch,
                          validation::ShortfallCount& shortfalls) {
   validation::Report report = plan.report();
   std::string rows;
@@ -223,8 +224,9 @@ validation::Report swept(const validation::SweepPlan& plan, bool summary, const 
   if (together) {
     report.grid.columns = validation::Summary::columns();
     together->fill(
-        report, [&](long long index) { return plan.command_of(index); },
+        report, [&](long long index) { return commands ? plan.command_of(index) : ""; },
         [&](long long place) { return plan.attitude_name(place); });
+    if (!commands) report.commands.clear();
   } else {
     report.grid.rows = validation::read_csv_rows(rows);
   }
@@ -234,8 +236,10 @@ validation::Report swept(const validation::SweepPlan& plan, bool summary, const 
 
 /// (report, how many scenes fall short and why the first, or "")
 py::tuple sweep(const std::string& name, const std::optional<std::string>& text, const std::vector<std::string>& sets,
-                const NamedTexts& options, bool summary, const py::object& progress) {
+                const std::vector<std::string>& probes, const NamedTexts& options, bool summary,
+                const py::object& progress) {
   validation::SweepRequest request;
+  request.probes = probes;
   request.summary = summary;
   request.file = name;
   request.text = text;
@@ -245,7 +249,8 @@ py::tuple sweep(const std::string& name, const std::optional<std::string>& text,
     validation::SweepPlan plan = validation::read_sweep_plan(request);
     plan.packed = request.summary;
     validation::ShortfallCount shortfalls(plan.layout, plan.packed);
-    validation::Report report = swept(plan, request.summary, watch, shortfalls);
+    const bool is_named = !request.file.empty() && !(request.text && request.file == "scene");
+    validation::Report report = swept(plan, request.summary, is_named, watch, shortfalls);
     return std::pair(kept(std::move(report)), shortfalls.found().first());
   };
   return py::cast(run_interruptible(work, progress));
@@ -269,8 +274,8 @@ void add_scene_functions(py::module_& module) {
              "The smallest model that serves.");
   module.def("tradeoff", &tradeoff, py::arg("name"), py::arg("text"), py::arg("changes"), py::arg("progress"),
              "Cost against error.");
-  module.def("sweep", &sweep, py::arg("name"), py::arg("text"), py::arg("sets"), py::arg("options"), py::arg("summary"),
-             py::arg("progress"), "Many scenes, a row each, or what they are together.");
+  module.def("sweep", &sweep, py::arg("name"), py::arg("text"), py::arg("sets"), py::arg("probes"), py::arg("options"),
+             py::arg("summary"), py::arg("progress"), "Many scenes, a row each, or what they are together.");
   module.def("cases", &cases, "Texts of the scene files that the program carries, by name.");
 }
 

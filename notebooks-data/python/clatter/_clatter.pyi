@@ -29,7 +29,8 @@ def tradeoff(
     name: str, text: str | None, changes: dict[str, str], progress: Progress | None
 ) -> tuple[Report, str]: ...
 def sweep(
-    name: str, text: str | None, sets: list[str], options: dict[str, str], summary: bool, progress: Progress | None
+    name: str, text: str | None, sets: list[str], probes: list[str], options: dict[str, str], summary: bool,
+    progress: Progress | None,
 ) -> tuple[Report, str]: ...
 def simulate(
     name: str, text: str | None, changes: dict[str, str], history: bool, progress: Progress | None

@@ -13,7 +13,7 @@ from clatter.arrays import Array, frozen, numpy_for, same_arrays
 from clatter.errors import BadArgument
 from clatter.findings import Rows
 from clatter.records import Record, absent, as_array
-from clatter.results import Report
+from clatter.results import Report, shown_html, shown_text
 from clatter.scenes import called
 
 if TYPE_CHECKING:
@@ -124,10 +124,10 @@ class Angles:
         return f"Angles for {len(self)} values of θ, {self.theta_deg[0]}° to {self.theta_deg[-1]}°; to_text() shows them"
 
     def __repr__(self) -> str:
-        return self.to_text().rstrip("\n") if len(self) <= _MOST_ROWS_SHOWN else self._summary()
+        return shown_text(self.to_text()) if len(self) <= _MOST_ROWS_SHOWN else self._summary()
 
     def _repr_html_(self) -> str:
-        return self._report.html() if len(self) <= _MOST_ROWS_SHOWN else f"<p>{self._summary()}</p>"
+        return shown_html(self._report.html()) if len(self) <= _MOST_ROWS_SHOWN else f"<p>{self._summary()}</p>"
 
 
 def _called(function: Any, theta: Array | None, given: dict[str, str], progress: Progress | None) -> Any:

@@ -145,6 +145,13 @@ def swept_text(name: str, values: Any, called: str | None = None) -> str:
     return f"{texts[0]}:{texts[0]}:1" if len(texts) == 1 and is_number(parts[0]) else ",".join(texts)
 
 
+def probe_texts(probe: str | Iterable[str] | Probes | None) -> list[str]:
+    """Points of a body, each as NAME:X,Y,Z."""
+    if isinstance(probe, Mapping):
+        return [f"{name}:{text_of('probe', None, place).replace('x', ',')}" for name, place in probe.items()]
+    return [probe] if isinstance(probe, str) else list(probe or [])
+
+
 # What an annotation of a function of clatter allows, and how that is called.
 _TYPES: dict[str, tuple[Callable[[Any], bool], str]] = {
     "None": (lambda value: value is None, "None"),
@@ -178,6 +185,13 @@ def _checked_value(name: str, value: Any, annotation: str) -> Any:
     return value
 
 
+def _nearest_argument(unknown: str, value: Any, names: list[str]) -> str:
+    """Of those that have the name as a word the one that takes such a value, else what is spelled alike."""
+    longer = [name for name in names if unknown in name.split("_")]
+    fitting = [name for name in longer if name in KEYS and difflib.get_close_matches(str(value), KEYS[name].names, 1)]
+    return (fitting or difflib.get_close_matches(unknown, longer or names, 1, 0))[0]
+
+
 def checked(function: Callable[_Arguments, _Returned]) -> Callable[_Arguments, _Returned]:
     """The function, which refuses arguments of unknown names and wrong types on one line.
 
@@ -197,8 +211,8 @@ def checked(function: Callable[_Arguments, _Returned]) -> Callable[_Arguments, _
     def call(*arguments: Any, **named: Any) -> Any:
         if not named.keys() <= known:
             unknown = next(name for name in named if name not in known)
-            near = difflib.get_close_matches(unknown, names, 1, 0)
-            raise BadArgument(f"{unknown}: unknown argument of {function.__name__}(); did you mean {near[0]}?")
+            near = _nearest_argument(unknown, named[unknown], names)
+            raise BadArgument(f"{unknown}: unknown argument of {function.__name__}(); did you mean {near}?")
         given = [_checked_value(name, value, types[name]) if name in types else value for name, value in zip(positional, arguments)]
         for name in named.keys() & types.keys():
             named[name] = _checked_value(name, named[name], types[name])

@@ -5,9 +5,10 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Iterable, Mapping
+from typing import Any
 
 from clatter import _clatter
-from clatter.arguments import KEYS, AnyKey, DiscreteKey, Path, Progress, Scene, Swept, SweptKey, checked, shown, swept_text, texts_of
+from clatter.arguments import KEYS, AnyKey, DiscreteKey, Path, Probes, Progress, Scene, Swept, SweptKey, checked, probe_texts, shown, swept_text, texts_of
 from clatter.arrays import numpy_for
 from clatter.errors import BadArgument, ClatterWarning, NotComputed
 from clatter.evidence import listed
@@ -15,6 +16,9 @@ from clatter.findings import Explanation, Gradient, Plan, Rows, Scored, Summary,
 from clatter.records import History
 from clatter.results import Comparison, ComparisonSweep, Sequence, Simulation, Sweep
 from clatter.scenes import called, scene_text
+
+# A scene with a table [sweep] gives other results than one without.  Their types say `| Any`, so that what has no such table,
+# nearly every scene, needs no cast, and a name that neither has is found.
 
 # Outcomes after which rows are missing because a number could not be computed.
 _CUT_SHORT = {"evaluation-limit", "step-too-small", "not-representable", "flight-undecided", "not-computed", "outside-model"}
@@ -89,7 +93,7 @@ def gradient(scene: Scene | float | None = None, **changes: DiscreteKey) -> Grad
 
 
 @checked
-def simulate(scene: Scene | float | None = None, *, history: bool = False, progress: Progress | None = None, **changes: AnyKey) -> Simulation | Sweep:
+def simulate(scene: Scene | float | None = None, *, history: bool = False, progress: Progress | None = None, **changes: AnyKey) -> Simulation | Any:
     """Drop of any body by the continuous model.
 
     scene: a scene file, the name of one of cases(), a dict like case(name), or the angle, beside which a ground must be given;
@@ -113,7 +117,7 @@ def simulate(scene: Scene | float | None = None, *, history: bool = False, progr
 
 
 @checked
-def compare(scene: Scene | float | None = None, *, progress: Progress | None = None, **changes: AnyKey) -> Comparison | ComparisonSweep:
+def compare(scene: Scene | float | None = None, *, progress: Progress | None = None, **changes: AnyKey) -> Comparison | Any:
     """Both models over one scene, aligned by impact, with the limit of ever stiffer grounds.
 
     scene and keys as for simulate().  A scene with a table [sweep] gives a ComparisonSweep, progress(done, of) its values.
@@ -152,6 +156,8 @@ def sweep(
     seed: int | None = None,
     scatter: float | None = None,
     columns: str | Iterable[str] | None = None,
+    probe: str | Iterable[str] | Probes | None = None,
+    part: str | None = None,
     errors: bool = True,
     require_digits: bool = False,
     summary: bool = False,
@@ -167,10 +173,11 @@ def sweep(
     "FROM:TO:log:COUNT" or "A,B,..." ("LOW:HIGH" or "LOW:HIGH:log" with random).  The last key varies fastest, so that a column
     of two keys is .reshape(len(first), len(second)).  Of keys that are lists drop.attitude alone can vary: a row of four for
     each scene, 26 for a box's faces, edges and corners, or with random "uniform".
-    model: "discrete" or "continuous" (that if the scene has a ground).  rows: one per "scene" or per "impact".
+    model: "discrete" or "continuous"; without it a scene with a ground takes the continuous one, which costs some hundred times
+    as much.  rows: one per "scene" or per "impact".
     random: so many scenes with values at random, which depend on seed (1).  scatter [°]: turns attitudes at random, about
     those of values or the scene's own.  columns: more of them with rows of scenes, as "hardest_impulse_normal" or
-    "impulse_normal_2".  errors: without them at half the cost.
+    "impulse_normal_2".  probe and part: as for shock(), columns peak_g_NAME, delta_v_NAME, margin_NAME of each point.  errors: without them at half the cost.
     summary: percentiles and extremes of each number, however many scenes there are, in place of their rows: a Summary; of
     listed attitudes also which is the worst, by the column rank_by.
     progress(done, of): of the scenes.
@@ -190,9 +197,11 @@ def sweep(
     sets += ["run.require_digits=true"] if require_digits else []
     names = columns if columns is None or isinstance(columns, str) else ",".join(columns)
     options = texts_of({"random": random, "seed": seed, "scatter": scatter, "model": model, "rows": rows, "columns": names,
-                        "rank_by": rank_by})
+                        "rank_by": rank_by, "part": part})
     name, text, _ = scene_text(scene, {})
-    report, shortfall = called(_clatter.sweep, name, text, sets, options, summary, progress)
+    if isinstance(scene, str):  # the program finds a case by its name, which its commands then have, too
+        name, text = scene, None
+    report, shortfall = called(_clatter.sweep, name, text, sets, probe_texts(probe), options, summary, progress)
     if shortfall and require_digits:
         raise NotComputed(shortfall)
     _warn([shortfall] if shortfall else [])

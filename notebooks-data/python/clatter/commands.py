@@ -13,7 +13,7 @@ from pathlib import Path as FilePath
 from typing import Any
 
 from clatter import _clatter
-from clatter.arguments import KEYS, AnyKey, Path, Probes, Scene, Swept, checked, shown, swept_text, text_of, texts_of
+from clatter.arguments import KEYS, AnyKey, Path, Probes, Scene, Swept, checked, probe_texts, shown, swept_text, text_of, texts_of
 from clatter.arrays import Array, numpy_for
 from clatter.errors import BadArgument, BadInput, ClatterWarning, NotComputed
 from clatter.findings import Ranking, Table
@@ -76,11 +76,7 @@ def _options(given: Mapping[str, Any]) -> list[str]:
 
 
 def _probes(probe: str | Iterable[str] | Probes | None) -> list[str]:
-    if probe is None:
-        return []
-    if isinstance(probe, Mapping):
-        return [f"--probe={name}:{text_of('probe', None, place).replace('x', ',')}" for name, place in probe.items()]
-    return [f"--probe={text}" for text in ([probe] if isinstance(probe, str) else probe)]
+    return [f"--probe={text}" for text in probe_texts(probe)]
 
 
 def _table(report: Report | None) -> Table:
@@ -171,8 +167,8 @@ def report(
     scatter: float | None = None,
     rank_by: str | None = None,
     **changes: AnyKey,
-) -> Ranking | None:
-    """The worst of all attitudes of a drop, and what it does: as a result, or, with output, as the page FILE.html (nothing is
+) -> Ranking | Any:
+    """The worst of all attitudes of a drop, and what it does: as a Ranking, or, with output, as the page FILE.html (None is
     returned then).
 
     Arguments as for shock(); drops and scatter [°]: of the random attitudes; rank_by: a column of sweep()'s rows.

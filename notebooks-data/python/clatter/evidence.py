@@ -146,12 +146,17 @@ def extremes(
     return Table(called(_clatter.extremes, names, quick, seed, float(seconds), progress))
 
 
+def _numbers(given: float | Iterable[float] | None) -> list[float]:
+    """One or several."""
+    return [] if given is None else [given] if isinstance(given, (int, float)) else list(given)
+
+
 @checked
 def figure(
     number: int,
     *,
-    angles: Iterable[float] | None = None,
-    gravity_numbers: Iterable[float] | None = None,
+    angles: float | Iterable[float] | None = None,
+    gravity_numbers: float | Iterable[float] | None = None,
     **changes: AnyKey,
 ) -> Table:
     """The data of a figure of the paper, 7 to 12, 14 to 17, 19 to 24, or of one like it with other numbers.
@@ -165,7 +170,7 @@ def figure(
     >>> clatter.figure(21, angle=20, impacts=2)["Fn"].max()
     """
     texts = scene_text(None, changes).changes
-    return Table(called(_clatter.figure, number, list(angles or []), list(gravity_numbers or []), texts))
+    return Table(called(_clatter.figure, number, _numbers(angles), _numbers(gravity_numbers), texts))
 
 
 @checked

@@ -4,8 +4,10 @@
 import functools
 from typing import Any
 
+from clatter.arguments import KEYS
+from clatter.arrays import Array
 from clatter.fields import Choice, Rung, Step
-from clatter.records import Record
+from clatter.records import Record, absent
 from clatter.results import Report, Result, given_again, named_row
 
 
@@ -28,7 +30,7 @@ class Explanation(Result[Record]):
             for step in self.steps:
                 if step["title"] == index:
                     return {equation["name"]: equation["value"] for equation in step["equations"]}
-            raise KeyError(index)
+            raise KeyError(absent(index, [*(step["title"] for step in self.steps), *self.columns]))
         return super().__getitem__(index)
 
 
@@ -76,13 +78,6 @@ class Tradeoff(Result[Record]):
 
 class Table(Result[Record]):
     """Rows of CSV; `rows` holds a record for each."""
-
-    @property
-    def scene(self) -> dict[str, Any]:
-        """Everything that was computed with.  @raise AttributeError: the rows are not of one scene."""
-        if "scene" not in self._data:
-            raise AttributeError("these rows are not of one scene; to_dict() tells what there is")
-        return given_again(self._data["scene"])
 
 
 class Gradient(Table):
@@ -153,7 +148,13 @@ class Summary(Table):
 
 
 class Ranking(Table):
-    """The worst of all attitudes of a drop: a row for each attitude, the worst first; to_dict() has all that was found."""
+    """The worst of all attitudes of a drop: a row for each attitude, the worst first; `message` says it in a sentence, to_dict()
+    has all that was found."""
+
+    @property
+    def answer(self) -> Record:
+        """The worst blow: probe, attitude, impact, its numbers, ranked_by, largest, drops, notes ..."""
+        return Record(self._data["answer"])
 
     def _objects(self) -> list[dict[str, Any]]:
         attitudes: list[dict[str, Any]] = self._data.get("attitudes", [])
@@ -165,8 +166,26 @@ class Ranking(Table):
         return {name: [row.get(name) for row in rows] for name in dict.fromkeys(name for row in rows for name in row)}
 
 
+_WHOLE = {"index", "impacts", "n", "hardest", "touches", *(key.key for key in KEYS.values() if key.kind == "whole")}
+
+
 class Rows(Table):
     """Rows of a sweep or of regimes; `rows` holds a record for each."""
+
+    @functools.cached_property
+    def _columns(self) -> dict[str, list[Any]]:
+        return {name: [value if value is None else int(value) for value in values] if name in _WHOLE or name.endswith("_impact") else values
+                for name, values in super()._columns.items()}
+
+    def column(self, name: str) -> Array:
+        """One value of each row; NaN where there is none.  @raise KeyError: with how a sweep gets more columns."""
+        try:
+            return super().column(name)
+        except KeyError as error:
+            if "index" not in self._columns or "n" in self._columns:
+                raise
+            raise KeyError(f"{error.args[0]}; sweep(columns='impulse_normal_2') gives a number of impact 2, "
+                           "rows='impact' a row for each impact") from None
 
     @property
     def scene(self) -> dict[str, Any]:

@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Small objects over the program's JSON: each name of the JSON is an attribute."""
 
-from collections.abc import Iterable, Iterator, Mapping
+import difflib
+from collections.abc import ItemsView, Iterable, Iterator, Mapping, ValuesView
 from typing import TYPE_CHECKING, Any, overload
 
 from clatter.arrays import Array, frozen, numbers, same_arrays, words
@@ -21,8 +22,10 @@ def as_array(values: list[Any]) -> Array:
 
 
 def absent(name: str, known: Iterable[str]) -> str:
-    """What is said of a name that there is not."""
-    return f"no '{name}' here; there are {', '.join(known)}"
+    """What is said of a name that there is not: those that begin so, else the nearest one, or if none is near all that there are."""
+    names = list(known)
+    near = [one for one in names if name and one.startswith(name)][:5] or difflib.get_close_matches(name, names, 1, 0.75)
+    return f"no '{name}' here; " + (f"did you mean {', '.join(near)}?" if near else f"there are {', '.join(names)}")
 
 
 def value_of(row: JsonObject, name: str) -> Any:
@@ -68,7 +71,8 @@ class Values(dict[str, Any]):
     """Values by name, as `record.name` or `record["name"]`; vectors are arrays, what a model has no value for is None.
 
     A record cannot be changed; records of the same values are equal.  A row of a table has its columns as keys, in their
-    order, and its vectors and errors by their names besides.
+    order, and its vectors and errors by their names besides.  dict(record), from which data frames are made, has NaN in place
+    of numbers that are None, so that their columns are of numbers.
     """
 
     __slots__ = ("_raw",)
@@ -85,6 +89,18 @@ class Values(dict[str, Any]):
         if isinstance(value, list) and value and all(item is None or isinstance(item, (int, float)) for item in value):
             return frozen(numbers(float("nan") if item is None else item for item in value))
         return value
+
+    def __getitem__(self, name: str) -> Any:
+        value = super().__getitem__(name)
+        return None if isinstance(value, float) and value != value else value
+
+    def items(self) -> ItemsView[str, Any]:  # type: ignore[override]
+        """Names and values, None for what there is not."""
+        return {name: self[name] for name in self}.items()
+
+    def values(self) -> ValuesView[Any]:  # type: ignore[override]
+        """Values, None for what there is not."""
+        return {name: self[name] for name in self}.values()
 
     def __missing__(self, name: str) -> Any:
         if name in self._raw:
@@ -168,6 +184,10 @@ class History:
     def __init__(self, arrays: Mapping[str, Array]) -> None:
         for name, array in arrays.items():
             setattr(self, name, frozen(array))
+
+    if not TYPE_CHECKING:
+        def __getattr__(self, name: str) -> Any:
+            raise AttributeError(name if name.startswith("_") else absent(name, vars(self)))
 
     def __reduce__(self) -> tuple[Any, ...]:
         return type(self), (dict(vars(self)),)

@@ -6,8 +6,9 @@ from __future__ import annotations
 import copy
 import copyreg
 import functools
+import re
 from collections.abc import Iterable, Iterator, Mapping
-from typing import Any, Generic, Protocol, TypeVar, overload
+from typing import TYPE_CHECKING, Any, Generic, Protocol, TypeVar, overload
 
 from clatter import _clatter
 from clatter.arguments import checked
@@ -19,6 +20,31 @@ from clatter.records import History, Record, Values, absent, as_array, column_of
 Row = TypeVar("Row", bound=Values)
 OneImpact = TypeVar("OneImpact", bound=Impact)
 _FORMATS = ("table", "csv", "json", "markdown", "latex")
+_MOST_ROWS_SHOWN = 60
+_ROWS_AT_AN_END = 10
+
+
+def _ends(rows: list[str], left_out: str) -> list[str]:
+    """The first and last of many rows, all of few; left_out: what stands between, with the number of rows."""
+    if len(rows) <= _MOST_ROWS_SHOWN:
+        return rows
+    return [*rows[:_ROWS_AT_AN_END], left_out.format(f"… {len(rows)} rows"), *rows[-_ROWS_AT_AN_END:]]
+
+
+def shown_text(text: str) -> str:
+    """A table for a terminal: the ends of each block, which begins below a rule and ends at an empty line."""
+    lines: list[str] = []
+    for block in text.rstrip("\n").split("\n\n"):
+        head, rule, rows = re.fullmatch(r"(?s)(?:(.*?\n)( *─+\n))?(.*)", block).groups()  # type: ignore[union-attr]
+        lines.append((head or "") + (rule or "") + ("\n".join(_ends(rows.split("\n"), "  {}")) if rule else rows))
+    return "\n\n".join(lines)
+
+
+def shown_html(html: str) -> str:
+    """A table for a notebook: its ends."""
+    def ends(body: re.Match[str]) -> str:
+        return "\n".join(["<tbody>", *_ends(body[1].split("\n"), '<tr><td colspan="99">{}</td></tr>'), "</tbody>"])
+    return re.sub(r"(?s)<tbody>\n(.*?)\n</tbody>", ends, html)
 
 
 class Report(Protocol):
@@ -66,6 +92,12 @@ def _keep(report: _clatter.Report) -> tuple[Any, tuple[Any, ...]]:
 copyreg.pickle(_clatter.Report, _keep)
 
 
+def _without_gaps(column: list[Any]) -> list[Any]:
+    """NaN in place of None, where the others are numbers."""
+    kinds = {type(value) for value in column}
+    return [float("nan") if value is None else value for value in column] if type(None) in kinds and kinds <= {float, int, type(None)} else column
+
+
 class Result(Generic[Row]):
     """A result is the program's table: it shows itself as that, len(x) are its rows, x[0], x[-1], x[1:3] and a loop give them,
     x["impulse_normal"] is a column as an array, and pandas.DataFrame(x) the whole.
@@ -95,7 +127,7 @@ class Result(Generic[Row]):
     def rows(self) -> list[Row]:
         """A record for each, whose keys are the columns."""
         names, objects = list(self._columns), self._objects()
-        rows = zip(objects, zip(*self._columns.values()))
+        rows = zip(objects, zip(*map(_without_gaps, self._columns.values())))
         return [self._row_class(one, dict(zip(names, row))) for one, row in rows]  # type: ignore[misc]
 
     @property
@@ -140,14 +172,26 @@ class Result(Generic[Row]):
     def scene(self) -> dict[str, Any]:
         """Everything that was asked for, defaults included, under the names of scene files: a scene to be given again.
 
-        The law and the speed that follow from it are in to_dict()["scene"].
+        The law and the speed that follow from it are in to_dict()["scene"].  @raise AttributeError: it is not of one scene.
         """
+        if not isinstance(self._data.get("scene"), dict):
+            raise AttributeError("these rows are not of one scene; to_dict() tells what there is")
         return given_again(self._data["scene"])
 
     @property
     def message(self) -> str:
-        """How it ended, in words."""
+        """How it ended, in words.  @raise AttributeError: nothing is to be said of it."""
+        if "message" not in self._data:
+            raise AttributeError("no message here; printed, the result says what came out")
         return str(self._data["message"])
+
+    if not TYPE_CHECKING:
+        def __getattr__(self, name: str) -> Any:
+            """What a property that has nothing to give says of it, or of any other name the nearest one."""
+            known = getattr(type(self), name, None)
+            if isinstance(known, property):
+                return known.fget(self)
+            raise AttributeError(name if name.startswith("_") else absent(name, (one for one in dir(self) if not one.startswith("_"))))
 
     def to_dict(self) -> dict[str, Any]:
         """The program's JSON as dicts and lists."""
@@ -159,10 +203,10 @@ class Result(Generic[Row]):
         return self._report.text(format, ascii)
 
     def __repr__(self) -> str:
-        return self.to_text().rstrip("\n")
+        return shown_text(self.to_text())
 
     def _repr_html_(self) -> str:
-        return self._report.html()
+        return shown_html(self._report.html())
 
 
 def given_again(scene: Mapping[str, Any]) -> dict[str, Any]:
@@ -428,5 +472,5 @@ def named_row(result: Result[Any], column: str, index: Any) -> Any:
         for row in result.rows:
             if row[column] == index:
                 return row
-        raise KeyError(index)
+        raise KeyError(absent(index, [*(str(row[column]) for row in result.rows), *result.columns]))
     return Result.__getitem__(result, index)
