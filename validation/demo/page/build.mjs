@@ -109,7 +109,7 @@ if (loader.includes("</script")) throw new Error("the module's text would end it
 const parts = {
   "/*STYLE*/": await style(), "/*SCRIPT*/": packed(await script()).toString("base64"), "/*MODULE*/": loader, "/*CODE*/": code,
   "<!--NOTICES-->": await notices(), "<!--STORY-->": await storyHtml(await models()), "<!--VERSION-->": version,
-  "<!--LESSON-->": await sheet("lesson"), "<!--EXERCISES-->": await sheet("exercises"), "<!--MODELS-->": modelsDigest, "<!--PAGE-->": pageDigest,
+  "<!--LESSON-->": await sheet("lesson"), "<!--EXERCISES-->": await sheet("exercises"), "<!--ANSWERS-->": await sheet("answers"), "<!--MODELS-->": modelsDigest, "<!--PAGE-->": pageDigest,
 };
 let page = template;
 for (const [mark, text] of Object.entries(parts)) page = page.replaceAll(mark, () => text);

@@ -20,9 +20,11 @@ export class Capture {
 
   /** @param redraw draws the picture now, which a canvas keeps only until the browser has shown it */
   constructor(private readonly redraw: () => void, private readonly playFromStart: () => void) {
+    // What is drawn in space is gone before it is printed; on paper this picture stands in its place.
+    this.stage.after(this.paper);
+    this.paper.className = "paper";
     byId("picture").addEventListener("click", () => {
-      this.redraw();
-      this.paint();
+      this.keep();
       this.paper.toBlob((blob) => { if (blob) download("clatter.png", blob, "image/png"); });
     });
     byId("film").hidden = typeof MediaRecorder === "undefined";
@@ -36,13 +38,18 @@ export class Capture {
     this.paint();
     this.taking.add();
     // A film lasts until its last picture.
-    if (ended) setTimeout(() => { this.redraw(); this.paint(); requestAnimationFrame(() => this.stop()); }, STAYS);
+    if (ended) setTimeout(() => { this.keep(); requestAnimationFrame(() => this.stop()); }, STAYS);
+  }
+
+  /** The picture as it is now. */
+  keep(): void {
+    this.redraw();
+    this.paint();
   }
 
   private toggle(kind: "film" | "gif"): void {
     if (this.taking) return this.stop();
-    this.redraw();
-    this.paint();
+    this.keep();
     this.taking = { button: byId<HTMLButtonElement>(kind), ...(kind === "gif" ? this.gif() : this.film()) };
     this.label(this.taking.button, true);
     this.playFromStart();

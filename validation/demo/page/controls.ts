@@ -173,7 +173,7 @@ export class Controls {
     if (drop === "velocity") Object.assign(parameters, { vx: 0, vy: 0, vz: -firstSpeed(parameters) });
     parameters.drop = drop;
     // Nothing falls from a height without gravity.
-    if (drop === "height" && parameters.gravity === 0) parameters.gravity = 9.81;
+    if ((drop === "height" || drop === "clearance") && parameters.gravity === 0) parameters.gravity = 9.81;
     this.change();
   }
 

@@ -46,9 +46,11 @@ export class Models {
       }, onBusy);
   }
 
-  ask(parameters: Parameters): void {
+  ask(parameters: Parameters, both: boolean): void {
     this.sequence.ask(sequenceRequest(parameters), { ...parameters });
-    this.askContinuous(parameters);
+    if (both) return this.askContinuous(parameters);
+    this.simulation.leave();
+    this.continuousOf = "";
   }
 
   askContinuous(parameters: Parameters): void {

@@ -71,14 +71,30 @@ export function setUpLayout(state: State, onChange: () => void): () => void {
   return show;
 }
 
-const SHEETS = ["handout", "lesson", "exercises"];
+/** Whether the continuous model is there at all. */
+export function setUpModels({ hide }: State, onChange: () => void): void {
+  const box = byId<HTMLInputElement>("with-continuous");
+  const show = (on: boolean): void => { document.body.classList.toggle("discrete-only", !on); };
+  box.checked = !hide.includes("continuous");
+  show(box.checked);
+  box.addEventListener("change", () => {
+    if (box.checked) hide.splice(hide.indexOf("continuous"), 1);
+    else hide.push("continuous");
+    show(box.checked);
+    onChange();
+  });
+}
+
+const SHEETS = ["handout", "lesson", "exercises", "answers"];
 
 /**
  * All of it; or a page for a class: the drop, its blows and questions, with the picture before the drop; or a sheet of words alone.
  * @param moment the chosen impact and the time of the picture
  * @param put shows them
+ * @param near a time shortly before the first touch
+ * @param keep makes the picture that is printed
  */
-export function setUpPrinting(moment: () => [number, number], put: (n: number, time: number) => void): void {
+export function setUpPrinting(moment: () => [number, number], put: (n: number, time: number) => void, near: () => number, keep: () => void): void {
   let before: [number, number] | null = null;
   byId("print").addEventListener("click", () => print());
   for (const sheet of SHEETS) {
@@ -86,11 +102,13 @@ export function setUpPrinting(moment: () => [number, number], put: (n: number, t
       document.body.classList.add(sheet);
       if (sheet === "handout") {
         before = moment();
-        put(1, -Infinity);
+        put(1, near());
       }
+      keep();
       print();
     });
   }
+  addEventListener("beforeprint", keep);
   addEventListener("afterprint", () => {
     document.body.classList.remove(...SHEETS);
     if (before) put(...before);
@@ -103,6 +121,7 @@ export function setUpLecture(onVoting: (on: boolean) => void, onChange: () => vo
   const show = (on: boolean): void => {
     document.body.classList.toggle("lecture", on);
     button.setAttribute("aria-pressed", String(on));
+    button.textContent = on ? "End the lecture" : "Lecture";
     onVoting(on);
     onChange();
   };

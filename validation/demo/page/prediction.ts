@@ -64,7 +64,8 @@ export class Prediction {
     const second = this.impacts[1];
     if (second ? time < second.start : !ended) return;
     this.wait(false);
-    this.reveal.textContent = this.guess ? revealed(this.guess, this.impacts) : "";
+    const votes = this.votes?.length ? ` The class: ${this.buttons.map(({ textContent }) => textContent).join(", ")}.` : "";
+    this.reveal.textContent = this.guess ? revealed(this.guess, this.impacts) + votes : "";
   }
 
   open(): void {
