@@ -23,6 +23,7 @@ export class Capture {
     // What is drawn in space is gone before it is printed; on paper this picture stands in its place.
     this.stage.after(this.paper);
     this.paper.className = "paper";
+    addEventListener("beforeprint", () => this.keep());
     byId("picture").addEventListener("click", () => {
       this.keep();
       this.paper.toBlob((blob) => { if (blob) download("clatter.png", blob, "image/png"); });
@@ -43,6 +44,7 @@ export class Capture {
 
   /** The picture as it is now. */
   keep(): void {
+    if (!this.stage.clientWidth) return;
     this.redraw();
     this.paint();
   }

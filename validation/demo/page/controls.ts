@@ -32,10 +32,6 @@ const BLAMED: Readonly<Record<string, Quantity>> = {
   velocity: "vx", angular_velocity: "wx",
 };
 
-function blamedQuantity(name = ""): Quantity | undefined {
-  return isQuantity(name) ? name : BLAMED[name];
-}
-
 /** A quantity's value, or that which follows from another's. */
 function shownValue(parameters: Parameters, quantity: Quantity): number {
   if (quantity === "damping") return dampingOf(parameters);
@@ -152,8 +148,8 @@ export class Controls {
     else this.errors.delete(model);
     const general = new Set<string>();
     const blamed = new Map<Quantity, string>();
-    for (const { blames, message } of this.errors.values()) {
-      const quantity = blamedQuantity(blames);
+    for (const { blames = "", message } of this.errors.values()) {
+      const quantity = isQuantity(blames) ? blames : BLAMED[blames];
       if (quantity && !this.rows.get(quantity)?.box.hidden) blamed.set(quantity, message);
       else general.add(message);
     }

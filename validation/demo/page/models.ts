@@ -26,7 +26,7 @@ export class Models {
   /** Which situation it refused last. */
   private refusedOf = "";
   private readonly sequence: Latest<SequenceAnswer, Parameters>;
-  readonly simulation: Latest<SimulateAnswer, Parameters>;
+  private readonly simulation: Latest<SimulateAnswer, Parameters>;
 
   /**
    * @param onError a model refused a situation, or (null) no longer does
@@ -48,13 +48,9 @@ export class Models {
 
   ask(parameters: Parameters, both: boolean): void {
     this.sequence.ask(sequenceRequest(parameters), { ...parameters });
-    if (both) return this.askContinuous(parameters);
+    if (both) return this.simulation.ask(simulateRequest(parameters), { ...parameters });
     this.simulation.leave();
     this.continuousOf = "";
-  }
-
-  askContinuous(parameters: Parameters): void {
-    this.simulation.ask(simulateRequest(parameters), { ...parameters });
   }
 
   get impacts(): Impacts {

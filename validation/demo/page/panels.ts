@@ -71,30 +71,16 @@ export function setUpLayout(state: State, onChange: () => void): () => void {
   return show;
 }
 
-/** Whether the continuous model is there at all. */
-export function setUpModels({ hide }: State, onChange: () => void): void {
-  const box = byId<HTMLInputElement>("with-continuous");
-  const show = (on: boolean): void => { document.body.classList.toggle("discrete-only", !on); };
-  box.checked = !hide.includes("continuous");
-  show(box.checked);
-  box.addEventListener("change", () => {
-    if (box.checked) hide.splice(hide.indexOf("continuous"), 1);
-    else hide.push("continuous");
-    show(box.checked);
-    onChange();
-  });
-}
-
+/** The touch that a handout asks about, with the body near to the ground [s]. */
+const BEFORE = -1e-4;
 const SHEETS = ["handout", "lesson", "exercises", "answers"];
 
 /**
  * All of it; or a page for a class: the drop, its blows and questions, with the picture before the drop; or a sheet of words alone.
  * @param moment the chosen impact and the time of the picture
  * @param put shows them
- * @param near a time shortly before the first touch
- * @param keep makes the picture that is printed
  */
-export function setUpPrinting(moment: () => [number, number], put: (n: number, time: number) => void, near: () => number, keep: () => void): void {
+export function setUpPrinting(moment: () => [number, number], put: (n: number, time: number) => void): void {
   let before: [number, number] | null = null;
   byId("print").addEventListener("click", () => print());
   for (const sheet of SHEETS) {
@@ -102,13 +88,11 @@ export function setUpPrinting(moment: () => [number, number], put: (n: number, t
       document.body.classList.add(sheet);
       if (sheet === "handout") {
         before = moment();
-        put(1, near());
+        put(1, BEFORE);
       }
-      keep();
       print();
     });
   }
-  addEventListener("beforeprint", keep);
   addEventListener("afterprint", () => {
     document.body.classList.remove(...SHEETS);
     if (before) put(...before);
@@ -142,28 +126,19 @@ const PATIENCE = 2000;
 export class Waiting {
   private readonly button = byId<HTMLButtonElement>("leave-continuous");
   private timer = 0;
-  private isLeft = false;
 
-  constructor(leave: () => void, compute: () => void) {
-    this.button.addEventListener("click", () => {
-      if (this.isLeft) return compute();
-      leave();
-      this.isLeft = true;
-      this.offer("Compute it", "continuous model: left out");
-    });
+  constructor(leave: () => void) {
+    this.button.addEventListener("click", leave);
   }
 
   show(busy: boolean): void {
     clearTimeout(this.timer);
-    this.isLeft = false;
     this.button.hidden = true;
     say("spinner", busy ? "continuous model: computing…" : "");
-    if (busy) this.timer = window.setTimeout(() => this.offer("Leave it", "continuous model: computing takes longer, the discrete one is shown"), PATIENCE);
-  }
-
-  private offer(act: string, words: string): void {
-    say("spinner", words);
-    this.button.hidden = false;
-    this.button.textContent = act;
+    if (!busy) return;
+    this.timer = window.setTimeout(() => {
+      say("spinner", "continuous model: computing takes longer, the discrete one is shown");
+      this.button.hidden = false;
+    }, PATIENCE);
   }
 }

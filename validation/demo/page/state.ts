@@ -9,16 +9,16 @@ import { numberOf, parametersOf } from "./requests";
 
 export const PANELS = ["story", "strip", "numbers", "profile", "table", "fan", "force", "energy", "map", "race", "measured", "explain"] as const;
 
-/** What `hide` and `lock` in an address may name; `lock` also each quantity and choice of the situation. */
-export const HIDDEN = [...PANELS, "controls", "continuous"];
-const LOCKED = ["scene", "file", "story", "sound", "layout", "rate", "slow", "predict"];
+/** What an address may hide, and lock beside each quantity and choice of the situation. */
+const HIDDEN: readonly string[] = [...PANELS, "controls", "continuous"];
+const LOCKED: readonly string[] = ["scene", "file", "story", "sound", "layout", "rate", "slow", "predict"];
 
-/** The first name that means nothing here, in words. */
-export function unknownName({ hide, lock }: State): string | null {
-  const hidden = hide.find((name) => !HIDDEN.includes(name));
-  const locked = lock.find((name) => !LOCKED.includes(name) && !(name in DEFAULT_PARAMETERS));
-  if (hidden) return `hide=${hidden}: there is none of this name; one of ${HIDDEN.join(", ")}`;
-  return locked ? `lock=${locked}: there is none of this name; ${LOCKED.join(", ")}, or a quantity, as in a link` : null;
+/** Names in an address that mean nothing, in words; null if there is none. */
+export function unknownNames({ hide, lock }: State): string | null {
+  const hidden = hide.filter((name) => !HIDDEN.includes(name)).map((name) => `hide=${name}: must be one of ${HIDDEN.join(", ")}`);
+  const locked = lock.filter((name) => !LOCKED.includes(name) && !(name in DEFAULT_PARAMETERS))
+    .map((name) => `lock=${name}: must be a quantity of the link, or one of ${LOCKED.join(", ")}`);
+  return [...hidden, ...locked].join("; ") || null;
 }
 
 export interface State {

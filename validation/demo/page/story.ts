@@ -85,7 +85,6 @@ export class Story {
     const { parameters, impact, time } = this.own;
     Object.assign(this.state.parameters, parameters);
     Object.assign(this.state, { impact, time });
-    this.own = null;
     this.teller.onShow();
   }
 
