@@ -70,7 +70,7 @@ async function models() {
 
 /** A sheet as a page that is printed: headings, paragraphs, lists and tables of Markdown. */
 async function sheet(name) {
-  const text = (await readFile(path.join(here, `${name}.md`), "utf8")).replace(/\n {2,}/g, " ").replace(/&/g, "&amp;").replace(/</g, "&lt;");
+  const text = (await readFile(path.join(here, `${name}.md`), "utf8")).replace(/\n {2,}/g, " ").replace(/&/g, "&amp;").replace(/</g, "&lt;").replace(/`([^`]+)`/g, "<code>$1</code>");
   const block = (lines) => {
     const [first] = lines;
     const items = (mark) => lines.map((line) => `<li>${line.replace(mark, "")}</li>`).join("");

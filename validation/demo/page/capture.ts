@@ -127,9 +127,13 @@ function write(context: CanvasRenderingContext2D, element: HTMLElement, left: nu
   context.fillStyle = backgroundColor;
   context.fillRect(x - left, y - top, width, height);
   context.font = fontOf(element);
-  context.fillStyle = color;
   const text = element.textContent ?? "";
-  context.fillText(text, x - left + (width - context.measureText(text).width) / 2, y - top + height / 2);
+  const place = [x - left + (width - context.measureText(text).width) / 2, y - top + height / 2] as const;
+  // Around it paper, as on the screen: it may stand on a body.
+  Object.assign(context, { strokeStyle: getComputedStyle(document.documentElement).getPropertyValue("--paper"), lineWidth: 4, lineJoin: "round" });
+  context.strokeText(text, ...place);
+  context.fillStyle = color;
+  context.fillText(text, ...place);
 }
 
 const WIDTH = 640; // at most [px]

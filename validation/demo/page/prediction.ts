@@ -19,7 +19,6 @@ export class Prediction {
   private readonly buttons = [...this.card.querySelectorAll<HTMLButtonElement>("button[data-guess]")];
   /** Of a class, hand by hand; null: one reader guesses. */
   private votes: Guess[] | null = null;
-
   private guess: Guess | null = null;
   /** A guess was made, and the second blow has not been seen yet. */
   isWaiting = false;

@@ -71,7 +71,7 @@ export class Story {
     this.mark();
     if (this.isLocked) return;
     if (on) this.own = { ...this.state, parameters: { ...this.state.parameters } };
-    else this.giveBack();
+    else if (this.own) this.giveBack(this.own);
     if (!on) return;
     for (const step of this.steps) {
       step.dataset["state"] ??= "asks";
@@ -80,9 +80,7 @@ export class Story {
     if (this.steps[0]) this.bringUp(this.steps[0]);
   }
 
-  private giveBack(): void {
-    if (!this.own) return;
-    const { parameters, impact, time } = this.own;
+  private giveBack({ parameters, impact, time }: State): void {
     Object.assign(this.state.parameters, parameters);
     Object.assign(this.state, { impact, time });
     this.teller.onShow();

@@ -17,7 +17,7 @@ const BODY_NOTES: Readonly<Partial<Record<BodyName, string>>> = {
 /** What is dropped, in one sentence. */
 function dropInWords({ body, angle, tilt, turn, drop, height, clearance, speed, gravity, e, friction }: Parameters): string {
   const leans = turn === "plane" || turn === "tilted" ? `, inclined by ${significant(seenAngle(BODIES[body].size, angle), 4)}°${turn === "tilted" ? ` and turned by ${significant(tilt, 4)}° before` : ""}` : "";
-  const above = drop === "clearance" ? `its lowest point ${significant(clearance, 4)} m` : `${significant(height, 4)} m`;
+  const above = drop === "clearance" ? `with its lowest point ${significant(clearance, 4)} m` : `${significant(height, 4)} m`;
   const falls = drop === "height" || drop === "clearance" ? `, let go ${above} above the floor` : drop === "speed" ? `, comes down at ${significant(speed, 4)} m/s` : "";
   const floor = friction > 0 ? `, friction μ = ${significant(friction, 4)}` : "";
   return `${BODIES[body].title}${leans}${falls}. Gravity ${significant(gravity, 4)} m/s², restitution e = ${significant(e, 4)}${floor}.`;
