@@ -7,7 +7,8 @@
 
 namespace clatter::validation {
 
-/// @throws BadInput for what the page does not draw: a mesh, a round body, a sweep
+/// @throws BadInput for what the page does not draw: a mesh, a round body, a sweep, a topple, a release of a body that
+/// turns, a start at rest, an inclined ground
 void require_shown(const Scene& scene);
 
 /// A scene, with the law that the discrete model takes, as the arguments that give it: {"body": "box", "size": [L, W,

@@ -29,7 +29,7 @@ class Demo(EmptyFolder):
         """Its fragment holds the arguments that give the scene again."""
         for arguments in (["--angle", "20", "--height", "1", "--gravity", "9.81"], ["phone-damped", "--angle", "25"], ["phone-corner"],
                           ["--angle", "10", "--spin", "-1", "--tangential-velocity", "-0.5", "--friction", "0.1"],
-                          ["--orientation", "20", *BOX, "--velocity", "0.1,0.2,-1", "--restitution", "0.5"]):
+                          ["--angle", "20", "--clearance", "1"], ["--orientation", "20", *BOX, "--velocity", "0.1,0.2,-1", "--restitution", "0.5"]):
             with self.subTest(arguments=arguments), tempfile.TemporaryDirectory() as folder:
                 done = run(*arguments, folder=folder)
                 self.assertEqual((done.returncode, done.stderr, done.stdout.count("\n")), (0, HINT, 1))
@@ -79,7 +79,8 @@ class Demo(EmptyFolder):
 
     def test_bad_arguments_are_one_line(self):
         self.each_refused({"--export /no/such/folder/x.html": "--export", "phone-sweep": "sweep", "--port 8000": "--port", "--angle 95": "--angle",
-                           "--body mesh --angle 10": "mesh", "no-such-case": "no-such-case"}, "demo", env={**os.environ, "HOME": self.folder})
+                           "--body mesh --angle 10": "mesh", "--topple 0.1": "topple", "--angle 10 --incline 5": "incline",
+                           "--angle 10 --release-height 1": "release", "no-such-case": "no-such-case"}, "demo", env={**os.environ, "HOME": self.folder})
 
     def test_without_a_folder_of_its_own_it_says_so(self):
         self.refused("--export", "demo", env={name: value for name, value in os.environ.items() if name not in ("HOME", "XDG_CACHE_HOME")} | {"HOME": ""})

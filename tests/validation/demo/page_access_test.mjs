@@ -75,8 +75,8 @@ for (const [name, viewport] of [["a phone", { width: 390, height: 800 }], ["a zo
     assert.ok(await page.evaluate(() => document.documentElement.scrollHeight) < 3000);
     await page.click("#take-more");
     await page.click("#options");
-    for (const id of ["lecture", "picture", "film", "gif", "handout-print", "lesson-print", "exercises-print", "print", "save-page", "copy-link",
-      "rate", "slow", "traces", "speeds", "sound", "story-start"]) {
+    for (const id of ["lecture", "picture", "film", "gif", "handout-print", "lesson-print", "exercises-print", "answers-print", "print", "save-page", "copy-link",
+      "rate", "slow", "with-continuous", "traces", "speeds", "sound", "story-start"]) {
       const box = await page.locator(`#${id}`).boundingBox();
       assert.ok(box && box.x >= 0 && box.x + box.width <= viewport.width, id);
     }

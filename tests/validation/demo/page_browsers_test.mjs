@@ -59,6 +59,11 @@ test("the page saves itself with the scene that it shows", async () => {
   });
   await onPage("", async (page) => {
     await waitForCell(page, "Impulse", 1, printed("sequence", ...FLAGS).impacts[1].impulse_normal);
+    const names = await page.locator("[id]").evaluateAll((all) => all.map(({ id }) => id));
+    assert.deepEqual(names.filter((name, i) => names.indexOf(name) !== i), []);
+    assert.equal(await page.locator("#basics label").count(), 3);
+    // Who gets it is asked first.
+    assert.equal(await page.isVisible("#prediction"), true);
   }, { at: pathToFileURL(saved).href });
 });
 

@@ -2,14 +2,15 @@
 // What one takes along from the page of `clatter demo`: the picture, a film of the drop, and one page for a class.
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { onPage } from "./page_browser.mjs";
+import { onPage, sequence } from "./page_browser.mjs";
 
 const DROP = "#predict=0&hide=map,explain&angle=20&rate=2&impacts=2";
 /** Of the discrete model's body, and of the words in the picture. */
 const BODY = [0, 114, 178];
 const WORDS = [10, 61, 98];
 
-const HANDOUT = { before: () => { window.print = () => {}; } };
+/** As a browser does before it prints. */
+const HANDOUT = { before: () => { window.print = () => dispatchEvent(new Event("beforeprint")); } };
 
 /** Keeps what the page hands to the browser as a file: not every browser tells of a download. */
 function keepFiles() {
@@ -130,12 +131,20 @@ test("the handout is one page: the drop in words, its picture, its blows, and qu
   await page.click("#handout-print");
   assert.equal(await page.evaluate(() => globalThis.printing), true);
   await page.emulateMedia({ media: "print" });
-  for (const part of ["#handout", "#stage", "#panel-strip", "#panel-profile"]) assert.equal(await page.isVisible(part), true, part);
+  for (const part of ["#handout", ".paper", "#panel-strip", "#panel-profile"]) assert.equal(await page.isVisible(part), true, part);
   for (const part of ["#panel-explain", "#panel-table", "#story", "#panel-map", "#panel-controls"]) assert.equal(await page.isVisible(part), false, part);
   assert.match(await page.textContent("#handout-drop"), /^Phone, 106 mm, inclined by 10\.00°, let go 1\.000 m above the floor\. Gravity 9\.810 m\/s², restitution e = 0\.8000\.$/);
   const paper = (await page.pdf({ format: "A4" })).toString("latin1");
   assert.equal(paper.match(/\/Type\s*\/Page\b/g).length, 1);
-}, { before: () => { window.print = () => { globalThis.printing = document.body.classList.contains("handout"); }; } }));
+  // The body is there, near to the ground: in the page's blue, over more than a speck.
+  const blue = await page.locator(".paper").evaluate((paper, [r, g, b]) => {
+    const { data } = paper.getContext("2d").getImageData(0, 0, paper.width, paper.height);
+    let count = 0;
+    for (let i = 0; i < data.length; i += 4) if (Math.abs(data[i] - r) < 40 && Math.abs(data[i + 1] - g) < 40 && Math.abs(data[i + 2] - b) < 40) count += 1;
+    return count / (paper.width * paper.height);
+  }, BODY);
+  assert.ok(blue > 0.01, String(blue));
+}, { before: () => { window.print = () => { dispatchEvent(new Event("beforeprint")); globalThis.printing = document.body.classList.contains("handout"); }; } }));
 
 /** How many bytes draw each page. */
 function pagesOf(paper) {
@@ -152,7 +161,7 @@ test("on paper no page is empty, or has only the page's last line", () => onPage
   assert.ok(pages.length > 5 && pages.every((bytes) => bytes > 600), pages.join(" "));
 }));
 
-for (const sheet of ["lesson", "exercises"]) {
+for (const sheet of ["lesson", "exercises", "answers"]) {
   test(`the sheet of ${sheet} is one page of words alone, from a dark screen, too`, () => onPage("#predict=0", async (page) => {
     await page.waitForSelector("#impact-table tbody tr");
     await page.click(`#${sheet}-print`);
@@ -168,6 +177,23 @@ for (const sheet of ["lesson", "exercises"]) {
     assert.deepEqual([await page.isVisible("#motion"), await page.isVisible(`#${sheet}`)], [true, false]);
   }, { ...HANDOUT, colorScheme: "dark" }));
 }
+
+test("the answers are the program's", () => onPage("#predict=0&hide=map,explain", async (page) => {
+  const rows = await page.locator("#answers tr").evaluateAll((all) => all.slice(1).map((row) => [...row.cells].map(({ textContent }) => Number(textContent.replace("°", "")))));
+  const expected = [20, 10, 5, 1].map((angle) => {
+    const [one, two] = sequence("--angle", String(angle)).impacts.map((impact) => impact.impulse_normal);
+    return [angle, Number(one.toFixed(3)), Number(two.toFixed(3)), Number((two / one).toFixed(2))];
+  });
+  assert.deepEqual(rows, expected);
+  const words = await page.textContent("#answers");
+  const blows = (...flags) => sequence(...flags).impacts.map((impact) => impact.impulse_normal.toFixed(3));
+  assert.ok(words.includes(`${blows("--angle", "58.4")[1]} N·s at 58.4° and ${blows("--angle", "58.48")[1]} N·s at 58.48°`));
+  assert.equal(blows("--angle", "58.49").length, 1);
+  const [first, second] = blows("--angle", "10", "--restitution", "0.5");
+  assert.ok(words.includes(`${(second / first).toFixed(2)}, from ${second} N·s after ${first} N·s`));
+  const phone = (angle) => blows("phone-damped", "--angle", angle);
+  assert.ok(words.includes(`at 10° the second blow is the harder one, ${phone("10")[1]} N·s after ${phone("10")[0]} N·s; at 45° it is not, ${phone("45")[1]} N·s after ${phone("45")[0]} N·s`));
+}));
 
 test("words in a picture are in the fonts of the page", () => onPage(DROP, async (page) => {
   await page.waitForSelector('tr[data-model="continuous"]');

@@ -3,7 +3,7 @@
 // life is said; no number of before a blow stands beside one of after it; and nothing gives the guess away.
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { number, onOnePage, onPage, sequence, waitForCell } from "./page_browser.mjs";
+import { LARGE, number, onOnePage, onPage, sequence, waitForCell } from "./page_browser.mjs";
 
 const NARROW = { width: 390, height: 800 };
 /** What a browser on a laptop or a projector leaves of 1280 × 720. */
@@ -96,6 +96,30 @@ test("no number of before a blow stands beside one of after it, at any time", ()
   const seen = new Set(shown.map(([title]) => title.replace(/\d+\.\d+/, "")));
   assert.ok([...seen].some((title) => /after blow 2, each/.test(title)), [...seen].join("; "));
 }));
+
+for (const viewport of [LAPTOP, LARGE]) {
+  test(`at ${viewport.width} × ${viewport.height} the question stands below the picture, over which nothing tells of time or blows, in a lecture, too`, () => onPage(
+    "#body=phone&height=1&gravity=9.81&angle=20&e=0.5&stiffness=1e8&hide=map,explain", async (page) => {
+      await page.waitForSelector("#impact-table tbody tr", { state: "attached" });
+      const nothingTells = async () => {
+        for (const part of ["#panel-strip", "#panel-table", "#caption", "#pace", "#busy"]) assert.equal(await page.isVisible(part), false, part);
+        assert.equal(await page.locator(".stage-label.blow").count(), 0);
+        const [stage, card] = await Promise.all(["#stage", "#prediction"].map((part) => page.locator(part).boundingBox()));
+        assert.ok(stage.height > 150 && card.y >= stage.y + stage.height && card.y + card.height <= viewport.height, JSON.stringify([stage, card]));
+      };
+      await nothingTells();
+      await page.click("#lecture");
+      await nothingTells();
+      assert.equal(await page.textContent("#lecture"), "End the lecture");
+      for (const guess of ["harder", "harder", "softer"]) await page.click(`button[data-guess="${guess}"]`);
+      await page.evaluate(() => document.body.classList.add("watching"));
+      assert.equal(await page.isVisible("#panel-strip"), false);
+      await page.click("#prediction-skip");
+      // Without motion the second blow is shown at once.
+      await page.waitForFunction(() => /The class: Yes · 2, About the same, No · 1\.$/.test(document.getElementById("prediction-reveal").textContent));
+      assert.equal(await page.isVisible("#panel-strip"), true);
+    }, { viewport, more: false }));
+}
 
 test("how much slower than life it is stands beside the picture, and a button plays life itself", () => onPage("#predict=0&hide=map,explain", async (page) => {
   await page.waitForSelector('tr[data-model="continuous"]');
@@ -241,11 +265,11 @@ test("on paper the picture is there, no table is cut, and no control stands ther
   await page.emulateMedia({ media: "print" });
   await page.setViewportSize({ width: 700, height: 1000 });
   for (const part of ["#panel-controls", ".transport", "#copy-link", "#force-whole"]) assert.equal(await page.isVisible(part), false, part);
-  const { width, height } = await page.locator("#stage canvas").boundingBox();
+  const { width, height } = await page.locator("canvas.paper").boundingBox();
   assert.ok(width > 300 && height > 100);
   // Light, with the colours of marks, although the screen is dark.
   const [paper, marks, drawn] = await page.evaluate(() => [getComputedStyle(document.documentElement).getPropertyValue("--paper").trim(),
-    getComputedStyle(document.querySelector(".swatch")).printColorAdjust, getComputedStyle(document.querySelector("#stage canvas")).filter]);
+    getComputedStyle(document.querySelector(".swatch")).printColorAdjust, getComputedStyle(document.querySelector("canvas.paper")).filter]);
   assert.deepEqual([paper, marks], ["#ffffff", "exact"]);
   assert.match(drawn, /invert/);
   for (const table of await page.locator(".scroll").all()) {

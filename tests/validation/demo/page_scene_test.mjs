@@ -2,7 +2,7 @@
 // Scene files on the page of `clatter demo`: opened, dropped, pasted and given back, all as the program has them.
 import assert from "node:assert/strict";
 import { spawnSync } from "node:child_process";
-import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { existsSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import path from "node:path";
 import { after, test } from "node:test";
@@ -119,6 +119,43 @@ test("what the page shows of its own can be downloaded, and both models read it"
     const forces = printed("simulate", file).impacts.map((i) => i.peak_force);
     close(await column(page, "Peak force", "continuous"), forces, 1e-3);
   }));
+
+/** Every way in which a drop's motion is given: what the page draws, and what it does not. */
+const SHOWN_MOTIONS = ["--angle 10 --speed 2", "--angle 10 --height 1", "--angle 20 --clearance 1", "phone-damped --clearance 1", "--angle 10 --velocity 0.2,0,-2",
+  "--angle 10 --speed 2 --tangential-velocity -0.5", "--angle 10 --clearance 0.5 --tangential-velocity -0.5", "--angle 10 --speed 1 --spin 2",
+  "--angle 10 --speed 1 --angular-velocity 0,2,0"];
+const REFUSED_MOTIONS = ["--angle 10 --release-height 1 --release-spin 2", "--release-angle 10 --release-clearance 1", "--topple 0.1",
+  "--angle 10 --incline 5", "phone-damped --start rest"];
+const exported = path.join(scratch, "motion.html");
+const demo = (flags) => spawnSync(program, ["demo", ...flags, "--export", exported], { encoding: "utf8" });
+
+test("a motion that the page does not draw is refused before a page is written", () => {
+  for (const words of REFUSED_MOTIONS) {
+    const { status, stderr } = demo(words.split(" "));
+    assert.deepEqual([status, existsSync(exported)], [2, false], words);
+    assert.match(stderr, /^clatter: (drop|world)\.[a-z._]+: must be left out; [^\n]*\n$/, words);
+  }
+});
+
+test("of every other motion the page shows the impacts of `clatter sequence`", async () => {
+  for (const words of SHOWN_MOTIONS) {
+    const flags = words.split(" ");
+    assert.equal(demo(flags).stderr, "", words);
+    const [, written] = /name="clatter-scene" content="([^"]*)"/.exec(readFileSync(exported, "utf8"));
+    await onPage(`#${written.replaceAll("&amp;", "&")}&predict=0&hide=map,explain`, async (page) => {
+      const { impacts } = printed("sequence", ...flags);
+      await waitForCell(page, "Impulse", 1, impacts[1].impulse_normal);
+      close(await column(page, "Impulse"), impacts.map((i) => i.impulse_normal), SHOWN);
+      assert.equal(await page.isVisible("#error"), false, words);
+    });
+  }
+});
+
+test("what no control is to blame for is said where one looks", () => onPage("#given=1&angle=10&clearance=1&topple=0.1&body=rod", async (page) => {
+  await page.waitForSelector("#error:visible");
+  const { y, height } = await page.locator("#error").boundingBox();
+  assert.ok(y >= 0 && y + height < (await page.locator("#stage").boundingBox()).y, String(y));
+}, { more: false }));
 
 test("keys of a file without a control are named, go along in a link, and can be left out", () => onPage("#predict=0&hide=map,explain", async (page, context) => {
   await page.waitForSelector("#impact-table tbody tr");

@@ -97,6 +97,8 @@ for (const [browser, viewport] of [["chromium", LARGE], ["firefox", LARGE], ["ch
     assert.equal(await page.isVisible("#impact-table"), true);
     await page.click("#story-start");
     assert.equal(await page.isVisible("#story-1"), false);
+    // The reader has his own scene again.
+    assert.equal(await page.inputValue("#body"), "rod");
   }, { browser, viewport }));
 }
 

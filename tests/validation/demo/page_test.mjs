@@ -207,10 +207,8 @@ test("a link opens the same state", () => onPage(
       scrubber.value = "520";
       scrubber.dispatchEvent(new Event("input", { bubbles: true }));
     });
-    await context.grantPermissions(["clipboard-read", "clipboard-write"]);
-    await page.click("#copy-link");
-    await page.waitForFunction(() => /^Link copied: it opens this file on this computer/.test(document.getElementById("copied").textContent));
-    const link = await page.evaluate(() => navigator.clipboard.readText());
+    await page.waitForFunction((before) => location.hash !== before, await page.evaluate(() => location.hash));
+    const link = page.url();
     const shown = () => [...document.querySelectorAll("#numbers-table td, #time, #caption, #impact-table td, #explain-title")]
       .map((element) => element.textContent).concat([...document.querySelectorAll("input, select")]
         .map((input) => (input.type === "checkbox" ? input.checked : input.value)))
@@ -222,6 +220,44 @@ test("a link opens the same state", () => onPage(
     await other.waitForSelector('tr[data-model="continuous"]');
     await other.waitForFunction(hasFan);
     assert.deepEqual(await other.evaluate(shown), here);
+  }));
+
+test("a link that is copied has the scene alone: who opens it is asked before the drop", () => onPage("#predict=0&angle=15.5&impact=2&hide=map,explain", async (page, context) => {
+  await page.waitForSelector("#impact-table tbody tr");
+  await context.grantPermissions(["clipboard-read", "clipboard-write"]);
+  await page.click("#copy-link");
+  await page.waitForFunction(() => /^Link copied: it opens this file on this computer/.test(document.getElementById("copied").textContent));
+  const said = new URLSearchParams(new URL(await page.evaluate(() => navigator.clipboard.readText())).hash.slice(1));
+  assert.deepEqual(["angle", "hide", "impact", "t", "predict"].map((name) => said.get(name)), ["15.5", "map,explain", null, null, null]);
+}));
+
+test("a name in hide= or lock= that means nothing is said", async () => {
+  for (const [fragment, words] of [["hide=map,situation", /^hide=situation: must be one of story, .*controls, continuous$/], ["lock=angel,scene", /^lock=angel: must be a quantity/]]) {
+    await onPage(`#predict=0&${fragment}`, async (page) => {
+      await page.waitForSelector("#error:visible");
+      assert.match(await page.textContent("#error"), words);
+    });
+  }
+  await onPage("#predict=0&hide=story,strip,numbers,profile,table,fan,force,energy,map,race,measured,explain,controls,continuous&lock=angle,turn,scene,file,story,sound,layout,rate,slow,predict", async (page) => {
+    await page.waitForFunction(() => document.documentElement.dataset.latency !== undefined);
+    assert.equal(await page.isVisible("#error"), false);
+  });
+});
+
+test("without the continuous model the discrete one is alone, in a link, too", () => onPage("#predict=0&hide=map,explain,continuous", async (page) => {
+  await page.waitForSelector('tr[data-model="discrete"]');
+  assert.deepEqual([await page.textContent("#spinner"), await page.isVisible("#motion .legend")], ["", false]);
+  await page.check("#with-continuous");
+  await page.waitForSelector('tr[data-model="continuous"]');
+  await page.uncheck("#with-continuous");
+  await page.waitForFunction(() => !document.querySelector('tr[data-model="continuous"]') && location.hash.includes("continuous"));
+}));
+
+test("along the body the speeds are those of the corner that strikes, which comes back with e times its speed", () => onPage(
+  "#predict=0&body=phone&angle=20&height=1&gravity=9.81&e=0.5&hide=map,explain", async (page) => {
+    await page.waitForSelector("#impact-table tbody tr");
+    const [before, after] = (await page.getAttribute("#profile-picture svg", "aria-label")).match(/[−\d.]+(?= m\/s at end a)/g).map(number);
+    assert.ok(Math.abs(after + 0.5 * before) < 0.006, `${before} m/s, then ${after} m/s`);
   }));
 
 test("a link that names an impact but no time shows that impact", () => onPage("#predict=0&impact=3&hide=map", async (page) => {
@@ -280,8 +316,8 @@ test("who waits long for the continuous model can leave it, and ask for it again
     await page.waitForSelector("#leave-continuous:visible");
     await page.waitForFunction(() => document.querySelectorAll('tr[data-model="discrete"]').length === 3);
     await page.click("#leave-continuous");
-    assert.deepEqual([await page.textContent("#spinner"), await page.textContent("#leave-continuous")], ["continuous model: left out", "Compute it"]);
-    await page.click("#leave-continuous");
+    assert.deepEqual([await page.textContent("#spinner"), await page.isChecked("#with-continuous")], ["", false]);
+    await page.check("#with-continuous");
     assert.match(await page.textContent("#spinner"), /computing/);
   }));
 

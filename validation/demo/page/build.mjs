@@ -70,7 +70,7 @@ async function models() {
 
 /** A sheet as a page that is printed: headings, paragraphs, lists and tables of Markdown. */
 async function sheet(name) {
-  const text = (await readFile(path.join(here, `${name}.md`), "utf8")).replace(/\n {2,}/g, " ").replace(/&/g, "&amp;").replace(/</g, "&lt;");
+  const text = (await readFile(path.join(here, `${name}.md`), "utf8")).replace(/\n {2,}/g, " ").replace(/&/g, "&amp;").replace(/</g, "&lt;").replace(/`([^`]+)`/g, "<code>$1</code>");
   const block = (lines) => {
     const [first] = lines;
     const items = (mark) => lines.map((line) => `<li>${line.replace(mark, "")}</li>`).join("");
@@ -109,7 +109,7 @@ if (loader.includes("</script")) throw new Error("the module's text would end it
 const parts = {
   "/*STYLE*/": await style(), "/*SCRIPT*/": packed(await script()).toString("base64"), "/*MODULE*/": loader, "/*CODE*/": code,
   "<!--NOTICES-->": await notices(), "<!--STORY-->": await storyHtml(await models()), "<!--VERSION-->": version,
-  "<!--LESSON-->": await sheet("lesson"), "<!--EXERCISES-->": await sheet("exercises"), "<!--MODELS-->": modelsDigest, "<!--PAGE-->": pageDigest,
+  "<!--LESSON-->": await sheet("lesson"), "<!--EXERCISES-->": await sheet("exercises"), "<!--ANSWERS-->": await sheet("answers"), "<!--MODELS-->": modelsDigest, "<!--PAGE-->": pageDigest,
 };
 let page = template;
 for (const [mark, text] of Object.entries(parts)) page = page.replaceAll(mark, () => text);

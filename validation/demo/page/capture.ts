@@ -20,9 +20,12 @@ export class Capture {
 
   /** @param redraw draws the picture now, which a canvas keeps only until the browser has shown it */
   constructor(private readonly redraw: () => void, private readonly playFromStart: () => void) {
+    // What is drawn in space is gone before it is printed; on paper this picture stands in its place.
+    this.stage.after(this.paper);
+    this.paper.className = "paper";
+    addEventListener("beforeprint", () => this.keep());
     byId("picture").addEventListener("click", () => {
-      this.redraw();
-      this.paint();
+      this.keep();
       this.paper.toBlob((blob) => { if (blob) download("clatter.png", blob, "image/png"); });
     });
     byId("film").hidden = typeof MediaRecorder === "undefined";
@@ -36,13 +39,19 @@ export class Capture {
     this.paint();
     this.taking.add();
     // A film lasts until its last picture.
-    if (ended) setTimeout(() => { this.redraw(); this.paint(); requestAnimationFrame(() => this.stop()); }, STAYS);
+    if (ended) setTimeout(() => { this.keep(); requestAnimationFrame(() => this.stop()); }, STAYS);
+  }
+
+  /** The picture as it is now. */
+  keep(): void {
+    if (!this.stage.clientWidth) return;
+    this.redraw();
+    this.paint();
   }
 
   private toggle(kind: "film" | "gif"): void {
     if (this.taking) return this.stop();
-    this.redraw();
-    this.paint();
+    this.keep();
     this.taking = { button: byId<HTMLButtonElement>(kind), ...(kind === "gif" ? this.gif() : this.film()) };
     this.label(this.taking.button, true);
     this.playFromStart();
@@ -118,9 +127,13 @@ function write(context: CanvasRenderingContext2D, element: HTMLElement, left: nu
   context.fillStyle = backgroundColor;
   context.fillRect(x - left, y - top, width, height);
   context.font = fontOf(element);
-  context.fillStyle = color;
   const text = element.textContent ?? "";
-  context.fillText(text, x - left + (width - context.measureText(text).width) / 2, y - top + height / 2);
+  const place = [x - left + (width - context.measureText(text).width) / 2, y - top + height / 2] as const;
+  // Around it paper, as on the screen: it may stand on a body.
+  Object.assign(context, { strokeStyle: getComputedStyle(document.documentElement).getPropertyValue("--paper"), lineWidth: 4, lineJoin: "round" });
+  context.strokeText(text, ...place);
+  context.fillStyle = color;
+  context.fillText(text, ...place);
 }
 
 const WIDTH = 640; // at most [px]

@@ -3,12 +3,12 @@
 // after a blow: why the end that did not strike comes down twice as fast.
 import uPlot from "uplot";
 import type { SimulateAnswer } from "./api";
-import { isDisc, longHalf } from "./body";
+import { isDisc, longHalf, lowestPlace } from "./body";
 import { COLOURS } from "./colours";
 import { byId, make, svg } from "./dom";
 import { significant } from "./format";
-import { pointMotion, type Motion } from "./motion";
-import type { Vector } from "./rotation";
+import { pointMotion, touchRotation, type Motion } from "./motion";
+import { plus, rotateBack, type Rotation, type Vector } from "./rotation";
 
 export const FONT = "12px system-ui, sans-serif";
 
@@ -131,11 +131,13 @@ const HEIGHT = 220;
 const LEFT = 48;
 const RIGHT = 372;
 
-/** Upward velocity of the two ends, or of two opposite points of a disc's rim, at a time [m/s]. */
-function velocities(motion: Motion, time: number): [number, number] {
-  const pose = motion.pose(time);
-  const half = longHalf(motion.body);
-  const at = (side: number): number => pointMotion(motion.body, pose, half.map((part) => side * part) as Vector).velocity[2];
+/** Upward velocity at the two ends, or at two opposite sides of a disc, in line with the place that touches in this attitude [m/s]. */
+function velocities(motion: Motion, time: number, touch: Rotation): [number, number] {
+  const { body } = motion;
+  const half = longHalf(body);
+  const struck = plus(rotateBack(touch, lowestPlace(body, touch)), body.centre);
+  const at = (side: number): number =>
+    pointMotion(body, motion.pose(time), struck.map((part, i) => side * (half[i] ?? 0) || part) as Vector).velocity[2];
   return [at(-1), at(1)];
 }
 
@@ -146,7 +148,8 @@ export function showProfile(motion: Motion | null, n: number): void {
   byId("panel-profile").classList.toggle("empty", !impact);
   if (!motion || !impact) return;
   const gap = 1e-9 * Math.max(1e-6, motion.end - motion.begin);
-  const lines = { before: velocities(motion, impact.start - gap), after: velocities(motion, impact.start) };
+  const touch = touchRotation(impact);
+  const lines = { before: velocities(motion, impact.start - gap, touch), after: velocities(motion, impact.start, touch) };
   const most = Math.max(1e-12, ...Object.values(lines).flat().map(Math.abs));
   const names = isDisc(motion.body) ? ["one side", "other side"] as const : ["end a", "end b"] as const;
   const y = (speed: number): string => (HEIGHT / 2 - (speed / most) * (HEIGHT / 2 - 30)).toFixed(1);

@@ -32,10 +32,6 @@ const BLAMED: Readonly<Record<string, Quantity>> = {
   velocity: "vx", angular_velocity: "wx",
 };
 
-function blamedQuantity(name = ""): Quantity | undefined {
-  return isQuantity(name) ? name : BLAMED[name];
-}
-
 /** A quantity's value, or that which follows from another's. */
 function shownValue(parameters: Parameters, quantity: Quantity): number {
   if (quantity === "damping") return dampingOf(parameters);
@@ -152,8 +148,8 @@ export class Controls {
     else this.errors.delete(model);
     const general = new Set<string>();
     const blamed = new Map<Quantity, string>();
-    for (const { blames, message } of this.errors.values()) {
-      const quantity = blamedQuantity(blames);
+    for (const { blames = "", message } of this.errors.values()) {
+      const quantity = isQuantity(blames) ? blames : BLAMED[blames];
       if (quantity && !this.rows.get(quantity)?.box.hidden) blamed.set(quantity, message);
       else general.add(message);
     }
@@ -173,7 +169,7 @@ export class Controls {
     if (drop === "velocity") Object.assign(parameters, { vx: 0, vy: 0, vz: -firstSpeed(parameters) });
     parameters.drop = drop;
     // Nothing falls from a height without gravity.
-    if (drop === "height" && parameters.gravity === 0) parameters.gravity = 9.81;
+    if ((drop === "height" || drop === "clearance") && parameters.gravity === 0) parameters.gravity = 9.81;
     this.change();
   }
 

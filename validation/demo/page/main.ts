@@ -24,7 +24,7 @@ import { SceneFile, download, setUpSharing } from "./sharing";
 import { Strip } from "./sketch";
 import { Sound } from "./sound";
 import { Stage } from "./stage";
-import { readAddress, usualLayout, writeAddress, type State } from "./state";
+import { readAddress, unknownNames, usualLayout, writeAddress, type State } from "./state";
 import { Story } from "./story";
 import { ImpactTable, csvOf } from "./table";
 import { setUpTracks } from "./tracks";
@@ -87,7 +87,9 @@ class Page {
     },
   });
 
-  private readonly waiting = new Waiting(() => this.models.simulation.leave(), () => this.models.askContinuous(this.state.parameters));
+  /** Whether the continuous model is computed, too. */
+  private readonly both = byId<HTMLInputElement>("with-continuous");
+  private readonly waiting = new Waiting(() => this.both.click());
 
   private readonly capture = new Capture(() => this.stage.redraw(), () => { if (!this.prediction.isOpen) this.playAnew(); });
 
@@ -117,12 +119,19 @@ class Page {
     this.player.rate = state.rate;
     this.showLayout = setUpLayout(state, () => this.onTime());
     new SceneFile(state, () => this.showAnew());
-    setUpSharing(state, () => { state.time = this.player.time; }, (asks) => { if (asks) this.prediction.open(); });
+    setUpSharing(state, (asks) => { if (asks) this.prediction.open(); });
     byId("csv").addEventListener("click", () => download("impacts.csv", csvOf(this.models.impacts), "text/csv"));
     if (state.predict) this.prediction.open();
     for (const id of ["traces", "speeds"]) byId(id).addEventListener("change", () => this.draw());
     setUpPrinting(() => [state.impact, this.player.time], (n, time) => this.put(n, time));
     setUpLecture((on) => this.prediction.setVoting(on), () => this.onTime());
+    this.both.checked = !state.hide.includes("continuous");
+    this.both.addEventListener("change", () => {
+      state.hide = [...state.hide.filter((name) => name !== "continuous"), ...(this.both.checked ? [] : ["continuous"])];
+      this.update();
+    });
+    const unknown = unknownNames(state);
+    if (unknown) this.controls.setError("address", new ApiError(unknown));
     // Another link to this page, opened where it stands.
     addEventListener("hashchange", () => location.reload());
     this.controls.refresh();
@@ -139,7 +148,8 @@ class Page {
     this.showLayout();
     this.asked = performance.now();
     this.followsImpact = this.hasShown;
-    this.models.ask(parameters);
+    document.body.classList.toggle("discrete-only", !this.both.checked);
+    this.models.ask(parameters, this.both.checked);
     this.fan.update();
     const speed = firstSpeed(parameters);
     const hasMap = isThinRod(parameters) && speed > 0;
@@ -237,7 +247,7 @@ class Page {
       showEnergies(model, motion && own !== null ? motion.energies(own) : null, motion !== null && hasEnded(motion, time));
     }
     this.force.setTime(time, motions.continuous?.end ?? Infinity);
-    showPatch(this.models.motions.continuous, this.models.continuous?.history ?? null, time);
+    showPatch(motions.continuous, time);
     say("caption", impact ? impactInWords(this.models.steps, impact.n) : "Falling");
   }
 

@@ -34,7 +34,6 @@ export class AngleMap {
   private readonly box = byId("map-chart");
   private readonly note = byId("map-folds");
   private plot: uPlot | null = null;
-  private rows: AngleRow[] = [];
   private folds: Fold[] = [];
   private shown = "";
   private theta = 0;
@@ -77,7 +76,6 @@ export class AngleMap {
   }
 
   private draw(rows: AngleRow[]): void {
-    this.rows = rows;
     this.folds = foldsOf(rows);
     const data = [rows.map((r) => r.theta_deg), rows.map((r) => r.beta_deg), rows.map((r) => r.gamma_deg)] as uPlot.AlignedData;
     if (this.plot) this.plot.setData(data);
@@ -111,12 +109,8 @@ export class AngleMap {
 
   private mark(plot: uPlot): void {
     upright(plot, this.theta, COLOURS.ink, [], 1);
-    for (const curve of ["beta_deg", "gamma_deg"] as const) {
-      const value = valueAt(this.rows, curve, this.theta);
-      if (value !== null) dot(plot, this.theta, value, CURVES[curve], true);
-    }
     for (const fold of this.folds) {
-      dot(plot, fold.theta, fold.value, CURVES[fold.curve], false);
+      ring(plot, fold.theta, fold.value, CURVES[fold.curve]);
       write(plot, fold.theta, fold.value, `${fixed(fold.theta, decimalsOf(fold))}°`);
     }
   }
@@ -149,18 +143,10 @@ function merge(rows: AngleRow[], more: AngleRow[]): AngleRow[] {
   return [...all.values()].sort((a, b) => a.theta_deg - b.theta_deg);
 }
 
-function valueAt(rows: AngleRow[], curve: Curve, theta: number): number | null {
-  const above = rows.findIndex((row) => row.theta_deg >= theta);
-  const [low, high] = [rows[Math.max(0, above - 1)], rows[above]];
-  const [a, b] = [low?.[curve] ?? null, high?.[curve] ?? null];
-  if (!low || !high || a === null || b === null) return null;
-  return high === low ? b : a + ((b - a) * (theta - low.theta_deg)) / (high.theta_deg - low.theta_deg);
-}
-
-function dot(plot: uPlot, x: number, y: number, colour: string, filled: boolean): void {
+function ring(plot: uPlot, x: number, y: number, colour: string): void {
   paint(plot, colour, 2, (ctx) => {
     ctx.arc(plot.valToPos(x, "x", true), plot.valToPos(y, "y", true), 5 * devicePixelRatio, 0, 2 * Math.PI);
-    if (!filled) ctx.fillStyle = COLOURS.paper;
+    ctx.fillStyle = COLOURS.paper;
     ctx.fill();
   });
 }

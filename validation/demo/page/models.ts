@@ -26,7 +26,7 @@ export class Models {
   /** Which situation it refused last. */
   private refusedOf = "";
   private readonly sequence: Latest<SequenceAnswer, Parameters>;
-  readonly simulation: Latest<SimulateAnswer, Parameters>;
+  private readonly simulation: Latest<SimulateAnswer, Parameters>;
 
   /**
    * @param onError a model refused a situation, or (null) no longer does
@@ -46,13 +46,11 @@ export class Models {
       }, onBusy);
   }
 
-  ask(parameters: Parameters): void {
+  ask(parameters: Parameters, both: boolean): void {
     this.sequence.ask(sequenceRequest(parameters), { ...parameters });
-    this.askContinuous(parameters);
-  }
-
-  askContinuous(parameters: Parameters): void {
-    this.simulation.ask(simulateRequest(parameters), { ...parameters });
+    if (both) return this.simulation.ask(simulateRequest(parameters), { ...parameters });
+    this.simulation.leave();
+    this.continuousOf = "";
   }
 
   get impacts(): Impacts {

@@ -71,7 +71,9 @@ export function setUpLayout(state: State, onChange: () => void): () => void {
   return show;
 }
 
-const SHEETS = ["handout", "lesson", "exercises"];
+/** The touch that a handout asks about, with the body near to the ground [s]. */
+const BEFORE = -1e-4;
+const SHEETS = ["handout", "lesson", "exercises", "answers"];
 
 /**
  * All of it; or a page for a class: the drop, its blows and questions, with the picture before the drop; or a sheet of words alone.
@@ -86,7 +88,7 @@ export function setUpPrinting(moment: () => [number, number], put: (n: number, t
       document.body.classList.add(sheet);
       if (sheet === "handout") {
         before = moment();
-        put(1, -Infinity);
+        put(1, BEFORE);
       }
       print();
     });
@@ -103,6 +105,7 @@ export function setUpLecture(onVoting: (on: boolean) => void, onChange: () => vo
   const show = (on: boolean): void => {
     document.body.classList.toggle("lecture", on);
     button.setAttribute("aria-pressed", String(on));
+    button.textContent = on ? "End the lecture" : "Lecture";
     onVoting(on);
     onChange();
   };
@@ -123,28 +126,19 @@ const PATIENCE = 2000;
 export class Waiting {
   private readonly button = byId<HTMLButtonElement>("leave-continuous");
   private timer = 0;
-  private isLeft = false;
 
-  constructor(leave: () => void, compute: () => void) {
-    this.button.addEventListener("click", () => {
-      if (this.isLeft) return compute();
-      leave();
-      this.isLeft = true;
-      this.offer("Compute it", "continuous model: left out");
-    });
+  constructor(leave: () => void) {
+    this.button.addEventListener("click", leave);
   }
 
   show(busy: boolean): void {
     clearTimeout(this.timer);
-    this.isLeft = false;
     this.button.hidden = true;
     say("spinner", busy ? "continuous model: computing…" : "");
-    if (busy) this.timer = window.setTimeout(() => this.offer("Leave it", "continuous model: computing takes longer, the discrete one is shown"), PATIENCE);
-  }
-
-  private offer(act: string, words: string): void {
-    say("spinner", words);
-    this.button.hidden = false;
-    this.button.textContent = act;
+    if (!busy) return;
+    this.timer = window.setTimeout(() => {
+      say("spinner", "continuous model: computing takes longer, the discrete one is shown");
+      this.button.hidden = false;
+    }, PATIENCE);
   }
 }

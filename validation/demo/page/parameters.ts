@@ -3,7 +3,7 @@
 import { BODIES, centreHeight, uniformBody, type Body, type BodyName } from "./body";
 import { normalised, planeRotation, product, turnAbout, type Rotation, type Vector } from "./rotation";
 
-export const QUANTITIES = ["angle", "tilt", "orientation", "q0", "q1", "q2", "q3", "speed", "height", "vx", "vy", "vz",
+export const QUANTITIES = ["angle", "tilt", "orientation", "q0", "q1", "q2", "q3", "speed", "height", "clearance", "vx", "vy", "vz",
   "wx", "wy", "wz", "gravity", "e", "friction", "stiffness", "damping", "impacts",
   "mass", "length", "radius", "width", "thickness"] as const;
 export type Quantity = (typeof QUANTITIES)[number];
@@ -11,8 +11,8 @@ export type Quantity = (typeof QUANTITIES)[number];
 /** How the attitude at the first touch is given: an inclination; with a tilt before it; a box's face, edge or corner that
  *  points down; Euler parameters, body to world, scalar first. */
 export const TURNS = ["plane", "tilted", "orientation", "attitude"] as const;
-/** What is given of the motion: the speed at the first touch, the height of release, or the velocity at the touch. */
-export const DROPS = ["speed", "height", "velocity"] as const;
+/** What is given of the motion: the speed at the first touch, the height of release or that of the lowest point then, or the velocity at the touch. */
+export const DROPS = ["speed", "height", "clearance", "velocity"] as const;
 
 export interface Choices {
   body: BodyName;
@@ -34,7 +34,7 @@ export interface Parameters extends Record<Quantity, number>, Choices {
 
 export const DEFAULT_PARAMETERS: Parameters = {
   body: "rod", turn: "plane", drop: "speed", spinning: false, angle: 10, tilt: 0, orientation: 19, q0: 1, q1: 0, q2: 0, q3: 0,
-  speed: 1, height: 1, vx: 0, vy: 0, vz: -1, wx: 0, wy: 0, wz: 0, gravity: 0, e: 1, friction: 0,
+  speed: 1, height: 1, clearance: 1, vx: 0, vy: 0, vz: -1, wx: 0, wy: 0, wz: 0, gravity: 0, e: 1, friction: 0,
   stiffness: 1e10, damping: 0, follow: true, ofGround: false, impacts: 6, planar: true,
   mass: 1, length: 1, radius: 0, width: 0.07, thickness: 0.01, extra: {},
 };
@@ -60,7 +60,7 @@ export function isUsed(parameters: Parameters, quantity: Quantity): boolean {
     case "tilt": return turn === "tilted";
     case "orientation": return turn === "orientation";
     case "q0": case "q1": case "q2": case "q3": return turn === "attitude";
-    case "speed": case "height": return drop === quantity;
+    case "speed": case "height": case "clearance": return drop === quantity;
     case "vx": case "vy": case "vz": return drop === "velocity";
     case "wx": case "wy": case "wz": return parameters.spinning;
     case "mass": case "length": return body.startsWith("own");
@@ -166,7 +166,7 @@ export function firstSpeed(parameters: Parameters): number {
   if (parameters.drop === "speed") return parameters.speed;
   if (parameters.drop === "velocity") return Math.max(0, -parameters.vz);
   const body = bodyOf(parameters);
-  const fall = parameters.height - centreHeight(body, attitudeOf(parameters, body));
+  const fall = parameters.drop === "clearance" ? parameters.clearance : parameters.height - centreHeight(body, attitudeOf(parameters, body));
   return Math.sqrt(Math.max(0, 2 * parameters.gravity * fall));
 }
 

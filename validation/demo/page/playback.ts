@@ -249,6 +249,7 @@ export class Transport {
   show(time: number, progress: number, playing: boolean, slowness: number): void {
     const pace = slowness < 1.05 && slowness > 0.95 ? "as fast as it happens" : slowness > 1 ? `${significant(slowness, 2)} times slower than life` : `${significant(1 / slowness, 2)} times faster than life`;
     if (this.pace.textContent !== pace) this.pace.textContent = pace;
+    this.pace.hidden = !playing;
     this.scrubber.value = String(Math.round(progress * SCRUBBER_STEPS));
     this.scrubber.setAttribute("aria-valuetext", `${fixed(time * 1e3, 1)} ms`);
     this.time.textContent = `${fixed(time * 1e3, Math.abs(time) < 0.1 ? 2 : 1)} ms`;

@@ -19,7 +19,6 @@ export class Prediction {
   private readonly buttons = [...this.card.querySelectorAll<HTMLButtonElement>("button[data-guess]")];
   /** Of a class, hand by hand; null: one reader guesses. */
   private votes: Guess[] | null = null;
-
   private guess: Guess | null = null;
   /** A guess was made, and the second blow has not been seen yet. */
   isWaiting = false;
@@ -64,7 +63,8 @@ export class Prediction {
     const second = this.impacts[1];
     if (second ? time < second.start : !ended) return;
     this.wait(false);
-    this.reveal.textContent = this.guess ? revealed(this.guess, this.impacts) : "";
+    const votes = this.votes?.length ? ` The class: ${this.buttons.map(({ textContent }) => textContent).join(", ")}.` : "";
+    this.reveal.textContent = this.guess ? revealed(this.guess, this.impacts) + votes : "";
   }
 
   open(): void {

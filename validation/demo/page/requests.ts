@@ -86,8 +86,8 @@ function attitude({ turn, angle, tilt, orientation, q0, q1, q2, q3 }: Parameters
 }
 
 function motion(parameters: Parameters): Request["body"] {
-  const { drop: given, speed, height, vx, vy, vz, spinning, wx, wy, wz } = parameters;
-  const moved = given === "velocity" ? { velocity: [vx, vy, vz] } : given === "height" ? { height } : { speed };
+  const { drop: given, vx, vy, vz, spinning, wx, wy, wz } = parameters;
+  const moved = given === "velocity" ? { velocity: [vx, vy, vz] } : { [given]: parameters[given] };
   return spinning ? { ...moved, angular_velocity: [wx, wy, wz] } : moved;
 }
 
@@ -166,9 +166,8 @@ function takeMotion(left: Given, parameters: Parameters): void {
     parameters.spinning = true;
     parameters.wy = left.number("spin", 0);
   }
-  if (left.has("height")) parameters.drop = "height";
-  parameters.height = left.number("height", parameters.height);
-  parameters.speed = left.number("speed", parameters.speed);
+  parameters.drop = (["height", "clearance"] as const).find((name) => left.has(name)) ?? "speed";
+  for (const name of ["speed", "height", "clearance"] as const) parameters[name] = left.number(name, parameters[name]);
   if (parameters.drop === "speed" && left.has("tangential_velocity")) {
     parameters.drop = "velocity";
     parameters.vx = left.number("tangential_velocity", 0);

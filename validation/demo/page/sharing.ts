@@ -6,15 +6,18 @@ import type { Parameters } from "./parameters";
 import { fileRequest, parametersOf, type SceneArguments } from "./requests";
 import { addressOf, assignUnlocked, type State } from "./state";
 
-/** The page as it came, before anything on it was changed. */
+/** The page as it came, before anything on it was changed, and without the script that it unpacked, which would run beside that of its copy. */
+document.currentScript?.remove();
 const source = document.documentElement.outerHTML;
 
-export function setUpSharing(state: State, sync: () => void, onAskFirst: (asks: boolean) => void): void {
+/** What is not handed on: others see the drop from its beginning, and are asked first unless that is locked. */
+const OWN = ["impact", "t", "predict"] as const;
+
+export function setUpSharing(state: State, onAskFirst: (asks: boolean) => void): void {
   const button = byId<HTMLButtonElement>("copy-link");
   const done = byId("copied");
   button.addEventListener("click", () => {
-    sync();
-    const link = addressOf(state);
+    const link = addressOf(state, OWN);
     // Where a browser does not let a page write to the clipboard, the link is shown instead.
     void copyText(link).then((copied) => {
       const isLocal = location.protocol === "file:";
@@ -23,8 +26,7 @@ export function setUpSharing(state: State, sync: () => void, onAskFirst: (asks: 
     });
   });
   byId("save-page").addEventListener("click", () => {
-    sync();
-    const fragment = new URL(addressOf(state)).hash.slice(1).replace(/&/g, "&amp;").replace(/"/g, "&quot;");
+    const fragment = new URL(addressOf(state, OWN)).hash.slice(1).replace(/&/g, "&amp;").replace(/"/g, "&quot;");
     const page = source.replace(/(name="clatter-scene" content=")[^"]*/, (_all, before: string) => before + fragment);
     download("clatter.html", `<!doctype html>\n${page}\n`, "text/html");
   });

@@ -9,6 +9,18 @@ import { numberOf, parametersOf } from "./requests";
 
 export const PANELS = ["story", "strip", "numbers", "profile", "table", "fan", "force", "energy", "map", "race", "measured", "explain"] as const;
 
+/** What an address may hide, and lock beside each quantity and choice of the situation. */
+const HIDDEN: readonly string[] = [...PANELS, "controls", "continuous"];
+const LOCKED: readonly string[] = ["scene", "file", "story", "sound", "layout", "rate", "slow", "predict"];
+
+/** Names in an address that mean nothing, in words; null if there is none. */
+export function unknownNames({ hide, lock }: State): string | null {
+  const hidden = hide.filter((name) => !HIDDEN.includes(name)).map((name) => `hide=${name}: must be one of ${HIDDEN.join(", ")}`);
+  const locked = lock.filter((name) => !LOCKED.includes(name) && !(name in DEFAULT_PARAMETERS))
+    .map((name) => `lock=${name}: must be a quantity of the link, or one of ${LOCKED.join(", ")}`);
+  return [...hidden, ...locked].join("; ") || null;
+}
+
 export interface State {
   parameters: Parameters;
   /** The chosen impact, from 1. */
@@ -45,7 +57,7 @@ const VIEW = ["impact", "t", "layout", "rate", "slow", "predict", "tremor", "fan
 /** The choice without which a quantity would not be the one that counts. */
 function choiceOf(quantity: Quantity): keyof Choices | null {
   if (/^(angle|tilt|orientation|q\d)$/.test(quantity)) return "turn";
-  if (/^(speed|height|v[xyz])$/.test(quantity)) return "drop";
+  if (/^(speed|height|clearance|v[xyz])$/.test(quantity)) return "drop";
   if (/^w[xyz]$/.test(quantity)) return "spinning";
   return /^(mass|length|radius|width|thickness)$/.test(quantity) ? "body" : null;
 }
@@ -61,7 +73,7 @@ export function assignUnlocked({ parameters, lock }: State, wanted: Parameters):
   return differing;
 }
 
-function toQuery(state: State): string {
+function toQuery(state: State): URLSearchParams {
   const query = new URLSearchParams();
   const { parameters } = state;
   query.set("body", parameters.body);
@@ -85,7 +97,7 @@ function toQuery(state: State): string {
   if (state.lock.length) query.set("lock", state.lock.join(","));
   if (state.tab !== "strip") query.set("tab", state.tab);
   if (state.hide.length) query.set("hide", state.hide.join(","));
-  return query.toString().replace(/%2C/g, ",");
+  return query;
 }
 
 /** Numbers pass as they are given, even senseless ones: the program says what is allowed. */
@@ -104,7 +116,7 @@ function situationIn(query: URLSearchParams): Parameters {
 function choicesIn(query: URLSearchParams): Omit<Choices, "body"> {
   const hasAny = (...names: Quantity[]): boolean => names.some((name) => query.has(name));
   const turn = hasAny("q0", "q1", "q2", "q3") ? "attitude" : hasAny("orientation") ? "orientation" : hasAny("tilt") ? "tilted" : "plane";
-  const drop = hasAny("vx", "vy", "vz") ? "velocity" : hasAny("height") && !hasAny("speed") ? "height" : "speed";
+  const drop = hasAny("vx", "vy", "vz") ? "velocity" : (["speed", "height", "clearance"] as const).find((name) => hasAny(name)) ?? "speed";
   return {
     turn: TURNS.find((one) => one === query.get("turn")) ?? turn, drop: DROPS.find((one) => one === query.get("drop")) ?? drop,
     spinning: hasAny("wx", "wy", "wz"), follow: !query.has("damping"), ofGround: query.get("law") === "ground",
@@ -140,9 +152,12 @@ export function readAddress(): State {
   return stateOf(location.hash.slice(1) || written);
 }
 
-export function addressOf(state: State): string {
+/** @param without names that are left out, but for those that are locked */
+export function addressOf(state: State, without: readonly string[] = []): string {
   const url = new URL(location.href);
-  url.hash = toQuery(state);
+  const query = toQuery(state);
+  for (const name of without) if (!state.lock.includes(name)) query.delete(name);
+  url.hash = query.toString().replace(/%2C/g, ",");
   return url.href;
 }
 

@@ -24,6 +24,8 @@ export class Story {
   /** Of the current step; the drop that it tells of. */
   private impacts: readonly Impact[] | null = null;
   private n = 1;
+  /** What the reader had before the story. */
+  private own: State | null = null;
 
   constructor(private readonly state: State, private readonly teller: Teller) {
     this.button.addEventListener("click", () => this.tell(!document.body.classList.contains("telling")));
@@ -67,12 +69,21 @@ export class Story {
     this.watcher.disconnect();
     this.current = null;
     this.mark();
-    if (!on || this.isLocked) return;
+    if (this.isLocked) return;
+    if (on) this.own = { ...this.state, parameters: { ...this.state.parameters } };
+    else if (this.own) this.giveBack(this.own);
+    if (!on) return;
     for (const step of this.steps) {
       step.dataset["state"] ??= "asks";
       this.watcher.observe(step);
     }
     if (this.steps[0]) this.bringUp(this.steps[0]);
+  }
+
+  private giveBack({ parameters, impact, time }: State): void {
+    Object.assign(this.state.parameters, parameters);
+    Object.assign(this.state, { impact, time });
+    this.teller.onShow();
   }
 
   private arrived(seen: IntersectionObserverEntry[]): void {

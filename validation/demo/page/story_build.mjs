@@ -151,6 +151,6 @@ export async function storyHtml(ask) {
     + `<p class="verdict" role="status"></p>\n<div class="reveal">\n${drawn}\n<p>${words}</p></div>\n`
     + `<a class="show" href="#predict=0&amp;${link}">Show step ${i + 1} in the picture</a></li>`);
   return `<section id="story" aria-labelledby="story-title">\n<div class="bar"><h2 id="story-title">The story in five steps</h2>`
-    + `<p class="hint">The picture stays while you scroll; each step asks, plays, tells.</p><button type="button" id="story-start" aria-expanded="false" aria-controls="story-steps">Tell it</button></div>\n`
+    + `<p class="hint">The picture stays while you scroll; each step asks, plays, tells. It takes scenes of its own and gives yours back at its end.</p><button type="button" id="story-start" aria-expanded="false" aria-controls="story-steps">Tell it</button></div>\n`
     + `<ol id="story-steps">\n${items.join("\n")}\n</ol>\n</section>`;
 }

@@ -38,7 +38,6 @@ const DIGITS: Readonly<Record<ModelName, number>> = { discrete: 6, continuous: C
 export class ImpactTable {
   private readonly table = byId("impact-table");
   private readonly body = make("tbody");
-
   private readonly notes = byId("pairing");
   /** Of each column, whatever the model. */
   private largest: number[] = [];

@@ -66,7 +66,6 @@ export class SpaceView implements View {
   private orbit: Orbit = STRAIGHT;
   private readonly ghosts: Record<ModelName, LineSegments<BufferGeometry, LineBasicMaterial>[]> = { discrete: [], continuous: [] };
   private readonly arc = new LineSegments(new BufferGeometry(), new LineBasicMaterial({ color: COLOURS.ink, depthTest: false, transparent: true }));
-
   private readonly patch = new Mesh(new BufferGeometry(), new MeshBasicMaterial({ color: COLOURS.continuous, depthTest: false, transparent: true, opacity: 0.65, side: DoubleSide }));
 
   constructor(canvas: HTMLCanvasElement) {

@@ -14,14 +14,11 @@ const BODY_NOTES: Readonly<Partial<Record<BodyName, string>>> = {
   tube: "The tube has a thin wall; its lids have no mass.",
 };
 
-function bodyInWords(body: BodyName): string {
-  return BODY_NOTES[body] ?? "";
-}
-
 /** What is dropped, in one sentence. */
-function dropInWords({ body, angle, tilt, turn, drop, height, speed, gravity, e, friction }: Parameters): string {
+function dropInWords({ body, angle, tilt, turn, drop, height, clearance, speed, gravity, e, friction }: Parameters): string {
   const leans = turn === "plane" || turn === "tilted" ? `, inclined by ${significant(seenAngle(BODIES[body].size, angle), 4)}°${turn === "tilted" ? ` and turned by ${significant(tilt, 4)}° before` : ""}` : "";
-  const falls = drop === "height" ? `, let go ${significant(height, 4)} m above the floor` : drop === "speed" ? `, comes down at ${significant(speed, 4)} m/s` : "";
+  const above = drop === "clearance" ? `with its lowest point ${significant(clearance, 4)} m` : `${significant(height, 4)} m`;
+  const falls = drop === "height" || drop === "clearance" ? `, let go ${above} above the floor` : drop === "speed" ? `, comes down at ${significant(speed, 4)} m/s` : "";
   const floor = friction > 0 ? `, friction μ = ${significant(friction, 4)}` : "";
   return `${BODIES[body].title}${leans}${falls}. Gravity ${significant(gravity, 4)} m/s², restitution e = ${significant(e, 4)}${floor}.`;
 }
@@ -95,7 +92,7 @@ export function outcomeInWords(outcome: string): string {
 
 export function showNotes(parameters: Parameters): void {
   byId("handout-drop").textContent = dropInWords({ ...parameters, e: restitutionOf(parameters) });
-  byId("body-note").textContent = bodyInWords(parameters.body);
+  byId("body-note").textContent = BODY_NOTES[parameters.body] ?? "";
   // A scene that gives a stiffness gives the damping, too.
   const isOfPage = parameters.stiffness === DEFAULT_PARAMETERS.stiffness && parameters.follow;
   const ground = groundInWords({ ...parameters, damping: dampingOf(parameters) }, isOfPage);
