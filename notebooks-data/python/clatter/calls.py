@@ -8,7 +8,8 @@ from collections.abc import Iterable, Mapping
 from typing import Any
 
 from clatter import _clatter
-from clatter.arguments import KEYS, AnyKey, DiscreteKey, Path, Probes, Progress, Scene, Swept, SweptKey, checked, probe_texts, shown, swept_text, texts_of
+from clatter.arguments import (KEYS, AnyKey, DiscreteKey, Path, Probes, Progress, Scene, Swept, SweptKey, checked, probe_texts, shown,
+                               swept_text, texts_of)
 from clatter.arrays import numpy_for
 from clatter.errors import BadArgument, ClatterWarning, NotComputed
 from clatter.evidence import listed
@@ -177,7 +178,8 @@ def sweep(
     as much.  rows: one per "scene" or per "impact".
     random: so many scenes with values at random, which depend on seed (1).  scatter [°]: turns attitudes at random, about
     those of values or the scene's own.  columns: more of them with rows of scenes, as "hardest_impulse_normal" or
-    "impulse_normal_2".  probe and part: as for shock(), columns peak_g_NAME, delta_v_NAME, margin_NAME of each point.  errors: without them at half the cost.
+    "impulse_normal_2".  probe and part: as for shock(), columns peak_g_NAME, delta_v_NAME, margin_NAME of each point.
+    errors: without them at half the cost.
     summary: percentiles and extremes of each number, however many scenes there are, in place of their rows: a Summary; of
     listed attitudes also which is the worst, by the column rank_by.
     progress(done, of): of the scenes.

@@ -174,7 +174,7 @@ class Rows(Table):
 
     @functools.cached_property
     def _columns(self) -> dict[str, list[Any]]:
-        return {name: [value if value is None else int(value) for value in values] if name in _WHOLE or name.endswith("_impact") else values
+        return {name: [int(value) if isinstance(value, float) else value for value in values] if name in _WHOLE or name.endswith("_impact") else values
                 for name, values in super()._columns.items()}
 
     def column(self, name: str) -> Array:

@@ -43,7 +43,7 @@ REFUSED = {
     "--random 5 --set drop.angle_deg=20:10": "LOW", "--seed 5": "--random",
     "--random 5 --set drop.attitude=26": "must be uniform or one attitude with --random",
     "--random 5 --set drop.attitude=[1,0,0,0],[0,1,0,0]": "must be uniform or one attitude with --random",
-    "--random 5 --set drop.attitude=1,0,0,0": "needs a --set", "--columns impulse_norml_1": "did you mean impulse_normal?",
+    "--random 5 --set drop.attitude=1,0,0,0": "needs a --set", "--columns impulse_norml_1": "did you mean impulse_normal_1?",
     "--columns impulse_normal_5": "from 1 to 4", "--columns impulse_normal_0": "from 1 to 4", "--columns hardest,,start_1": "--columns ''",
     "--columns hardest_hardest": "--columns 'hardest_hardest'", "--columns start,start_2": "start_2: asked for twice",
     "--columns impulse_normal_error_1": "must be hardest", "--columns peak_force_1,corners_1": "--columns 'corners_1'",
