@@ -205,7 +205,7 @@ test("words in a picture are in the fonts of the page", () => onPage(DROP, async
 }, { before: `(${keepFiles})();
   globalThis.fonts = [];
   const { fillText } = CanvasRenderingContext2D.prototype;
-  CanvasRenderingContext2D.prototype.fillText = function write(...given) { if (this.canvas.isConnected === false) globalThis.fonts.push(this.font); return fillText.apply(this, given); };` }));
+  CanvasRenderingContext2D.prototype.fillText = function write(...given) { if (this.canvas.className === "paper") globalThis.fonts.push(this.font); return fillText.apply(this, given); };` }));
 
 test("the handout has the drop before it falls, and no answer; then the picture is as it was", () => onPage("", async (page) => {
   await page.waitForSelector("#impact-table tbody tr", { state: "attached" });
