@@ -63,6 +63,7 @@ def as_myst(text, name, depth=0):
     text = re.sub(r"@(?:sub)?(?:ref|page) (\w+)", r"[](\1.md)", text)
     if not re.search("^# ", text, re.M):
         text = f"# {name.replace('_', ' ').capitalize()}\n\n{text}"
+    text = text.replace("](../../validation/demo/page/", "](")
     return text.replace("](" + "../" * (depth + 1), "](" + "../" * depth).replace(".ipynb)", ".md)")
 
 
@@ -113,7 +114,8 @@ def notebook_pages(folder):
 
 def stage(program, source):
     """All pages in one folder."""
-    for path in [*PAGES.glob("*.md"), *(HERE / f"{name}.md" for name in TABLES)]:
+    sheets = (HERE.parent / "validation" / "demo" / "page").glob("*.md")
+    for path in [*PAGES.glob("*.md"), *sheets, *(HERE / f"{name}.md" for name in TABLES)]:
         (source / path.name).write_text(as_myst(path.read_text(encoding="utf-8"), path.stem), encoding="utf-8")
     shutil.copytree(PAGES / "theme", source / "theme")
     for path in PAGES.glob("*.py"):

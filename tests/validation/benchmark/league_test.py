@@ -66,7 +66,7 @@ class Starts(unittest.TestCase):
 
 class Runs(EmptyFolder):
     def cell(self, folder, script):
-        cell = matrix.planned(scripted("scripted", script), PROBLEMS["rod-10"], "default", folder)
+        cell = matrix.planned(scripted("scripted", script), PROBLEMS["rod-10-brisk"], "default", folder)
         matrix.carry_out(cell, matrix.Places(folder, folder, folder, folder))
         return cell
 
@@ -98,9 +98,9 @@ class Runs(EmptyFolder):
         told = []
         for _ in range(3):
             made = league.League(options)
-            made.result(matrix.planned(scripted("random", RANDOM), PROBLEMS["rod-10"], "default", made.places.trajectories))
+            made.result(matrix.planned(scripted("random", RANDOM), PROBLEMS["rod-10-brisk"], "default", made.places.trajectories))
             told.append(made.differ)
-        self.assertEqual(told, [[], ["random-rod-10-default"], ["random-rod-10-default"]])
+        self.assertEqual(told, [[], ["random-rod-10-brisk-default"], ["random-rod-10-brisk-default"]])
 
     def row(self, *judged):
         chosen, by_file = [], {}
