@@ -67,9 +67,7 @@ int run_score(const BenchmarkInput& input, const OutputChoice& choice) {
   bool is_met = true;
   for (const std::string& file : input.names) {
     submissions.push_back(judge_file(file, input.problem, input.columns));
-    if (requirement.is_met(submissions.back())) continue;
-    say(missed_words(submissions.back(), requirement));
-    is_met = false;
+    is_met = meets(submissions.back(), requirement) && is_met;
   }
   write_report(choice, score_report("benchmark", submissions, input.details));
   const Picture picture = score_picture(submissions);

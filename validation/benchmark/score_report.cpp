@@ -44,9 +44,11 @@ Cell step_cell(const std::optional<double>& step) { return step ? Cell(*step, 4)
 
 Cell error_cell(double error) { return std::isfinite(error) ? Cell(rounded_up(error), 2) : Cell(Value(), "?"); }
 
+std::string file_name(const Submission& one) { return std::filesystem::path(one.path).filename().string(); }
+
 Row submission_row(const Submission& one) {
   const Score& score = one.score;
-  return {Cell(one.path, std::filesystem::path(one.path).filename().string()),
+  return {Cell(one.path, file_name(one)),
           Cell(text_or_nothing(one.head.problem)),
           Cell(one.problem_version > 0 ? Value(one.problem_version) : Value()),
           Cell(text_or_nothing(one.head.engine)),
@@ -196,8 +198,8 @@ Grid files_in_lines(std::vector<Submission> submissions) {
   for (const Submission& one : submissions) {
     const Score& score = one.score;
     const std::string of = score.error() > 0 && score.order_is_right ? score.decided_by() : "";
-    lines.rows.push_back({Cell(std::filesystem::path(one.path).filename().string()), step_cell(one.head.step),
-                          error_cell(score.error()), Cell(text_or_nothing(of)), Cell(verdict_name(one.verdict)),
+    lines.rows.push_back({Cell(file_name(one)), step_cell(one.head.step), error_cell(score.error()),
+                          Cell(text_or_nothing(of)), Cell(verdict_name(one.verdict)),
                           Cell(text_or_nothing(short_reason(one)))});
   }
   return lines;
@@ -205,7 +207,7 @@ Grid files_in_lines(std::vector<Submission> submissions) {
 
 /// What is wrong with a file, and why.
 void add_details(const Submission& one, std::vector<std::string>& notes) {
-  const std::string name = std::filesystem::path(one.path).filename().string();
+  const std::string name = file_name(one);
   const bool says_why = !one.score.order_is_right || one.verdict == Verdict::incomplete;  // in a finding
   if (one.verdict != Verdict::exact && !says_why) notes.push_back(name + ": " + class_words(one));
   for (const std::string& words : cause_words(one.causes)) notes.push_back(name + ": " + words);
@@ -291,9 +293,11 @@ bool Requirement::is_met(const Submission& submission) const {
   return !error || (submission.verdict != Verdict::incomplete && submission.score.error() <= *error);
 }
 
-std::string missed_words(const Submission& submission, const Requirement& requirement) {
-  return fmt::format("{}: {}; asked for {}", submission.path, class_words(submission),
-                     requirement.verdict ? verdict_name(*requirement.verdict) : fmt::format("{}", *requirement.error));
+bool meets(const Submission& submission, const Requirement& requirement) {
+  if (requirement.is_met(submission)) return true;
+  say(fmt::format("{}: {}; asked for {}", submission.path, class_words(submission),
+                  requirement.verdict ? verdict_name(*requirement.verdict) : fmt::format("{}", *requirement.error)));
+  return false;
 }
 
 Requirement read_requirement(const std::string& name, const std::string& text) {
@@ -321,8 +325,7 @@ void add_answer(const Submission& submission, double curve, PicturePanel& panel)
   panel.plot.curves.push_back(
       {.x = "impact",
        .y = "error",
-       .legend = fmt::format("{}: {}", std::filesystem::path(submission.path).filename().string(),
-                             verdict_name(submission.verdict)) +
+       .legend = fmt::format("{}: {}", file_name(submission), verdict_name(submission.verdict)) +
                  (std::isfinite(submission.score.error()) ? " by " + submission.score.decided_by() : ""),
        .style = FigureCurve::Style::line_points,
        .where = {{"curve", curve}}});

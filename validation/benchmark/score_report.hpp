@@ -29,8 +29,8 @@ struct Requirement {
   std::optional<double> error;
   [[nodiscard]] bool is_met(const Submission& submission) const;
 };
-/// "FILE: coarse by t of impact 3, off by 0.0042; asked for good"
-[[nodiscard]] std::string missed_words(const Submission& submission, const Requirement& requirement);
+/// Whether it is met; says what misses: "FILE: coarse by t of impact 3, off by 0.0042; asked for good".
+[[nodiscard]] bool meets(const Submission& submission, const Requirement& requirement);
 /// @throws BadInput
 [[nodiscard]] Requirement read_requirement(const std::string& name, const std::string& text);
 

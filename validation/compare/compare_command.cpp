@@ -146,9 +146,7 @@ int compare_foreign(const CompareInput& input) {
   bool is_met = true;
   for (const std::string& file : input.against) {
     submissions.push_back(judge_file(file, reference, input.columns));
-    if (requirement.is_met(submissions.back())) continue;
-    say(missed_words(submissions.back(), requirement));
-    is_met = false;
+    is_met = meets(submissions.back(), requirement) && is_met;
   }
   write_report(choice, against_report(prepared(scene).scene, reference, submissions));
   return is_met ? 0 : check_failed;

@@ -437,7 +437,6 @@ std::optional<AllAttitudes> all_attitudes(const ReportInput& input, const Scene&
   all.scene.settle_restitution();
   all.name = name_of_drop(all.scene, worst.attitude, worst.down);
   all.report = plan.report();
-  all.report.grid.columns = Summary::columns();
   summary.fill(
       all.report, [&](long long index) { return plan.command_of(index); },
       [&](long long place) { return plan.attitude_name(place); });

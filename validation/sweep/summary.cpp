@@ -250,20 +250,19 @@ void Summary::add_texts(Report& report) const {
     if (words.empty() && std::ranges::find(asked_, i) != asked_.end()) words = tally_words(texts_[i]);
     if (!words.empty()) report.notes.push_back(fmt::format("{}: {}", columns_[i].name, words));
   }
-  report.notes.push_back(fmt::format("outcome: {}", tally_words(texts_[outcome_])));
 }
 
-std::optional<std::size_t> Summary::longest_tail() const {
-  std::optional<std::size_t> found;
-  double most = 1;
+Summary::Tail Summary::longest_tail() const {
+  Tail longest;
+  const std::optional<std::size_t> ranked = ranking();
   for (std::size_t i = first_; i < columns_.size(); ++i) {
     const Column& column = columns_[i];
     const bool counts = numbers_[i].histogram.count() > 0 && !column.unit.empty() && column.unit != "s";
-    if (!counts || i == ranking() || column.name.starts_with(of_landing)) continue;
+    if (!counts || i == ranked || column.name.starts_with(of_landing)) continue;
     const double times = numbers_[i].largest.value / numbers_[i].histogram.percentile(0.5).value;
-    if (std::isfinite(times) && times > most) most = times, found = i;
+    if (std::isfinite(times) && times > longest.times) longest = {i, times};
   }
-  return found;
+  return longest;
 }
 
 std::vector<std::size_t> Summary::remarked(Report& report) const {
@@ -274,8 +273,7 @@ std::vector<std::size_t> Summary::remarked(Report& report) const {
       std::ranges::copy_if(report.grid.rows, std::back_inserter(report.digest->rows), is_its);
     }
   }
-  std::string& outcome = report.notes.back();
-  std::string counts;
+  std::string outcome = fmt::format("outcome: {}", tally_words(texts_[outcome_])), counts;
   for (std::size_t i = first_; i < columns_.size(); ++i) {
     const std::map<double, long long>& tally = numbers_[i].tally;
     if (columns_[i].name == "predictable" && tally.contains(0))
@@ -283,15 +281,16 @@ std::vector<std::size_t> Summary::remarked(Report& report) const {
     if (tally.size() > 1 && (columns_[i].name == "impacts" || columns_[i].name == "hardest"))
       counts += fmt::format("{}{}: {}", counts.empty() ? "" : "; ", columns_[i].name, tally_words(tally));
   }
+  report.notes.push_back(outcome);
   if (!counts.empty()) report.notes.push_back(counts);
   std::vector<std::size_t> columns;
   if (const auto by = ranking(); by && numbers_[*by].histogram.count() > 0) columns.push_back(*by);
-  if (const auto tail = longest_tail()) {
-    const Numbers& numbers = numbers_[*tail];
-    report.notes.push_back(fmt::format(
-        "{}: the largest, {} {}, is {} times the median", columns_[*tail].name, significant(numbers.largest.value, 4),
-        columns_[*tail].unit, significant(numbers.largest.value / numbers.histogram.percentile(0.5).value, 3)));
-    columns.push_back(*tail);
+  if (const Tail tail = longest_tail(); tail.times > 1) {
+    const Column& column = columns_[tail.column];
+    report.notes.push_back(fmt::format("{}: the largest, {} {}, is {} times the median", column.name,
+                                       significant(numbers_[tail.column].largest.value, 4), column.unit,
+                                       significant(tail.times, 3)));
+    columns.push_back(tail.column);
   }
   return columns;
 }

@@ -65,6 +65,7 @@ class Summary {
   /// @param attitude  the name of a listed attitude, of its place from 0
   template <class Command, class Attitude>
   void fill(Report& report, const Command& command, const Attitude& attitude) const {
+    report.grid.columns = columns();
     for (std::size_t i = 0; i < numbers_.size(); ++i) {
       if (numbers_[i].histogram.count() > 0)
         add_number(report, i, command(numbers_[i].least.index), command(numbers_[i].largest.index));
@@ -97,9 +98,12 @@ class Summary {
   void add_texts(Report& report) const;
   /// Adds the notes on what is remarkable; returns the columns whose worst scene a reader may want to see.
   [[nodiscard]] std::vector<std::size_t> remarked(Report& report) const;
-  /// The column, but for the ranked one and times, whose largest value is the most times its median; none: no two
-  /// differ.
-  [[nodiscard]] std::optional<std::size_t> longest_tail() const;
+  struct Tail {
+    std::size_t column = 0;
+    double times = 1;  ///< its largest value over its median; 1: no two values of any column differ
+  };
+  /// The column, but for the ranked one and times, whose largest value is the most times its median.
+  [[nodiscard]] Tail longest_tail() const;
   [[nodiscard]] const char* end_of(std::size_t column) const;  ///< "least" of margins, "largest" of all else
   /// Whether one number of a column is worse than another: a margin where it is less.
   [[nodiscard]] bool is_worse(std::size_t column, double one, double other) const;

@@ -414,7 +414,6 @@ class SweepOutput {
 
   void write_report() {
     if (summary_) {
-      report_.grid.columns = Summary::columns();
       summary_->fill(
           report_, [this](long long index) { return plan_.command_of(index); },
           [this](long long place) { return plan_.attitude_name(place); });

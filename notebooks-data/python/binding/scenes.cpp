@@ -222,7 +222,6 @@ validation::Report swept(const validation::SweepPlan& plan, bool summary, bool c
     else rows += some;
   });
   if (together) {
-    report.grid.columns = validation::Summary::columns();
     together->fill(
         report, [&](long long index) { return commands ? plan.command_of(index) : ""; },
         [&](long long place) { return plan.attitude_name(place); });

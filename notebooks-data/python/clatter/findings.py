@@ -39,6 +39,7 @@ class Plan(Result[Rung]):
     one with its command."""
 
     _row_class = Rung
+    _rows_in = "rungs"
 
     def __init__(self, report: Report) -> None:
         super().__init__(report)
@@ -49,10 +50,6 @@ class Plan(Result[Rung]):
         """The rows."""
         return self.rows
 
-    def _objects(self) -> list[dict[str, Any]]:
-        rungs: list[dict[str, Any]] = self._data["rungs"]
-        return rungs
-
     def __getitem__(self, index: Any) -> Any:
         """The entry of a model, plan["discrete"], or as in any result."""
         return named_row(self, "model", index)
@@ -61,14 +58,12 @@ class Plan(Result[Rung]):
 class Tradeoff(Result[Record]):
     """What accuracy costs: `points` holds a record for each model and setting with seconds, evaluations and error."""
 
+    _rows_in = "points"
+
     @property
     def points(self) -> list[Record]:
         """The rows."""
         return self.rows
-
-    def _objects(self) -> list[dict[str, Any]]:
-        points: list[dict[str, Any]] = self._data["points"]
-        return points
 
     @property
     def front(self) -> list[Record]:
@@ -151,14 +146,12 @@ class Ranking(Table):
     """The worst of all attitudes of a drop: a row for each attitude, the worst first; `message` says it in a sentence, to_dict()
     has all that was found."""
 
+    _rows_in = "attitudes"
+
     @property
     def answer(self) -> Record:
         """The worst blow: probe, attitude, impact, its numbers, ranked_by, largest, drops, notes ..."""
         return Record(self._data["answer"])
-
-    def _objects(self) -> list[dict[str, Any]]:
-        attitudes: list[dict[str, Any]] = self._data.get("attitudes", [])
-        return attitudes
 
     @functools.cached_property
     def _columns(self) -> dict[str, list[Any]]:

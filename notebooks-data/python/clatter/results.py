@@ -106,6 +106,7 @@ class Result(Generic[Row]):
     """
 
     _row_class: type[Values] = Record
+    _rows_in = ""  # where the JSON has the rows by a name of their own
 
     def __init__(self, report: Report) -> None:
         self._report = report
@@ -121,7 +122,8 @@ class Result(Generic[Row]):
 
     def _objects(self) -> list[dict[str, Any]]:
         """The rows as JSON has them, vectors as lists."""
-        return self._report.rows()
+        objects: list[dict[str, Any]] = self._data.get(self._rows_in, []) if self._rows_in else self._report.rows()
+        return objects
 
     @functools.cached_property
     def rows(self) -> list[Row]:
@@ -252,10 +254,7 @@ class Run(Result[OneImpact]):
     """A sequence of impacts: len(run), run[0], for impact in run."""
 
     _row_class = Impact
-
-    def _objects(self) -> list[dict[str, Any]]:
-        impacts: list[dict[str, Any]] = self._data["impacts"]
-        return impacts
+    _rows_in = "impacts"
 
     @functools.cached_property
     def _columns(self) -> dict[str, list[Any]]:
@@ -436,15 +435,12 @@ class Verification(Result[Check]):
     """Checks with their verdicts; `checks` holds a record for each: id, claim, answer, number, tolerance, verdict ..."""
 
     _row_class = Check
+    _rows_in = "checks"
 
     @property
     def checks(self) -> list[Check]:
         """The rows."""
         return self.rows
-
-    def _objects(self) -> list[dict[str, Any]]:
-        checks: list[dict[str, Any]] = self._data["checks"]
-        return checks
 
     @property
     def scene(self) -> dict[str, Any]:
