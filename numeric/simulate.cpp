@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "numeric/simulate.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <span>
 #include <sstream>
 #include <stdexcept>
@@ -103,6 +105,53 @@ std::string words_for(const Simulation& run, const Request& request, const Accur
   return text.str();
 }
 
+constexpr double deep_part = 0.1;  ///< of the least extent: deeper, the body and not its skin is in the ground
+
+/// Least extent of the body along its axes and the principal axes of its inertia [m].
+double least_extent(const Body& body) {
+  const Eigen::SelfAdjointEigenSolver<Matrix3> principal(body.inertia());
+  double least = std::numeric_limits<double>::infinity();
+  for (const Matrix3& axes : {Matrix3(Matrix3::Identity()), principal.eigenvectors()}) {
+    Vector3 low = Vector3::Constant(least), high = -low;
+    for (const Vector3& vertex : body.facets().vertices) {
+      const Vector3 at = axes.transpose() * vertex;
+      low = low.cwiseMin(at);
+      high = high.cwiseMax(at);
+    }
+    least = std::min(least, (high - low).minCoeff());
+  }
+  return least;
+}
+
+/// The impacts in which the whole body sank; else the deepest one, where it is deep against the body.
+std::vector<std::string> depth_warnings(const Body& body, const Ground& ground,
+                                        const std::vector<ImpactRecord>& impacts) {
+  std::ostringstream text;
+  text.precision(3);
+  std::string sunk;
+  for (std::size_t i = 0; i < impacts.size(); ++i) {
+    if (impacts[i].submerged) sunk += (sunk.empty() ? "" : ", ") + std::to_string(i + 1);
+  }
+  const auto deepest =
+      std::ranges::max_element(impacts, {}, [](const ImpactRecord& row) { return row.value.indentation; });
+  const double depth = deepest == impacts.end() ? 0 : deepest->value.indentation;
+  const auto impact = deepest - impacts.begin() + 1;
+  if (!sunk.empty()) {
+    text << "the whole body sinks below the ground in impact " << sunk << ": a foundation below it is no model of that";
+  } else if (ground.is_pad()) {
+    if (!(depth > ground.kinks.back().depth)) return {};
+    text << "the body goes into the pad in impact " << impact << " by " << depth
+         << " m, beyond the last point of its curve, " << ground.kinks.back().depth << " m";
+  } else if (depth > 0) {
+    const double extent = least_extent(body);
+    if (!(depth > deep_part * extent)) return {};
+    text << "the body goes " << depth << " m into the ground in impact " << impact
+         << ", more than a tenth of its least extent, " << extent << " m: a "
+         << (ground.is_half_space() ? "half-space" : "bed of springs") << " is no model of that";
+  }
+  return text.view().empty() ? std::vector<std::string>{} : std::vector{text.str()};
+}
+
 /// The input has been checked: a value that leaves the domain of a formula during the run is no fault of the input.
 DropRun run_checked(const Body& body, const World& world, const MotionState& start, const Request& request,
                     const Integration& integration, const Observer& observer) {
@@ -183,6 +232,7 @@ Simulation simulate(const Body& body, const World& world, const MotionState& sta
   simulation.on_ground_from = main.on_ground_from;
   if (simulation.outcome == Outcome::at_rest) simulation.rest = rest_of(main);
   simulation.message = words_for(simulation, request, accuracy, main);
+  simulation.warnings = depth_warnings(body, world.ground, simulation.impacts);
   const bool wants_estimates = request.error_estimates && simulation.outcome != Outcome::interrupted;
   const auto last = std::ranges::find(simulation.impacts, false, &ImpactRecord::predictable);
   const std::span<const ImpactRecord> known(simulation.impacts.data(),

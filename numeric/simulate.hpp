@@ -28,6 +28,7 @@ struct Simulation {
   std::vector<ImpactRecord> impacts;
   Outcome outcome = Outcome::no_further_impact;
   std::string message;                                ///< the outcome in words, with numbers
+  std::vector<std::string> warnings;                  ///< of impacts so deep that the ground is no model of them
   Method method = Method::rk8pd;                      ///< that was used
   double tolerance = 0;                               ///< relative, per step; 0 for a fixed step
   double step = 0;                                    ///< fixed step [s]; 0 for an adaptive method

@@ -2,6 +2,7 @@
 #include "analytic/law/impact_law.hpp"
 
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 #include "analytic/base/errors.hpp"
@@ -26,6 +27,10 @@ void ImpactLaw::validate() const {
   }
   if (law == RestitutionLaw::viscoelastic && restitution != 1) {
     refuse("restitution", restitution, "1 for the viscoelastic law");
+  }
+  const double square = ratio_direction.squaredNorm();
+  if (!(std::fabs(square - 1) <= 16 * std::numeric_limits<double>::epsilon())) {
+    refuse("length of the impulse ratio's direction", std::sqrt(square), "1");
   }
 }
 

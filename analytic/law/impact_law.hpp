@@ -2,6 +2,8 @@
 // The laws of an impact: restitution, and friction along the ground.
 #pragma once
 
+#include <Eigen/Core>
+
 namespace clatter::analytic {
 
 /// Which quantity the coefficient of restitution e relates after the end of compression.
@@ -37,6 +39,9 @@ struct ImpactLaw {
   FrictionKind friction = FrictionKind::none;
   double friction_value = 0;         ///< μ_i (any finite value) or μ >= 0
   double damping_per_stiffness = 0;  ///< τ = c_G/k_G >= 0 of the viscoelastic law [s/m]
+  /// In space, the unit horizontal direction in which P_t of FrictionKind::impulse_ratio acts: P_t = μ_i P_n ·
+  /// direction; in the plane it is x.
+  Eigen::Vector2d ratio_direction = Eigen::Vector2d::UnitX();
 
   /// Whether friction lies in a cone about the normal, as Coulomb's and Moreau's does.
   [[nodiscard]] bool has_cone() const { return friction == FrictionKind::coulomb || friction == FrictionKind::moreau; }

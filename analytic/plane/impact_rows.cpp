@@ -103,6 +103,8 @@ void Units::to_si(Sequence& sequence) const {
 
 void Drop::validate() const {
   law.validate();
+  require(law.ratio_direction == Eigen::Vector2d::UnitX(), "impulse ratio's direction along x", law.ratio_direction.x(),
+          "1 in the plane");
   require(std::fabs(inclination.radians) <= pi, "inclination", inclination.degrees, "from -180 to 180 degrees");
   require(gravity >= 0 && std::isfinite(gravity), "gravity", gravity, "at least 0 and finite");
   require(std::isfinite(gravity_along), "gravity along the ground", gravity_along, "finite");

@@ -92,7 +92,7 @@ BENCHMARK(fold_angle);
 void corner_in_space(benchmark::State& state, double most_friction) {
   clatter::oracle::Random random(3);
   std::vector<clatter::oracle::Collision> collisions;
-  std::vector<space::Law> laws;
+  std::vector<ImpactLaw> laws;
   for (int i = 0; i < 1024; ++i) {
     collisions.push_back(clatter::oracle::random_collision(random));
     laws.push_back(clatter::oracle::random_law(random, most_friction));
@@ -117,10 +117,10 @@ space::Drop phone_corner(double friction) {
   drop.angular_velocity = {2, 3, -1};
   drop.gravity = 9.81;
   if (friction > 0) {
-    drop.law.law = {.restitution = 0.8,
-                    .law = RestitutionLaw::stronge,
-                    .friction = FrictionKind::coulomb,
-                    .friction_value = friction};
+    drop.law = {.restitution = 0.8,
+                .law = RestitutionLaw::stronge,
+                .friction = FrictionKind::coulomb,
+                .friction_value = friction};
   }
   return drop;
 }
@@ -157,7 +157,7 @@ space::Drop level(const space::Body& body, double friction, double restitution =
   space::Drop drop;
   drop.body = body;
   drop.velocity = {0, 0, -1};
-  drop.law.law = {.restitution = restitution, .friction = FrictionKind::coulomb, .friction_value = friction};
+  drop.law = {.restitution = restitution, .friction = FrictionKind::coulomb, .friction_value = friction};
   return drop;
 }
 space::Body phone() { return space::box(0.18, {.size = {0.14, 0.07, 0.008}}); }

@@ -146,8 +146,8 @@ class ImpactCauses {
 
   /// Slow contacts that do not rebound, where faster ones follow the law.
   void add_threshold() {
-    if (!(law_.law.law.restitution > 0.05) || broken_.size() == impacts_.size()) return;
-    const Change change = [](Reference&, DeclaredLaw& law, double e) { law.law.law.restitution = e; };
+    if (!(law_.law.restitution > 0.05) || broken_.size() == impacts_.size()) return;
+    const Change change = [](Reference&, DeclaredLaw& law, double e) { law.law.restitution = e; };
     const double left = misfit(change, 0, broken_);
     double fastest = 0, slowest = Score::unknown;
     for (std::size_t i = 0; i < impacts_.size(); ++i) {
@@ -178,9 +178,9 @@ class ImpactCauses {
   }
 
   void add_restitution() {
-    const double asked = law_.law.law.restitution;
-    if (law_.law.law.law == analytic::RestitutionLaw::viscoelastic) return;
-    const Change change = [](Reference&, DeclaredLaw& law, double e) { law.law.law.restitution = e; };
+    const double asked = law_.law.restitution;
+    if (law_.law.law == analytic::RestitutionLaw::viscoelastic) return;
+    const Change change = [](Reference&, DeclaredLaw& law, double e) { law.law.restitution = e; };
     Fitted fit = least_of(0, 1, [&](double e) { return misfit(change, e, broken_); });
     if (const Fitted more = beyond_elastic(); more.misfit < fit.misfit) fit = more;
     // The change of e alone must be able to make the error: where the law jumps, any e beside the right one may fit.
@@ -197,22 +197,22 @@ class ImpactCauses {
       first.push_back(i);
     }
     if (first.size() < 2 || first.size() == broken_.size()) return;
-    const Change change = [](Reference&, DeclaredLaw& law, double e) { law.law.law.restitution = e; };
+    const Change change = [](Reference&, DeclaredLaw& law, double e) { law.law.restitution = e; };
     const Fitted fit = least_of(0, 1, [&](double e) { return misfit(change, e, first); });
     if (!(fit.misfit <= reference_.tolerances[1])) return;
     keep("restitution", fit,
          fmt::format("e = {} ({} is asked) explains {} impacts, before those that come in neighbouring rows,",
-                     three_digits(fit.value), shortest(law_.law.law.restitution), first.size()));
+                     three_digits(fit.value), shortest(law_.law.restitution), first.size()));
   }
 
   /// e > 1, which the law refuses: without friction the change is (1 + e)/2 times that of e = 1.
   [[nodiscard]] Fitted beyond_elastic() const {
-    if (law_.law.law.friction != analytic::FrictionKind::none && law_.law.law.friction_value != 0) return {};
+    if (law_.law.friction != analytic::FrictionKind::none && law_.law.friction_value != 0) return {};
     double mean = 0;
     for (const std::size_t i : broken_) mean += restitution_of(i) / static_cast<double>(broken_.size());
     if (!(mean > 1)) return {};
     DeclaredLaw elastic = law_;
-    elastic.law.law.restitution = 1;
+    elastic.law.restitution = 1;
     Fitted fit{mean, 0};
     for (const std::size_t i : broken_) {
       const auto& [before, after] = impacts_[i].bookings.front();
@@ -227,11 +227,11 @@ class ImpactCauses {
   }
 
   void add_friction() {
-    const bool has_friction = law_.law.law.friction == analytic::FrictionKind::coulomb;
-    const double asked = has_friction ? law_.law.law.friction_value : 0;
+    const bool has_friction = law_.law.friction == analytic::FrictionKind::coulomb;
+    const double asked = has_friction ? law_.law.friction_value : 0;
     const Change coulomb = [](Reference&, DeclaredLaw& law, double value) {
-      law.law.law.friction = analytic::FrictionKind::coulomb;
-      law.law.law.friction_value = value;
+      law.law.friction = analytic::FrictionKind::coulomb;
+      law.law.friction_value = value;
     };
     const Fitted fit = least_of(0, 2, [&](double value) { return misfit(coulomb, value, broken_); });
     const std::string words = fit.value <= 1e-6 ? "no friction" : fmt::format("friction {}", three_digits(fit.value));
@@ -241,8 +241,8 @@ class ImpactCauses {
     if (causes_.size() > before || add_friction_that_pushes(asked) || !reference_.is_planar) return;
     const Change ratio = [](Reference&, DeclaredLaw& law, double value) {
       law.is_moreau = false;
-      law.law.law.friction = analytic::FrictionKind::impulse_ratio;
-      law.law.law.friction_value = value;
+      law.law.friction = analytic::FrictionKind::impulse_ratio;
+      law.law.friction_value = value;
     };
     const Fitted as_ratio = least_of(-2, 2, [&](double value) { return misfit(ratio, value, broken_); });
     if (pushes())
@@ -258,7 +258,7 @@ class ImpactCauses {
   bool add_friction_that_pushes(double asked) {
     const Change along = [](Reference&, DeclaredLaw& law, double value) {
       law.is_moreau = true;
-      law.law.law.friction_value = -value;
+      law.law.friction_value = -value;
     };
     if (!(asked > 0) || !pushes()) return false;
     const std::size_t before = causes_.size();
@@ -314,7 +314,7 @@ class ImpactCauses {
       const auto& [before, after] = impact.bookings.front();
       const double change = std::fabs(after.velocity.z() - before.velocity.z());
       State alone = before;
-      alone.velocity.z() *= -law_.law.law.restitution;
+      alone.velocity.z() *= -law_.law.restitution;
       left = worse(left, rebound_distance(after, alone) / change);
       lever = worse(lever, impact.points.empty() ? 1 : lever_share(impact, alone));
     }
@@ -331,8 +331,8 @@ class ImpactCauses {
   [[nodiscard]] double lever_share(const FoundImpact& impact, const State& alone) const {
     const State& before = impact.bookings.front().before;
     DeclaredLaw smooth = law_;
-    smooth.law.law.friction = analytic::FrictionKind::none;
-    smooth.law.law.friction_value = 0;
+    smooth.law.friction = analytic::FrictionKind::none;
+    smooth.law.friction_value = 0;
     try {
       return rebound_distance(exact_map(reference_, smooth, before, impact.points), alone) /
              std::fabs(alone.velocity.z() - before.velocity.z());

@@ -167,11 +167,11 @@ constexpr double level_slope = 1e-6;  ///< of a rim that lies level in the rows 
 
 DeclaredLaw declared(const std::string& name, const analytic::ImpactLaw& base) {
   DeclaredLaw declared{.name = name, .law = {}};
-  declared.law.law = base;
+  declared.law = base;
   if (name == "any") return declared;
-  declared.law.law.law = name.starts_with("poisson")   ? analytic::RestitutionLaw::poisson
-                         : name.starts_with("stronge") ? analytic::RestitutionLaw::stronge
-                                                       : analytic::RestitutionLaw::newton;
+  declared.law.law = name.starts_with("poisson")   ? analytic::RestitutionLaw::poisson
+                     : name.starts_with("stronge") ? analytic::RestitutionLaw::stronge
+                                                   : analytic::RestitutionLaw::newton;
   declared.is_moreau = name.ends_with("moreau");
   return declared;
 }
@@ -492,7 +492,7 @@ Reference reference_of(const Scene& scene) {
   if (const auto* drop = std::get_if<analytic::Drop>(&reference.drop)) {
     set_planar(reference, *drop);
     touch_down(reference);
-    sequence = {.law = {.name = "any", .law = {.law = drop->law}}, .truth = planar_truth(*drop, impacts), .after = {}};
+    sequence = {.law = {.name = "any", .law = drop->law}, .truth = planar_truth(*drop, impacts), .after = {}};
   } else {
     const space::Drop& in_space = std::get<space::Drop>(reference.drop);
     set_space(reference, scene, in_space);
@@ -518,10 +518,10 @@ State exact_map(const Reference& reference, const DeclaredLaw& law, const State&
   std::vector<space::Corner> corners;
   for (const int point : points) corners.push_back(reference.corner(before.attitude, point));
   if (law.is_moreau && points.size() == 1)
-    return moreau_map(reference, law.law.law, before, arms[static_cast<std::size_t>(points.front())]);
+    return moreau_map(reference, law.law, before, arms[static_cast<std::size_t>(points.front())]);
   if (reference.is_planar && points.size() == 2) {
     const auto arm = [&](int point) { return arms[static_cast<std::size_t>(point)]; };
-    if (const auto flat = flat_map(reference, law.law.law, before, arm(points[0]), arm(points[1]))) return *flat;
+    if (const auto flat = flat_map(reference, law.law, before, arm(points[0]), arm(points[1]))) return *flat;
   }
   State after = before;
   if (points.size() == 1 && corners.front().radius == 0) {

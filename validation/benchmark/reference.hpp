@@ -65,7 +65,7 @@ struct Problem {
 /// A law of impact that a run may declare.
 struct DeclaredLaw {
   std::string name;  ///< "newton routh", …; "any" where the laws agree
-  analytic::space::Law law;
+  analytic::ImpactLaw law;
   bool is_moreau = false;  ///< Newton's e and Coulomb's cone at the end of the impact, instead of along it
 
   [[nodiscard]] bool is_named(const std::string& other) const { return name == other || name == "any"; }

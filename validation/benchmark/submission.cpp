@@ -172,11 +172,7 @@ void score_gradients(const Answer& answer, const std::vector<GradientColumn>& co
     return;
   }
   DiscreteDrop drop = reference.drop;
-  const auto set_law = [&](auto& one) {
-    if constexpr (requires { one.law.law.restitution; }) one.law.law = sequence.law.law.law;
-    else one.law = sequence.law.law.law;
-  };
-  std::visit(set_law, drop);
+  std::visit([&](auto& one) { one.law = sequence.law.law; }, drop);
   const DropGradient gradient = drop_gradient(drop, static_cast<int>(sequence.truth.size()));
   GradientJudge judge(answer, score);
   for (const GradientColumn& column : columns) judge.judge(column, wanted_of(column, gradient, sequence));

@@ -29,7 +29,7 @@ space::Sequence timed_in_space(const space::Drop& drop, const analytic::Sequence
   if (sequence.outcome == analytic::Outcome::not_computed) throw analytic::NumericalError(sequence.message);
   if (sequence.outcome == analytic::Outcome::outside_model) throw analytic::OutsideModelError(sequence.message);
   measure.outcome = outcome_name(sequence.outcome);
-  measure.evaluations = sequence.evaluations;
+  measure.evaluations = sequence.root_evaluations;
   return sequence;
 }
 
@@ -121,10 +121,10 @@ space::Drop round_drop(const space::Cylinder& shape, double elevation) {
           .velocity = {0.1, 0.05, -1},
           .angular_velocity = Vector3(0.3, 0.2, 2) / body.reach(),
           .gravity = 9.81,
-          .law = {.law = {.restitution = 0.7,
-                          .law = analytic::RestitutionLaw::stronge,
-                          .friction = analytic::FrictionKind::coulomb,
-                          .friction_value = 0.2}}};
+          .law = {.restitution = 0.7,
+                  .law = analytic::RestitutionLaw::stronge,
+                  .friction = analytic::FrictionKind::coulomb,
+                  .friction_value = 0.2}};
 }
 
 CellMeasure by_flights(const space::Drop& drop) {
@@ -138,7 +138,7 @@ CellMeasure by_flights(const space::Drop& drop) {
 CellMeasure by_geometric_series(double restitution) {
   space::Drop drop = round_drop({.length = 0.2, .radius = 1}, std::numbers::pi / 2);
   drop.angular_velocity.setZero();
-  drop.law.law = {.restitution = restitution};
+  drop.law = {.restitution = restitution};
   CellMeasure measure{.bound = ulps_of_laws * eps, .oracle = "sum of the geometric series"};
   const space::Sequence sequence = timed_in_space(drop, {.impacts = 4, .amplification = false}, measure);
   const auto e = static_cast<long double>(restitution), hop = 2 / static_cast<long double>(drop.gravity);
@@ -155,7 +155,7 @@ CellMeasure by_geometric_series(double restitution) {
 /// A tilted disc that rattles on its rim: its end, extrapolated early, against the one that many more hops give.
 CellMeasure by_more_hops(double restitution) {
   space::Drop drop = round_drop({.length = 0.2, .radius = 1}, std::numbers::pi / 2 - 0.3);
-  drop.law.law.restitution = restitution;
+  drop.law.restitution = restitution;
   CellMeasure measure{.bound = std::pow(10.0, -digits_of_end), .oracle = "the same after as many hops as doubles tell"};
   constexpr int hops = 4000;
   const auto early = timed_in_space(drop, {.impacts = hops, .digits = digits_of_end, .amplification = false}, measure);

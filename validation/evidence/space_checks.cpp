@@ -74,8 +74,7 @@ Measured rocking_block(CaseRuns&) {
     State before;
     before.angular_velocity = {0, -0.7, 0};  // about the corners at x > 0; those at x < 0 come down
     before.velocity = -before.angular_velocity.cross(Vector3(slenderness / 2, 0, -0.5));
-    Law rough;
-    rough.law = {.restitution = 0, .friction = FrictionKind::coulomb, .friction_value = 10};
+    const analytic::ImpactLaw rough{.restitution = 0, .friction = FrictionKind::coulomb, .friction_value = 10};
     const double sine = std::sin(std::atan(slenderness));
     part = strike_together(block, before, foot, rough).angular_velocity_after.y() / before.angular_velocity.y();
     worst.take(std::fabs(part - (1 - 1.5 * sine * sine)));
@@ -99,12 +98,12 @@ Drop random_drop(int index) {
   drop.velocity = Vector3(random(-1, 1), random(-1, 1), random(-3, -2));
   drop.angular_velocity = random_vector(random, 1);
   drop.gravity = random.one_in(3) ? 0 : 9.81;
-  drop.law.law = {.restitution = random(0.3, 1),
-                  .law = std::array{RestitutionLaw::newton, RestitutionLaw::poisson,
-                                    RestitutionLaw::stronge}[static_cast<std::size_t>(index % 3)]};
+  drop.law = {.restitution = random(0.3, 1),
+              .law = std::array{RestitutionLaw::newton, RestitutionLaw::poisson,
+                                RestitutionLaw::stronge}[static_cast<std::size_t>(index % 3)]};
   if (random.one_in(2)) return drop;
-  drop.law.law.friction = FrictionKind::coulomb;
-  drop.law.law.friction_value = random(0, 1.5);
+  drop.law.friction = FrictionKind::coulomb;
+  drop.law.friction_value = random(0, 1.5);
   return drop;
 }
 
@@ -207,7 +206,7 @@ Measured path_of_friction(CaseRuns&) {
     const oracle::SteppedImpact<long double> exact(
         analytic::space::Contact{
             .inverse_inertia = inverse, .velocity = velocity.value, .velocity_scale = velocity.scale},
-        drop.law.law);
+        drop.law);
     worst.take(worst_of({(impact.contact_after - exact.velocity().cast<double>()).norm() / velocity.value.norm(),
                          (impact.impulse - exact.impulse().cast<double>()).head<2>().norm() / impact.impulse.norm()}));
   }
@@ -240,7 +239,7 @@ PlanarPair planar_pair(int index) {
   drop.velocity = {planar.velocity.tangential, 0, planar.velocity.normal};
   drop.angular_velocity = {0, planar.velocity.angular, 0};
   drop.gravity = planar.gravity;
-  drop.law.law = planar.law;
+  drop.law = planar.law;
   return pair;
 }
 

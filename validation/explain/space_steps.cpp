@@ -65,7 +65,7 @@ class SpatialImpact {
   std::vector<Step> steps() {
     inertia_b_ = writer_.given({"I_b", drop_.body.inertia, "kg·m²"}, {"inertia about the centre of mass, body axes"});
     normal_ = writer_.given({"n", Vector3::UnitZ(), ""}, {"the ground's normal"});
-    write_law(writer_, scene_, drop_.law.law, given_);
+    write_law(writer_, scene_, drop_.law, given_);
     if (departure_) flight();
     else writer_.open("The first touch", {fmt::format("The body touches the ground with {}.", arrived())});
     touch();
@@ -329,14 +329,14 @@ class SpatialImpact {
     const Quantity approach = writer_.computed("v_z", "m/s", up(contact_), {"normal velocity of the corner, before"});
     std::optional<Quantity> e = given_.restitution;
     if (!e && is_straight)
-      e = write_restitution(writer_, given_, approach, analytic::restitution_at(drop_.law.law, -approach.value(0, 0)));
-    writer_.open("The impulse", {words_of(drop_.law.law.law).ends});
+      e = write_restitution(writer_, given_, approach, analytic::restitution_at(drop_.law, -approach.value(0, 0)));
+    writer_.open("The impulse", {words_of(drop_.law.law).ends});
     const Quantity z = number("P_z", struck_.impulse.z(), "N·s", row_.error.impulse);
     const Quantity p = {"P", struck_.impulse, "N·s", row_.error.impulse};
     if (given_.friction) {
       const Quantity pc = writer_.found(number("p_c", struck_.compression_impulse, "N·s"),
                                         {"normal impulse where compression ends, on the path"});
-      const bool is_poisson = drop_.law.law.law == analytic::RestitutionLaw::poisson;
+      const bool is_poisson = drop_.law.law == analytic::RestitutionLaw::poisson;
       if (is_poisson) writer_.found(z, (1 + *e) * pc, {"normal impulse where the impact ends"});
       else writer_.found(z, {"normal impulse where the impact ends, on the path"});
       impulse_ = writer_.found(p, {"impulse, its tangential part the friction summed along the path"});

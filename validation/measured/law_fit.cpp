@@ -403,11 +403,11 @@ double effective_mass(const TrackedBody& body, const State& state, int corner) {
 }
 
 State struck(const TrackedBody& body, const State& before, int corner, const FittedLaw& law) {
-  analytic::space::Law impact_law;
-  impact_law.law.restitution = law.restitution_at(law.slope == 0 ? 0 : effective_mass(body, before, corner));
-  impact_law.law.law = law.law;
-  impact_law.law.friction = analytic::FrictionKind::coulomb;
-  impact_law.law.friction_value = std::max(0.0, law.friction);
+  analytic::ImpactLaw impact_law;
+  impact_law.restitution = law.restitution_at(law.slope == 0 ? 0 : effective_mass(body, before, corner));
+  impact_law.law = law.law;
+  impact_law.friction = analytic::FrictionKind::coulomb;
+  impact_law.friction_value = std::max(0.0, law.friction);
   State after = before;
   try {
     const Vector3 place = before.attitude.conjugate() * body.arm(before.attitude, corner);

@@ -112,10 +112,10 @@ analytic::space::Sequence sequence_of(const ForecastModel& model, const TrackImp
   drop.angular_velocity = start.before.state.angular_velocity;
   drop.gravity = std::max(0.0, start.gravity);
   const double mass = model.law.slope == 0 ? 0 : effective_mass(model.body, start.before.state, start.corner);
-  drop.law.law = {.restitution = model.law.restitution_at(mass),
-                  .law = model.law.law,
-                  .friction = analytic::FrictionKind::coulomb,
-                  .friction_value = std::max(0.0, model.law.friction)};
+  drop.law = {.restitution = model.law.restitution_at(mass),
+              .law = model.law.law,
+              .friction = analytic::FrictionKind::coulomb,
+              .friction_value = std::max(0.0, model.law.friction)};
   return analytic::space::impact_sequence(drop, {.impacts = most_impacts, .digits = 3, .amplification = false});
 }
 

@@ -72,10 +72,10 @@ inline analytic::space::Drop reference_drop(const ReferenceFields& f) {
   drop.velocity = f.vector("V");
   drop.angular_velocity = f.vector("O");
   drop.gravity = f.number("gravity");
-  drop.law.law.restitution = f.number("restitution");
-  drop.law.law.law = law_named(f.text("law"));
-  drop.law.law.friction_value = f.number("friction");
-  drop.law.law.friction = drop.law.law.friction_value > 0 ? FrictionKind::coulomb : FrictionKind::none;
+  drop.law.restitution = f.number("restitution");
+  drop.law.law = law_named(f.text("law"));
+  drop.law.friction_value = f.number("friction");
+  drop.law.friction = drop.law.friction_value > 0 ? FrictionKind::coulomb : FrictionKind::none;
   return drop;
 }
 

@@ -329,7 +329,7 @@ LevelResult ModelHierarchy::run(const LevelSetting& setting, int impacts) const 
   if (setting.level == ModelLevel::discrete_in_space) {
     const analytic::space::Sequence sequence =
         impact_sequence(*space_drop_, {.impacts = impacts, .amplification = false});
-    return {motion_rows(run_of(sequence)), sequence.evaluations, sequence.message};
+    return {motion_rows(run_of(sequence)), sequence.root_evaluations, sequence.message};
   }
   const Simulation run = simulate(setting, impacts);
   return {motion_rows(run_of(run)), run.force_evaluations, std::string(outcome_name(run)) + ": " + run.message};

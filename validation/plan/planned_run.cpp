@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -337,54 +336,6 @@ void add_states(const Scene& scene, const numeric::Body& body, const numeric::Mo
   run.states.insert(run.states.end(), told.states.begin(), told.states.end());
 }
 
-/// A warning that names the impacts in which the whole body sank; empty: none.
-std::string submersion_warning(const Simulation& run) {
-  std::string impacts;
-  for (std::size_t i = 0; i < run.impacts.size(); ++i) {
-    if (run.impacts[i].submerged) impacts += (impacts.empty() ? "" : ", ") + std::to_string(i + 1);
-  }
-  if (impacts.empty()) return "";
-  return "the whole body sinks below the ground in impact " + impacts + ": a foundation below it is no model of that";
-}
-
-/// Least extent of the body along its axes and the principal axes of its inertia [m].
-double least_extent(const numeric::Body& body) {
-  const Eigen::SelfAdjointEigenSolver<numeric::Matrix3> principal(body.inertia());
-  double least = std::numeric_limits<double>::infinity();
-  for (const numeric::Matrix3& axes : {numeric::Matrix3(numeric::Matrix3::Identity()), principal.eigenvectors()}) {
-    numeric::Vector3 low = numeric::Vector3::Constant(least), high = -low;
-    for (const numeric::Vector3& vertex : body.facets().vertices) {
-      const numeric::Vector3 at = axes.transpose() * vertex;
-      low = low.cwiseMin(at);
-      high = high.cwiseMax(at);
-    }
-    least = std::min(least, (high - low).minCoeff());
-  }
-  return least;
-}
-
-constexpr double deep_part = 0.1;  ///< of the least extent: deeper, the body and not its skin is in the ground
-
-/// A warning that tells the deepest impact where it is deep against the body; empty: none is.
-std::string depth_warning(const numeric::Body& body, const Scene& scene, const Simulation& run) {
-  const auto deepest =
-      std::ranges::max_element(run.impacts, {}, [](const numeric::ImpactRecord& row) { return row.value.indentation; });
-  if (deepest == run.impacts.end()) return "";
-  const double depth = deepest->value.indentation;
-  const auto impact = deepest - run.impacts.begin() + 1;
-  if (scene.world.ground.is_pad()) {
-    const std::string words = pad_warning(scene, depth);
-    return words.empty() ? "" : fmt::format("the body goes into the pad in impact {} by {}", impact, words);
-  }
-  const double extent = least_extent(body);
-  if (!(depth > deep_part * extent)) return "";
-  return fmt::format(
-      "the body goes {} m into the ground in impact {}, more than a tenth of its least extent, {} m: a {} "
-      "is no model of that",
-      significant(depth, 3), impact, significant(extent, 3),
-      scene.world.ground.is_half_space() ? "half-space" : "bed of springs");
-}
-
 /// A warning that tells where a body that is put down at rest lies otherwise than asked; empty: it does not.
 std::string laid_warning(const Scene& scene, const numeric::MotionState& start) {
   constexpr double least = 0.5;  // [°]
@@ -426,9 +377,12 @@ PlannedRun run_to_digits(const Scene& scene, const numeric::Body& body, const nu
   const std::string out_of_plane = planar_warning(body, world, start);
   if (!out_of_plane.empty()) planned.warnings.push_back(out_of_plane);
   if (const std::string laid = laid_warning(scene, start); !laid.empty()) planned.warnings.push_back(laid);
-  const std::string sunk = submersion_warning(planned.run), deep = depth_warning(body, scene, planned.run);
-  if (!sunk.empty()) planned.warnings.push_back(sunk);
-  else if (!deep.empty()) planned.warnings.push_back(deep);
+  double depth = 0;
+  bool sinks = false;
+  for (const numeric::ImpactRecord& row : planned.run.impacts)
+    depth = std::max(depth, row.value.indentation), sinks = sinks || row.submerged;
+  for (const std::string& warning : planned.run.warnings)
+    planned.warnings.push_back(warning + (sinks ? "" : pad_remark(scene, depth)));
   return planned;
 }
 

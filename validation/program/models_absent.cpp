@@ -40,7 +40,7 @@ double Impact::restitution() const { leave(); }
 Corner touching_corner(const Body&, const Quaternion&, int) { leave(); }
 Sequence impact_sequence(const Drop&, const SequenceOptions&) { leave(); }
 std::optional<SustainedContact> contact_after(const Drop&, const Sequence&) { leave(); }
-OutcomeSet tilted_outcomes(const Body&, const State&, std::span<const Corner>, const Law&, const TiltEffort&) {
+OutcomeSet tilted_outcomes(const Body&, const State&, std::span<const Corner>, const ImpactLaw&, const TiltEffort&) {
   leave();
 }
 

@@ -159,7 +159,7 @@ space::Drop space_drop(const Scene& scene, const space::Body& body) {
                    .gravity = scene.world.pull().down,
                    .gravity_along = scene.world.pull().along,
                    .law = {}};
-  drop.law.law = discrete_law(scene).law;
+  drop.law = discrete_law(scene).law;
   if (scene.height) drop.velocity.z() = -scene.fallen_speed(touch_height(drop.body, drop.attitude));
   if (scene.is_released()) drop.release_height = scene.release_height(touch_height(drop.body, drop.attitude));
   return drop;
@@ -370,7 +370,7 @@ space::Body space_body(const numeric::Body& body) {
 
 const analytic::ImpactLaw& law_of(const DiscreteDrop& drop) {
   if (const auto* const planar = std::get_if<analytic::Drop>(&drop)) return planar->law;
-  return std::get<space::Drop>(drop).law.law;
+  return std::get<space::Drop>(drop).law;
 }
 
 double first_approach_speed(const DiscreteDrop& drop) {

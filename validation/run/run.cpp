@@ -205,6 +205,7 @@ Run begun_run(RunModel model, const auto& sequence, long evaluations) {
           .leaves_model = sequence.outcome == analytic::Outcome::outside_model,
           .moves_on = sequence.moves_on,
           .relative_error = relative_error(sequence),
+          .total_normal_impulse = Estimated{sequence.total_normal_impulse, sequence.total_normal_impulse_error},
           .evaluations = evaluations};
   if (sequence.outcome == analytic::Outcome::no_further_impact) run.near_miss = sequence.near_miss;
   if (sequence.tail) run.tail = tail_of(*sequence.tail);
@@ -440,7 +441,6 @@ Impact impact_of(const numeric::ImpactRecord& row, int n) {
 
 Run run_of(const analytic::Sequence& sequence, double drop_deg) {
   Run run = begun_run(RunModel::plane, sequence, sequence.root_evaluations);
-  run.total_normal_impulse = Estimated{sequence.total_normal_impulse, sequence.total_normal_impulse_error};
   if (sequence.slide) run.end_motion = end_motion(*sequence.slide);
   for (const analytic::ImpactRow& row : sequence.rows)
     run.impacts.push_back(impact_of(row, static_cast<int>(run.impacts.size()) + 1, drop_deg));
@@ -448,7 +448,7 @@ Run run_of(const analytic::Sequence& sequence, double drop_deg) {
 }
 
 Run run_of(const space::Sequence& sequence) {
-  Run run = begun_run(RunModel::space, sequence, sequence.evaluations);
+  Run run = begun_run(RunModel::space, sequence, sequence.root_evaluations);
   if (sequence.last_motion) run.end_motion = end_motion(*sequence.last_motion);
   for (const space::StateAt& state : sequence.states) run.states.push_back(motion_at(state));
   for (const space::ImpactRow& row : sequence.rows)
@@ -456,10 +456,6 @@ Run run_of(const space::Sequence& sequence) {
   if (!sequence.rows.empty() && sequence.rows.front().flight.time > 0) {
     const space::ImpactRow& first = sequence.rows.front();
     run.first_touch = first_touch({first.flight.time, sequence.first_flight_error}, first.before);
-  }
-  for (const space::SustainedContact& contact : sequence.contacts) {
-    run.impulse_between += {contact.normal_impulse, contact.normal_impulse_error};
-    if (contact.tail) run.impulse_between += {contact.tail->normal_impulse, contact.tail->normal_impulse_error};
   }
   return run;
 }
@@ -525,8 +521,6 @@ Totals totals(const Run& run) {
     const Estimated depth{value.indentation, error.indentation};
     sums.largest_depth = is_first ? depth : larger(sums.largest_depth, depth);
   }
-  sums.normal_impulse += run.impulse_between;
-  if (run.tail) sums.normal_impulse += {run.tail->sum.value.impulse[2], run.tail->sum.error.impulse[2]};
   if (run.total_normal_impulse) sums.normal_impulse = *run.total_normal_impulse;
   if (sums.predictable) return sums;
   for (Estimated* sum :

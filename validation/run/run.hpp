@@ -116,7 +116,6 @@ struct Run {
   std::optional<RunTail> tail{};
   std::optional<EndMotion> end_motion{};
   std::vector<MotionAt> states{};  ///< at the times that were asked for
-  Estimated impulse_between{};     ///< normal impulse of hops and contacts that last, between impacts [N·s]
   const char* outcome = "";
   std::string message{};  ///< the outcome in words
   std::vector<std::string> warnings{};

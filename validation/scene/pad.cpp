@@ -186,13 +186,11 @@ std::string pad_doubts(const Scene& scene) {
                      shortest(*scene.pad.thickness), significant(extent, 3));
 }
 
-std::string pad_warning(const Scene& scene, double depth) {
-  const numeric::Ground& ground = scene.world.ground;
+std::string pad_remark(const Scene& scene, double depth) {
   const PadScene& pad = scene.pad;
-  if (!ground.is_pad() || !(depth > ground.kinks.back().depth)) return "";
+  if (!scene.world.ground.is_pad()) return "";
   const bool is_through = pad.thickness && depth >= *pad.thickness;
-  return fmt::format("{} m, beyond the last point of its curve, {} m{}: {}", significant(depth, 3),
-                     significant(ground.kinks.back().depth, 3),
+  return fmt::format("{}: {}",
                      is_through ? fmt::format(", and further than it is thick, {} m", shortest(*pad.thickness)) : "",
                      scene.half_space.floor ? "peaks are those of its rest on ground.floor"
                      : pad.under            ? "peaks are those of ground.under"

@@ -34,7 +34,7 @@ void settle_pad(const PadScene& pad, const HalfSpaceScene& floor, numeric::Groun
 /// A question to whoever gave a pad that is thicker than the body is large, "mm typed?"; empty: none.
 [[nodiscard]] std::string pad_doubts(const Scene& scene);
 
-/// What to say of a pad into which a body went so deep [m]; empty: nothing, or the scene has none.
-[[nodiscard]] std::string pad_warning(const Scene& scene, double depth);
+/// What to add of the pad to the warning that a body went so deep [m], beyond its curve; empty: the scene has none.
+[[nodiscard]] std::string pad_remark(const Scene& scene, double depth);
 
 }  // namespace clatter::validation

@@ -260,7 +260,7 @@ void add_outcomes(const Scene& scene, const space::ImpactRow& row, const space::
 
 /// How friction acts on corners that stay on the ground.
 const char* contact_mode(const space::Drop& drop, const space::SustainedContact& contact) {
-  const analytic::ImpactLaw& law = drop.law.law;
+  const analytic::ImpactLaw& law = drop.law;
   if (law.friction == analytic::FrictionKind::none || law.friction_value == 0) return "frictionless";
   return contact.slips && contact.sticks ? "slip-stick" : contact.slips ? "slip" : "stick";
 }

@@ -19,21 +19,6 @@ enum class PathKind {
   slip_reslip,   ///< slip stops, then goes on along the one outgoing invariant direction
 };
 
-/// An impulse law in space: as in the plane, and the direction of a given impulse ratio.
-struct Law {
-  ImpactLaw law;
-  /// Unit horizontal direction in which P_t of FrictionKind::impulse_ratio acts: P_t = μ_i P_n · direction.
-  Vector2 ratio_direction = Vector2::UnitX();
-
-  /// The law of a drop in the plane: drop.law = {.restitution = 0.8}.
-  Law& operator=(const ImpactLaw& other) {
-    law = other;
-    return *this;
-  }
-  /// @throws std::domain_error naming the field, its value and what is allowed.
-  void validate() const;
-};
-
 /// A corner as its impact sees it.
 struct Contact {
   Matrix3 inverse_inertia = Matrix3::Identity();  ///< W, symmetric positive definite [1/kg]

@@ -24,12 +24,12 @@ ContactVelocity contact_velocity(const State& state, const Vector3& place) {
           .scale = state.velocity.norm() + state.angular_velocity.norm() * arm.norm()};
 }
 
-Impact strike(const Body& body, const State& before, const Vector3& place, const Law& law) {
+Impact strike(const Body& body, const State& before, const Vector3& place, const ImpactLaw& law) {
   return strike(body, before, contact_velocity(before, place), place, law);
 }
 
 Impact strike(const Body& body, const State& before, const ContactVelocity& velocity, const Vector3& place,
-              const Law& law, ImpulseSlopes* slopes) {
+              const ImpactLaw& law, ImpulseSlopes* slopes) {
   law.validate();
   const Vector3& v = velocity.value;
   Impact impact;

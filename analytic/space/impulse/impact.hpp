@@ -46,10 +46,10 @@ struct ContactVelocity {
 /// Accuracy: 1e-13 of |P|, times what rounding of the state does.
 /// @throws OutsideModelError where the law admits no bounded impulse; NumericalError where a number could not be had;
 ///         std::domain_error as ImpactLaw::validate().
-[[nodiscard]] Impact strike(const Body& body, const State& before, const Vector3& place, const Law& law);
+[[nodiscard]] Impact strike(const Body& body, const State& before, const Vector3& place, const ImpactLaw& law);
 /// The same with a velocity of the corner that is known better than V + ω × r is.
 /// @param slopes  of the impulse, if asked for
 [[nodiscard]] Impact strike(const Body& body, const State& before, const ContactVelocity& velocity,
-                            const Vector3& place, const Law& law, ImpulseSlopes* slopes = nullptr);
+                            const Vector3& place, const ImpactLaw& law, ImpulseSlopes* slopes = nullptr);
 
 }  // namespace clatter::analytic::space

@@ -45,13 +45,11 @@ struct SlipRates {
 template <class Number>
 class CoulombPath {
  public:
-  CoulombPath(const Contact& contact, const Law& law, NormalCoupling coupling, const ImpulseSlopes* slopes)
-      : contact_(contact), speed_(-contact.velocity.z()),
-        field_(contact.inverse_inertia, law.law.friction_value, coupling),
+  CoulombPath(const Contact& contact, const ImpactLaw& law, NormalCoupling coupling, const ImpulseSlopes* slopes)
+      : contact_(contact), speed_(-contact.velocity.z()), field_(contact.inverse_inertia, law.friction_value, coupling),
         velocity_(field_.to_frame(contact.velocity.head<2>() / speed_)),
-        progress_(
-            {.law = law.law.law, .restitution = law.law.restitution, .damping = law.law.damping_per_stiffness * speed_},
-            initial_slip(), approach()) {
+        progress_({.law = law.law, .restitution = law.restitution, .damping = law.damping_per_stiffness * speed_},
+                  initial_slip(), approach()) {
     if constexpr (follows_slopes) slopes_.emplace(field_, contact.inverse_inertia, slopes->turns);
   }
 
@@ -362,7 +360,8 @@ void CoulombPath<Number>::derive(const ContactImpulse& result, ImpulseSlopes& sl
   slopes.of_turns.col(2) = up.cross(result.impulse) - slopes.of_velocity * up.cross(contact_.velocity);
 }
 
-ContactImpulse coulomb_impulse(const Contact& contact, const Law& law, NormalCoupling coupling, ImpulseSlopes* slopes) {
+ContactImpulse coulomb_impulse(const Contact& contact, const ImpactLaw& law, NormalCoupling coupling,
+                               ImpulseSlopes* slopes) {
   if (slopes == nullptr) return CoulombPath<double>(contact, law, coupling, nullptr).follow();
   CoulombPath<PathDual> path(contact, law, coupling, slopes);
   const ContactImpulse result = path.follow();
@@ -379,14 +378,15 @@ ContactImpulse coulomb_impulse(const Contact& contact, const Law& law, NormalCou
 }
 
 /// Eq. 8 in space, and without friction: P_t = μ_i P_n d, P_n = −(1+e) v_n/(c + μ_i b·d).
-ContactImpulse ratio_impulse(const Contact& contact, const Law& law, NormalCoupling coupling, ImpulseSlopes* slopes) {
+ContactImpulse ratio_impulse(const Contact& contact, const ImpactLaw& law, NormalCoupling coupling,
+                             ImpulseSlopes* slopes) {
   const Matrix3& w = contact.inverse_inertia;
-  const double ratio = law.law.friction == FrictionKind::impulse_ratio ? law.law.friction_value : 0;
+  const double ratio = law.friction == FrictionKind::impulse_ratio ? law.friction_value : 0;
   const double speed = -contact.velocity.z();
   const Vector3 direction(ratio * law.ratio_direction.x(), ratio * law.ratio_direction.y(), 1);
   const double rate = coupling == NormalCoupling::none ? w(2, 2) : w.row(2).dot(direction);
   if (!(rate > 0)) jam(ratio);
-  const double e = restitution_at(law.law, speed);
+  const double e = restitution_at(law, speed);
   ContactImpulse result;
   result.impulse = (1 + e) * speed / rate * direction;
   result.velocity_after = contact.velocity + w * result.impulse;
@@ -396,7 +396,7 @@ ContactImpulse ratio_impulse(const Contact& contact, const Law& law, NormalCoupl
   result.least_slip = std::fmin(contact.velocity.head<2>().norm(), result.velocity_after.head<2>().norm());
   result.path = ratio == 0 ? PathKind::frictionless : PathKind::slip;
   if (slopes == nullptr) return result;
-  const detail::Dual<1> gain = 1 + restitution_at(law.law, detail::Dual<1>(speed, {1}));
+  const detail::Dual<1> gain = 1 + restitution_at(law, detail::Dual<1>(speed, {1}));
   slopes->of_velocity = -(gain.value + speed * gain.slope[0]) / rate * direction * Vector3::UnitZ().transpose();
   for (std::size_t k = 0; k < 3; ++k) {
     slopes->of_turns.col(static_cast<int>(k)) = -slopes->turns[k].row(2).dot(direction) / rate * result.impulse;
@@ -404,19 +404,20 @@ ContactImpulse ratio_impulse(const Contact& contact, const Law& law, NormalCoupl
   return result;
 }
 
-ContactImpulse end_impulse(const Contact& contact, const Law& law, NormalCoupling coupling, ImpulseSlopes* slopes) {
-  const MoreauContact at(contact, coupling == NormalCoupling::none, law.law.friction_value, law.law.restitution);
+ContactImpulse end_impulse(const Contact& contact, const ImpactLaw& law, NormalCoupling coupling,
+                           ImpulseSlopes* slopes) {
+  const MoreauContact at(contact, coupling == NormalCoupling::none, law.friction_value, law.restitution);
   const ContactImpulse result = at.impulse();
   if (slopes != nullptr) at.derive(result, *slopes);
   return result;
 }
 
-ContactImpulse impulse(const Contact& contact, const Law& law, NormalCoupling coupling, ImpulseSlopes* slopes) {
+ContactImpulse impulse(const Contact& contact, const ImpactLaw& law, NormalCoupling coupling, ImpulseSlopes* slopes) {
   if (slopes != nullptr) slopes->of_turns = slopes->of_velocity = Matrix3::Constant(none);
-  const bool at_end = law.law.friction == FrictionKind::moreau && law.law.friction_value > 0;
-  const ContactImpulse result = at_end           ? end_impulse(contact, law, coupling, slopes)
-                                : law.law.rubs() ? coulomb_impulse(contact, law, coupling, slopes)
-                                                 : ratio_impulse(contact, law, coupling, slopes);
+  const bool at_end = law.friction == FrictionKind::moreau && law.friction_value > 0;
+  const ContactImpulse result = at_end       ? end_impulse(contact, law, coupling, slopes)
+                                : law.rubs() ? coulomb_impulse(contact, law, coupling, slopes)
+                                             : ratio_impulse(contact, law, coupling, slopes);
   if (!result.impulse.allFinite() || !result.velocity_after.allFinite()) {
     throw NumericalError("the impulse of a corner overflows");
   }
@@ -425,20 +426,19 @@ ContactImpulse impulse(const Contact& contact, const Law& law, NormalCoupling co
 
 }  // namespace
 
-ContactImpulse contact_impulse(const Contact& contact, const Law& law, ImpulseSlopes* slopes) {
+ContactImpulse contact_impulse(const Contact& contact, const ImpactLaw& law, ImpulseSlopes* slopes) {
   return impulse(contact, law, NormalCoupling::of_friction, slopes);
 }
 
-ContactImpulse face_impulse(const FaceContact& face, const Law& law) {
+ContactImpulse face_impulse(const FaceContact& face, const ImpactLaw& law) {
   Contact contact{.inverse_inertia = Matrix3::Identity() / face.mass,
                   .velocity = {face.slip.x(), face.slip.y(), -face.approach_speed},
                   .velocity_scale = face.velocity_scale};
   contact.inverse_inertia.block<2, 1>(0, 2) = face.drift;
-  Law whole = law;
-  whole.law = {.restitution = face.restitution,
-               .law = RestitutionLaw::newton,
-               .friction = law.law.friction,
-               .friction_value = law.law.friction_value};
+  const ImpactLaw whole{.restitution = face.restitution,
+                        .friction = law.friction,
+                        .friction_value = law.friction_value,
+                        .ratio_direction = law.ratio_direction};
   return impulse(contact, whole, NormalCoupling::none, nullptr);
 }
 

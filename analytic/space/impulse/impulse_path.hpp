@@ -19,7 +19,8 @@ namespace clatter::analytic::space {
 /// Accuracy: 1e-13 of |P|, times what rounding of W and v does; 1e-10 of their size for the slopes.
 /// @throws OutsideModelError for an impulse ratio at or beyond jamming, c + μ_i b·d <= 0; NumericalError if a number
 ///         overflows or a path cannot be resolved.
-[[nodiscard]] ContactImpulse contact_impulse(const Contact& contact, const Law& law, ImpulseSlopes* slopes = nullptr);
+[[nodiscard]] ContactImpulse contact_impulse(const Contact& contact, const ImpactLaw& law,
+                                             ImpulseSlopes* slopes = nullptr);
 
 /// A face that lands and rebounds as a whole: its normal motion goes over into −e times itself in step with the normal
 /// impulse p, whatever friction does; where all of the face slips in one direction,
@@ -35,6 +36,6 @@ struct FaceContact {
 };
 /// P of the whole face; the restitution laws agree, since slip does not act on the normal motion.
 /// Accuracy, errors: as contact_impulse().
-[[nodiscard]] ContactImpulse face_impulse(const FaceContact& face, const Law& law);
+[[nodiscard]] ContactImpulse face_impulse(const FaceContact& face, const ImpactLaw& law);
 
 }  // namespace clatter::analytic::space

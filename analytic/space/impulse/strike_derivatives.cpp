@@ -61,7 +61,7 @@ StrikeDerivatives strike_derivatives(const Body& body, const State& before, cons
 }
 
 Impact strike(const Body& body, const State& before, const ContactVelocity& velocity, const Corner& corner,
-              const Law& law, StrikeDerivatives& derivatives) {
+              const ImpactLaw& law, StrikeDerivatives& derivatives) {
   const Matrix3 axes = before.attitude.toRotationMatrix();
   const Matrix3 inverse_inertia = axes * body.inertia.inverse() * axes.transpose();
   const Vector3 arm = axes * corner.place;

@@ -28,6 +28,6 @@ using StrikeDerivatives = Eigen::Matrix<double, 9, 9>;
 /// Accuracy: 1e-10 of the size of each block, times what rounding does where slip nearly stops or starts.
 /// Errors: as strike().
 [[nodiscard]] Impact strike(const Body& body, const State& before, const ContactVelocity& velocity,
-                            const Corner& corner, const Law& law, StrikeDerivatives& derivatives);
+                            const Corner& corner, const ImpactLaw& law, StrikeDerivatives& derivatives);
 
 }  // namespace clatter::analytic::space

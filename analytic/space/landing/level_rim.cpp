@@ -22,9 +22,9 @@ constexpr double rolled_out = 1e-3;
 constexpr int most_touches = 5000;
 
 /// The law of a contact that stays.
-Law without_rebound(Law law) {
-  law.law.law = RestitutionLaw::newton;
-  law.law.restitution = 0;
+ImpactLaw without_rebound(ImpactLaw law) {
+  law.law = RestitutionLaw::newton;
+  law.restitution = 0;
   return law;
 }
 
@@ -49,7 +49,7 @@ State levelled(const Body& body, const State& state, const Corner& rim) {
   return level;
 }
 
-LevelRim::LevelRim(const Body& body, const State& before, const Corner& rim, const Law& law)
+LevelRim::LevelRim(const Body& body, const State& before, const Corner& rim, const ImpactLaw& law)
     : struck_(body, before, law), index_(rim.index), radius_(rim.radius), arm_(struck_.arm(rim.place)),
       rounding_(64 * detail::epsilon * (before.velocity.norm() + before.angular_velocity.norm() * reach())) {
   struck_.know_approach(-slowest_rise(motion()));
@@ -77,7 +77,7 @@ bool LevelRim::whole() {
   return true;
 }
 
-void LevelRim::strike_at(const Vector2& x, const Law& law) {
+void LevelRim::strike_at(const Vector2& x, const ImpactLaw& law) {
   struck_.strike_at(struck_.place(arm_ + Vector3(x.x(), x.y(), 0)), {index_}, law);
 }
 
@@ -146,8 +146,8 @@ LevelRim::Rolling LevelRim::roll(Vector2& tilt) const {
 GroupImpact LevelRim::tilted(double direction) const {
   LevelRim rim = *this;
   Vector2 tilt(std::cos(direction), std::sin(direction));
-  const Law& law = struck_.law();
-  const Law plastic = without_rebound(law);
+  const ImpactLaw& law = struck_.law();
+  const ImpactLaw plastic = without_rebound(law);
   const double slow = settled * -slowest_rise(motion());
   Rolling rolling = Rolling::falls_flat;
   for (int touches = 0; touches < most_touches; ++touches) {

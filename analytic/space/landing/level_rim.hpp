@@ -31,7 +31,7 @@ namespace clatter::analytic::space {
 class LevelRim {
  public:
   /// All but `rim` must outlive this.
-  LevelRim(const Body& body, const State& before, const Corner& rim, const Law& law);
+  LevelRim(const Body& body, const State& before, const Corner& rim, const ImpactLaw& law);
 
   /// As rebound_as_a_whole().
   [[nodiscard]] std::optional<GroupImpact> rebound_as_a_whole() const;
@@ -54,7 +54,7 @@ class LevelRim {
   [[nodiscard]] double slowest_rise(const Motion& m) const { return m.rise - radius_ * m.slope.norm(); }
   [[nodiscard]] bool whole();
   void one_after_the_other();
-  void strike_at(const Vector2& x, const Law& law);
+  void strike_at(const Vector2& x, const ImpactLaw& law);
   [[nodiscard]] bool touches_again(Vector2& tilt) const;
   enum class Rolling { ends, goes_on, falls_flat };
   [[nodiscard]] Rolling roll(Vector2& tilt) const;

@@ -49,7 +49,7 @@ std::vector<int> convex_hull(const std::vector<Vector2>& points) {
 /// A body with its touching corners.
 class StrikingGroup {
  public:
-  StrikingGroup(const Body& body, const State& before, std::span<const Corner> touching, const Law& law)
+  StrikingGroup(const Body& body, const State& before, std::span<const Corner> touching, const ImpactLaw& law)
       : struck_(body, before, law) {
     for (const Corner& corner : touching) {
       points_.push_back({.index = corner.index, .place = corner.place, .arm = struck_.arm(corner.place)});
@@ -136,7 +136,7 @@ bool StrikingGroup::strike(const Points& group) {
 /// The edge strikes with its pressure point as a corner, or with friction all along it.
 bool StrikingGroup::strike_edge(const Point& first, const Point& second, const Points& group) {
   const EdgeContact edge = struck_.edge_contact(first.place, second.place);
-  if (struck_.law().law.rubs() && !edge.strikes_as_corner()) {
+  if (struck_.law().rubs() && !edge.strikes_as_corner()) {
     const auto struck = struck_.strike_along(edge, first.place, second.place, indices_of(group));
     tilted_ = struck && struck->tilts;
     is_lost_ = !struck && std::fabs(edge.pressure_point()) <= 1;
@@ -157,7 +157,7 @@ const StrikingGroup::Point& StrikingGroup::first_of(const Points& group) {
     const double point = struck_.edge_contact(group[0].place, group[1].place).pressure_point();
     if (std::fabs(point) > 1) return group[point > 0 ? 1 : 0];
   }
-  if (group.size() > 1 && struck_.law().law.rubs()) struck_.leave_open();
+  if (group.size() > 1 && struck_.law().rubs()) struck_.leave_open();
   return group.front();
 }
 
@@ -177,7 +177,7 @@ bool StrikingGroup::strike_face(const Points& group, const std::vector<int>& hul
 }  // namespace
 
 std::optional<GroupImpact> rebound_as_a_whole(const Body& body, const State& before, std::span<const Corner> touching,
-                                              const Law& law) {
+                                              const ImpactLaw& law) {
   if (const Corner* rim = level_rim(touching)) return LevelRim(body, before, *rim, law).rebound_as_a_whole();
   StrikingGroup group(body, before, touching, law);
   if (!group.strike_as_a_whole()) return {};
@@ -186,7 +186,8 @@ std::optional<GroupImpact> rebound_as_a_whole(const Body& body, const State& bef
   return result;
 }
 
-GroupImpact strike_together(const Body& body, const State& before, std::span<const Corner> touching, const Law& law) {
+GroupImpact strike_together(const Body& body, const State& before, std::span<const Corner> touching,
+                            const ImpactLaw& law) {
   if (const Corner* rim = level_rim(touching)) return LevelRim(body, before, *rim, law).strike();
   StrikingGroup group(body, before, touching, law);
   StrikeSeries series;
@@ -203,7 +204,7 @@ GroupImpact strike_together(const Body& body, const State& before, std::span<con
 }
 
 GroupImpact strike_beside(const Body& body, const State& before, std::span<const Corner> arriving,
-                          std::span<const Corner> held, const Law& law) {
+                          std::span<const Corner> held, const ImpactLaw& law) {
   GroupImpact all = strike_together(body, before, arriving, law);
   State between = before;
   between.velocity = all.velocity_after;

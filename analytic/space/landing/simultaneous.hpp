@@ -40,17 +40,17 @@ namespace clatter::analytic::space {
 /// @param touching corners at one height; a single one strikes as in impact.hpp; a level rim touches alone
 /// @throws as strike(); std::domain_error for a level rim beside another corner
 [[nodiscard]] std::optional<GroupImpact> rebound_as_a_whole(const Body& body, const State& before,
-                                                            std::span<const Corner> touching, const Law& law);
+                                                            std::span<const Corner> touching, const ImpactLaw& law);
 
 /// The impact of a set of touching corners by the rules above.  No impulse if none approaches.
 /// @throws as strike(); NumericalError if 40 000 strikes do not end it
 [[nodiscard]] GroupImpact strike_together(const Body& body, const State& before, std::span<const Corner> touching,
-                                          const Law& law);
+                                          const ImpactLaw& law);
 
 /// The impact of corners that arrive while others of the body, `held`, are at rest on the ground: those that arrive
 /// strike, then all by the rules of strike_together() as far as they approach thereafter.
 /// @throws as strike_together()
 [[nodiscard]] GroupImpact strike_beside(const Body& body, const State& before, std::span<const Corner> arriving,
-                                        std::span<const Corner> held, const Law& law);
+                                        std::span<const Corner> held, const ImpactLaw& law);
 
 }  // namespace clatter::analytic::space

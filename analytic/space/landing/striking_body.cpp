@@ -40,14 +40,14 @@ double VelocityRounding::at(const Vector3& place) const {
          16 * detail::epsilon * change_ * (1 + distance * turning);
 }
 
-StrikingBody::StrikingBody(const Body& body, const State& before, const Law& law)
+StrikingBody::StrikingBody(const Body& body, const State& before, const ImpactLaw& law)
     : body_(body), law_(law), state_(before), before_(before), rounding_(body, before),
       axes_(before.attitude.toRotationMatrix()) {
   law.validate();
   inverse_inertia_ = axes_ * body.inertia.inverse() * axes_.transpose();
 }
 
-void StrikingBody::strike_at(const Vector3& place, const std::vector<int>& points, const Law& law) {
+void StrikingBody::strike_at(const Vector3& place, const std::vector<int>& points, const ImpactLaw& law) {
   const Impact impact = space::strike(body_, state_, place, law);
   push(impact.impulse, arm(place).cross(impact.impulse), impact.path, points);
 }
@@ -57,7 +57,7 @@ double StrikingBody::face_restitution() const {
   const double speed = -state_.velocity.z();
   const Matrix2 inertia = inverse_inertia_.topLeftCorner<2, 2>().inverse();  // that pushes upwards have to turn
   const Vector2 turning = state_.angular_velocity.head<2>();
-  return restitution_at(law_.law, speed + turning.dot(inertia * turning) / (body_.mass * speed));
+  return restitution_at(law_, speed + turning.dot(inertia * turning) / (body_.mass * speed));
 }
 
 FaceRebound StrikingBody::face_rebound_by(double e, double depth) const {
@@ -90,14 +90,13 @@ std::optional<FaceRebound> StrikingBody::face_rebound(double depth) const {
 
 std::optional<FaceRebound> StrikingBody::face_rebound_by(double e, double depth, const ContactArea& area) const {
   std::optional<FaceRebound> rebound = face_rebound_by(e, depth);
-  const ImpactLaw& law = law_.law;
-  if (!law.rubs()) return area.contains(rebound->pressure_point) ? rebound : std::nullopt;
+  if (!law_.rubs()) return area.contains(rebound->pressure_point) ? rebound : std::nullopt;
   const Vector2 turn = inverse_inertia_.topLeftCorner<2, 2>() * rebound->moment.head<2>();
   const Vector3 below(0, 0, -depth);
   const SlidingFace face{.mass = body_.mass,
                          .inverse_inertia = inverse_inertia_,
                          .depth = depth,
-                         .friction = law.friction_value,
+                         .friction = law_.friction_value,
                          .normal_impulse = rebound->impulse.z(),
                          .turn_rate = turn / rebound->impulse.z(),
                          .slip = velocity(below).head<2>(),
@@ -138,7 +137,7 @@ std::optional<FaceRebound> StrikingBody::face_rebound(double depth, const Contac
   if (!(state_.velocity.z() < 0)) return {};
   const double e = face_restitution();
   auto rebound = face_rebound_by(e, depth, area);
-  if (!rebound || rebound->is_lost || !law_.law.rubs() || may_gain_energy(law_.law.law)) return rebound;
+  if (!rebound || rebound->is_lost || !law_.rubs() || may_gain_energy(law_.law)) return rebound;
   const double energy = this->energy();
   const double least = restitution_without_gain(e, energy, [&](double some) {
     const auto face = some == e ? rebound : face_rebound_by(some, depth, area);
@@ -165,11 +164,11 @@ EdgeContact StrikingBody::edge_contact(const Vector3& from, const Vector3& to) c
 
 std::optional<EdgeImpulse> StrikingBody::strike_along(const EdgeContact& edge, const Vector3& from, const Vector3& to,
                                                       const std::vector<int>& points) {
-  const auto struck = edge_impulse(edge, law_.law);
+  const auto struck = edge_impulse(edge, law_);
   if (!struck) return {};
   const EdgeContact::Vector& f = struck->impulse;
   const double gain = f.dot(edge.velocity + edge.inverse_inertia * f / 2);
-  if (struck->tilts && gain > without_gain * energy() && !may_gain_energy(law_.law.law)) return {};
+  if (struck->tilts && gain > without_gain * energy() && !may_gain_energy(law_.law)) return {};
   const Vector3 half = arm(to - from) / 2, along = half.normalized(), up = Vector3::UnitZ(), across = up.cross(along);
   const Vector3 impulse = f[0] * along + f[1] * across + f[3] * up;
   push(impulse, arm(from + to).cross(impulse) / 2 + half.cross(f[2] * across + f[4] * up), struck->path, points);

@@ -58,15 +58,15 @@ class VelocityRounding {
 /// Strikes add up to one GroupImpact.  World frame; arms are from the centre of mass.
 class StrikingBody {
  public:
-  /// Body and law must outlive this.  @throws std::domain_error as Law::validate()
-  StrikingBody(const Body& body, const State& before, const Law& law);
+  /// Body and law must outlive this.  @throws std::domain_error as ImpactLaw::validate()
+  StrikingBody(const Body& body, const State& before, const ImpactLaw& law);
 
   [[nodiscard]] Vector3 arm(const Vector3& place) const { return axes_ * place; }
   /// Inverse of arm(): body frame.
   [[nodiscard]] Vector3 place(const Vector3& arm) const { return axes_.transpose() * arm; }
   [[nodiscard]] const State& state() const { return state_; }
   [[nodiscard]] const Body& body() const { return body_; }
-  [[nodiscard]] const Law& law() const { return law_; }
+  [[nodiscard]] const ImpactLaw& law() const { return law_; }
   [[nodiscard]] const Matrix3& inverse_inertia() const { return inverse_inertia_; }
   [[nodiscard]] Vector3 velocity(const Vector3& arm) const {
     return state_.velocity + state_.angular_velocity.cross(arm);
@@ -78,7 +78,7 @@ class StrikingBody {
 
   /// The impact of one point; `points` are the indices that the record gets.  @throws as space::strike()
   void strike_at(const Vector3& place, const std::vector<int>& points) { strike_at(place, points, law_); }
-  void strike_at(const Vector3& place, const std::vector<int>& points, const Law& law);
+  void strike_at(const Vector3& place, const std::vector<int>& points, const ImpactLaw& law);
   /// V_z, ω_x, ω_y → −e times themselves, with friction below the centre of mass; nothing if that does not come down.
   /// @param depth  of the ground below the centre of mass [m]
   [[nodiscard]] std::optional<FaceRebound> face_rebound(double depth) const;
@@ -114,7 +114,7 @@ class StrikingBody {
   [[nodiscard]] double energy_loss(const FaceRebound& face) const;
 
   const Body& body_;
-  const Law& law_;
+  const ImpactLaw& law_;
   State state_, before_;
   VelocityRounding rounding_;
   Matrix3 axes_, inverse_inertia_;

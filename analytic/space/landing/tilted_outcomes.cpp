@@ -278,7 +278,7 @@ bool SectorSearch::strike_whole(StrikingBody& struck, const std::vector<std::siz
   }
   const auto whole = rebound_as_a_whole(struck.body(), struck.state(), corners, struck.law());
   ++strikes_;
-  if (struck.law().law.rubs()) ++rubs_;
+  if (struck.law().rubs()) ++rubs_;
   if (!whole) return false;
   struck.push({.impulse = whole->impulse,
                .moment = whole->moment,
@@ -374,8 +374,8 @@ void find_spread(const GroupImpact& by_rule, OutcomeSet& set) {
 
 }  // namespace
 
-OutcomeSet tilted_outcomes(const Body& body, const State& before, std::span<const Corner> touching, const Law& law,
-                           const TiltEffort& most) {
+OutcomeSet tilted_outcomes(const Body& body, const State& before, std::span<const Corner> touching,
+                           const ImpactLaw& law, const TiltEffort& most) {
   StrikingBody struck(body, before, law);
   double reach = 0;
   for (const Corner& corner : touching) {

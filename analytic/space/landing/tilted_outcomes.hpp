@@ -72,6 +72,6 @@ struct TiltEffort {
 /// of the body and approaches below 1e-10 of the first are none.  The widest sectors are followed first.
 /// @throws as strike_together()
 [[nodiscard]] OutcomeSet tilted_outcomes(const Body& body, const State& before, std::span<const Corner> touching,
-                                         const Law& law, const TiltEffort& most = {});
+                                         const ImpactLaw& law, const TiltEffort& most = {});
 
 }  // namespace clatter::analytic::space

@@ -28,7 +28,7 @@ ImpactMode mode_of(PathKind path) {
 
 /// Tangential impulse of a body that slides with `slip` while the ground pushes with the normal impulse `normal`.
 Vector2 sliding_impulse(const Drop& drop, const Vector2& slip, double normal) {
-  const ImpactLaw& law = drop.law.law;
+  const ImpactLaw& law = drop.law;
   if (law.friction == FrictionKind::none) return Vector2::Zero();
   if (law.friction == FrictionKind::impulse_ratio) return law.friction_value * normal * drop.law.ratio_direction;
   const double speed = slip.norm();
@@ -45,11 +45,11 @@ double jump_of(const Body& body, double impulse) {
 }  // namespace
 
 std::optional<Tail> bouncing_tail(const Drop& drop, const ImpactRow& last) {
-  const double e = drop.law.law.restitution;
+  const double e = drop.law.restitution;
   const Impact& impact = last.impact;
   const bool is_ball = drop.body.is_ball();  // which may turn: without slip, or friction, that stays as it is
   // On sloping ground slip begins anew in each flight.
-  if (drop.gravity_along != 0 && drop.law.law.friction != FrictionKind::none) return {};
+  if (drop.gravity_along != 0 && drop.law.friction != FrictionKind::none) return {};
   if ((impact.angular_velocity_after != Vector3::Zero() && !is_ball) || !(drop.gravity > 0) || !(e < 1)) return {};
   const Vector3 arm = is_ball ? Vector3(Vector3::Zero()) : last.before.attitude * last.corners.front().place;
   if (!last.group && (arm.head<2>() != Vector2::Zero() || impact.impulse.head<2>() != Vector2::Zero())) return {};

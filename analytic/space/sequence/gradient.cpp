@@ -161,7 +161,7 @@ class Tracer {
   static constexpr std::size_t index(SpaceParameter p) { return static_cast<std::size_t>(p); }
   Carried& of(SpaceParameter p) { return carried_[index(p)]; }
   [[nodiscard]] const ImpactRow& now() const { return rows_[row_]; }
-  [[nodiscard]] const ImpactLaw& law() const { return drop_.law.law; }
+  [[nodiscard]] const ImpactLaw& law() const { return drop_.law; }
   [[nodiscard]] bool is_refused(std::size_t i) const { return !refused_[i].reason.empty(); }
 
   void refuse(SpaceParameter p, const char* reason) {
@@ -223,7 +223,7 @@ class Tracer {
   }
 
   /// The impact of the row's corners by a law from a state.
-  [[nodiscard]] std::optional<Struck> struck(const Law& law, const State& before) const {
+  [[nodiscard]] std::optional<Struck> struck(const ImpactLaw& law, const State& before) const {
     try {
       const Impact impact = struck_again(body_, law, now(), before);
       const PathKind path = now().impact.path;
@@ -283,9 +283,9 @@ class Tracer {
     const bool is_least = value == 0 && (is_of_e || law().friction != FrictionKind::impulse_ratio);
     const int side = is_least ? 1 : is_of_e && value + step > 1 ? -1 : 0;
     const auto along = [&](double by) {
-      Law other = drop_.law;
-      (is_of_e ? other.law.restitution : other.law.friction_value) = value + by;
-      if (!is_of_e && is_without) other.law.friction = FrictionKind::coulomb;
+      ImpactLaw other = drop_.law;
+      (is_of_e ? other.restitution : other.friction_value) = value + by;
+      if (!is_of_e && is_without) other.friction = FrictionKind::coulomb;
       return struck(other, now().before);
     };
     return Differences(along, struck_of(now().impact), side, rounding()).limit(step);

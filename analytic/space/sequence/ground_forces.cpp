@@ -87,7 +87,7 @@ Vector3 edge_of(const State& s, std::span<const GroundPoint> points) {
 Vector3 slip_of(const State& s, const GroundPoint& point) { return horizontal(velocity_at(s, point.place)); }
 
 GroundLaw::GroundLaw(const Drop& drop)
-    : drop_(drop), friction_(drop.law.law.most_friction()), inverse_inertia_(drop.body.inertia.inverse()) {}
+    : drop_(drop), friction_(drop.law.most_friction()), inverse_inertia_(drop.body.inertia.inverse()) {}
 
 struct GroundLaw::Arms {
   Matrix3 inverse;            ///< I⁻¹, world frame

@@ -127,7 +127,7 @@ Drop SequenceUnits::to_internal(Drop drop) const {
   scale(of::rate, drop.angular_velocity);
   scale(of::acceleration, drop.gravity, drop.gravity_along);
   if (drop.release_height) scale(of::length, *drop.release_height);
-  scale(of::slowness, drop.law.law.damping_per_stiffness);
+  scale(of::slowness, drop.law.damping_per_stiffness);
   return drop;
 }
 
@@ -158,7 +158,7 @@ void SequenceUnits::to_si(Sequence& sequence) const {
   if (sequence.rest) scales_(of::time, sequence.rest->latest);
   apply(scales_, sequence.near_miss);
   scales_(of::acceleration, sequence.end_acceleration);
-  scales_(of::impulse, sequence.total_normal_impulse);
+  scales_(of::impulse, sequence.total_normal_impulse, sequence.total_normal_impulse_error);
   scales_(of::time, sequence.first_flight_error);
 }
 

@@ -26,7 +26,7 @@ struct Drop {
   double gravity = 0;                            ///< towards the ground, >= 0 [m/s²]
   double gravity_along = 0;                      ///< along x, where the ground slopes [m/s²]
   std::optional<double> release_height{};        ///< of the centre of mass above the ground [m]
-  Law law;
+  ImpactLaw law;
 
   /// @throws std::domain_error naming the field, its value and what is allowed.
   void validate() const;
@@ -42,7 +42,7 @@ struct Drop {
           .angular_velocity = {0, drop.velocity.angular, 0},
           .gravity = drop.gravity,
           .gravity_along = drop.gravity_along,
-          .law = {.law = drop.law}};
+          .law = drop.law};
 }
 
 /// Translational, rotational and potential energy, zero at the ground below the first touch's centre of mass [J].
@@ -219,12 +219,14 @@ struct Sequence {
   NearMiss near_miss;  ///< of the last flight, if no_further_impact
   /// h″ of the corner that stays on the ground, if sustained_contact without a tail [m/s²].
   double end_acceleration = 0;
-  double total_normal_impulse = 0;  ///< rows and tail [N·s]
+  double total_normal_impulse = 0;  ///< rows, contacts and tail [N·s]
+  /// Bound on its error; infinite without SequenceOptions::amplification or if a row cannot be predicted [N·s].
+  double total_normal_impulse_error = detail::infinite;
   /// Bound on the error of the time from the release to the first impact, which is rows.front().flight.time [s].
   double first_flight_error = 0;
   /// Whether the outcome is certain, and not only that of one of the sequences that the errors leave open.
   bool end_predictable = false;
-  int evaluations = 0;  ///< of the rotation, over all flights
+  int root_evaluations = 0;  ///< of the rotation, over all flights
 };
 
 /// Exact to and fro: every scale is a power of two.

@@ -35,8 +35,8 @@ Quaternion turned(const Vector3& rate, const Vector3& change, double time) {
 }  // namespace
 
 GroundedMotion::GroundedMotion(const Drop& drop, const State& now, const std::vector<int>& touching)
-    : drop_(drop), now_(now), friction_(drop.law.law.most_friction()) {
-  const ImpactLaw& law = drop.law.law;
+    : drop_(drop), now_(now), friction_(drop.law.most_friction()) {
+  const ImpactLaw& law = drop.law;
   const bool has_force = law.friction != FrictionKind::impulse_ratio || law.friction_value == 0;
   if (!(drop.gravity > 0) || !has_force || touching.empty()) return;
   const Body& body = drop.body;

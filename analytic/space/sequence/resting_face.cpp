@@ -195,7 +195,7 @@ bool is_outline(const Body& body) { return body.vertices.size() > 2 && body.is_f
 
 /// By (2).
 std::optional<Rest> trapped(const Drop& drop, const State& now) {
-  const ImpactLaw& law = drop.law.law;
+  const ImpactLaw& law = drop.law;
   const Body& body = drop.body;
   const bool rubs = law.friction != FrictionKind::none;
   if (law.friction == FrictionKind::impulse_ratio || drop.gravity_along != 0) return {};
@@ -232,7 +232,7 @@ double vertical_energy(const Drop& drop, const State& now) {
 }
 
 std::optional<Rest> settles(const Drop& drop, const State& now, double time) {
-  const ImpactLaw& law = drop.law.law;
+  const ImpactLaw& law = drop.law;
   if (!(drop.gravity > 0) || law.law == RestitutionLaw::viscoelastic || !(law.restitution < 1)) return {};
   const Body& body = drop.body;
   if (is_outline(body)) {

@@ -36,7 +36,7 @@ State aligned(const Body& body, State state) {
 }
 
 /// The impact of several corners of a row.
-GroupImpact group_impact(const Body& body, const State& before, const ImpactRow& row, const Law& law) {
+GroupImpact group_impact(const Body& body, const State& before, const ImpactRow& row, const ImpactLaw& law) {
   if (row.held == 0) return strike_together(body, before, row.corners, law);
   const std::span corners(row.corners);
   return strike_beside(body, before, corners.first(corners.size() - row.held), corners.last(row.held), law);
@@ -44,7 +44,7 @@ GroupImpact group_impact(const Body& body, const State& before, const ImpactRow&
 
 }  // namespace
 
-void strike_row(const Body& body, const Law& law, ImpactRow& row, StrikeDerivatives* derivatives) {
+void strike_row(const Body& body, const ImpactLaw& law, ImpactRow& row, StrikeDerivatives* derivatives) {
   Corner corner = row.corners.front();
   if (row.corners.size() > 1 || corner.radius > 0) {
     row.group = group_impact(body, row.before, row, law);
@@ -72,7 +72,7 @@ void strike_row(const Body& body, const Law& law, ImpactRow& row, StrikeDerivati
   row.approach_speed = -velocity.value.z();
 }
 
-Impact struck_again(const Body& body, const Law& law, const ImpactRow& row, const State& before) {
+Impact struck_again(const Body& body, const ImpactLaw& law, const ImpactRow& row, const State& before) {
   const Corner& corner = row.corners.front();
   if (row.group) return impact_of(group_impact(body, before, row, law), before, corner.place);
   const State state = aligned(body, before);

@@ -10,9 +10,9 @@ namespace clatter::analytic::space {
 /// Fills in the impact of the row's corners from the state before: one corner, or a group of corners or a level rim.
 /// @param derivatives  of the impact, if asked for; NaN for a group or a level rim
 /// @throws as strike() and strike_together()
-void strike_row(const Body& body, const Law& law, ImpactRow& row, StrikeDerivatives* derivatives);
+void strike_row(const Body& body, const ImpactLaw& law, ImpactRow& row, StrikeDerivatives* derivatives);
 
 /// The impact of the same corners from a neighbouring state.  @throws as strike_row()
-[[nodiscard]] Impact struck_again(const Body& body, const Law& law, const ImpactRow& row, const State& before);
+[[nodiscard]] Impact struck_again(const Body& body, const ImpactLaw& law, const ImpactRow& row, const State& before);
 
 }  // namespace clatter::analytic::space

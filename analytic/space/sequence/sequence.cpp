@@ -32,7 +32,7 @@ namespace {
 /// Sets `touches` to the row's corners with their normal velocities in the state after the impact; what is rounding of
 /// zero is zero.
 void find_departures(const Drop& drop, const ImpactRow& row, const State& after, std::vector<Touch>& touches) {
-  const ImpactLaw& law = drop.law.law;
+  const ImpactLaw& law = drop.law;
   const bool plastic = law.restitution == 0 && law.law != RestitutionLaw::viscoelastic;
   const VelocityRounding of_group(drop.body, row.before);
   touches.clear();
@@ -72,17 +72,29 @@ class Run : public SequenceLoop<Sequence, ErrorGrowth> {
     follow([&] { go_on(lowest, flown); });
     settle_after_all();
     result_.energy_at_end = energy(state_);
+    bound_total();
     note_last_motion();
     note_sides();
     return std::move(result_);
   }
 
  private:
+  /// Errors of rows, contacts and tail may be correlated: their sizes add up, and so does the rounding of each sum.
+  void bound_total() {
+    double error = epsilon * static_cast<double>(result_.rows.size() + 2 * result_.contacts.size() + 1) *
+                   result_.total_normal_impulse;
+    const auto add = [&](const std::optional<Tail>& tail) { error += tail ? tail->normal_impulse_error : 0; };
+    for (const ImpactRow& row : result_.rows) error += row.error.impulse;
+    for (const SustainedContact& contact : result_.contacts) error += contact.normal_impulse_error, add(contact.tail);
+    add(result_.tail);
+    result_.total_normal_impulse_error = error;
+  }
+
   /// Flies from the release to the first touch, from which on time counts; returns the points that touch.
   std::vector<int> fall(FirstContact& flown) {
     const FreeFlight flight(principal_, state_, drop_.gravity, drop_.gravity_along);
     flown = first_contact(body_, flight, {});
-    result_.evaluations += flown.evaluations;
+    result_.root_evaluations += flown.evaluations;
     if (flown.end != FlightEnd::contact) throw std::domain_error("the released body never reaches the ground");
     time_ = -flown.time;
     way_error_ = epsilon * *drop_.release_height;
@@ -156,13 +168,13 @@ class Run : public SequenceLoop<Sequence, ErrorGrowth> {
     const ImpactRow& last = result_.rows.back();
     const FreeFlight flight(principal_, state_, drop_.gravity, drop_.gravity_along);
     flown = first_contact(body_, flight, touches_);
-    result_.evaluations += flown.evaluations;
+    result_.root_evaluations += flown.evaluations;
     const auto lifted = std::exchange(lifted_, {});
     const Vector3& from = lifted ? body_.vertices[static_cast<std::size_t>(*lifted)] : last.corners.front().place;
     if (flown.end == FlightEnd::contact || flown.end == FlightEnd::no_contact)
       note_flight(flight, from, flown.end == FlightEnd::contact ? time_ + flown.time : infinite);
     if (flown.end == FlightEnd::contact && is_over(time_ + flown.time)) return Next::end;
-    if (result_.evaluations > most_evaluations) {
+    if (result_.root_evaluations > most_evaluations) {
       throw NumericalError("the body spins so fast that its flights take more than a million evaluations");
     }
     if (flown.end != FlightEnd::contact) {
@@ -248,7 +260,7 @@ class Run : public SequenceLoop<Sequence, ErrorGrowth> {
       }
       add(row.impact.impulse.z(), row.impact.impulse.head<2>().norm());
     }
-    const double friction = drop_.law.law.most_friction();
+    const double friction = drop_.law.most_friction();
     for (std::size_t i = known_->contacts; i < result_.contacts.size(); ++i) {
       const SustainedContact& contact = result_.contacts[i];
       if (!stay(contact.corners) || !stay(contact.pivots)) return {};
@@ -309,7 +321,7 @@ class Run : public SequenceLoop<Sequence, ErrorGrowth> {
   /// Bounds on the errors in which a slide that friction brings to rest ends, twice the first order of how it slows
   /// down.
   [[nodiscard]] StateErrors errors_of_rest(const StateErrors& begin, const SustainedContact& contact) const {
-    const double slowing = drop_.law.law.most_friction() * drop_.gravity;
+    const double slowing = drop_.law.most_friction() * drop_.gravity;
     StateErrors e = begin;
     if (slowing > 0 && contact.slips) e.time += 2 * (begin.velocity + reach_ * begin.angular_velocity) / slowing;
     e.attitude += 2 * contact.duration * begin.angular_velocity + contact.duration * contact.duration * 1e-12;
@@ -407,7 +419,7 @@ class Run : public SequenceLoop<Sequence, ErrorGrowth> {
       const double after = std::fmax(options_.times[next_time_] - time_, 0.0);
       const auto there = motion.summary() ? motion.at(after) : std::nullopt;
       StateErrors then = error;
-      const double slowing = drop_.law.law.most_friction() * drop_.gravity + std::fabs(drop_.gravity_along);
+      const double slowing = drop_.law.most_friction() * drop_.gravity + std::fabs(drop_.gravity_along);
       then.velocity += slowing * error.time;
       then.attitude += after * error.angular_velocity + state_.angular_velocity.norm() * error.time;
       const double turning = result_.last_motion && state_.angular_velocity.norm() > 0 ? 8 : 1;
@@ -439,7 +451,7 @@ class Run : public SequenceLoop<Sequence, ErrorGrowth> {
     end_errors_ = contact.error;
     state_.velocity.z() = 0;
     state_.angular_velocity.head<2>().setZero();
-    if (drop_.law.law.rubs()) {
+    if (drop_.law.rubs()) {
       state_.velocity.setZero();
       state_.angular_velocity.setZero();
     }
@@ -501,7 +513,7 @@ class Run : public SequenceLoop<Sequence, ErrorGrowth> {
       growth_->strike([&](const State& before) { return struck_again(body_, drop_.law, row, before); }, derivatives,
                       row);
     }
-    if (!result_.rows.empty()) accumulation_.add(row, damping_loss(drop_.law.law, row.approach_speed));
+    if (!result_.rows.empty()) accumulation_.add(row, damping_loss(drop_.law, row.approach_speed));
     if (row.held > 0) rattling_.add(row);
     else
       for (const Corner& corner : row.corners) rattling_.touch(corner.index);
@@ -518,7 +530,7 @@ class Run : public SequenceLoop<Sequence, ErrorGrowth> {
       else finish(std::move(*tail));
       return true;
     }
-    return may_accumulate(drop_.law.law) && drop_.gravity > 0 && (rattled_end() || extrapolated_end());
+    return may_accumulate(drop_.law) && drop_.gravity > 0 && (rattled_end() || extrapolated_end());
   }
 
   /// Whether corners beside others that stay have come down often enough to tell how that ends.
@@ -558,7 +570,7 @@ class Run : public SequenceLoop<Sequence, ErrorGrowth> {
 
   /// Whether the body moves along the ground, as far as an extrapolation can tell, or begins to where that slopes.
   [[nodiscard]] bool slides(const State& end, double error = 0) const {
-    return end.velocity.head<2>().norm() > error || slides_down(drop_.law.law, drop_.gravity, drop_.gravity_along);
+    return end.velocity.head<2>().norm() > error || slides_down(drop_.law, drop_.gravity, drop_.gravity_along);
   }
 
   /// Whether a face that settles() does not hold on sloping ground may turn over one of its edges.
@@ -765,7 +777,7 @@ class Run : public SequenceLoop<Sequence, ErrorGrowth> {
 
   /// Damped ground, whose bounces are no geometric series.
   void note_slow_contacts() {
-    if (drop_.law.law.law != RestitutionLaw::viscoelastic) return;
+    if (drop_.law.law != RestitutionLaw::viscoelastic) return;
     result_.message += "; on damped ground slow contacts lose next to nothing, so that hops last for ever";
   }
 
@@ -829,7 +841,7 @@ Sequence impact_sequence(const Drop& drop, const SequenceOptions& options) {
   units.to_si(sequence);
   require_representable(sequence);
   if (run.created().first > 0) {
-    sequence.warnings.push_back(energy_warning(drop.law.law.friction, run.created(), units.energy(run.created().sum)));
+    sequence.warnings.push_back(energy_warning(drop.law.friction, run.created(), units.energy(run.created().sum)));
   }
   return sequence;
 }

@@ -234,7 +234,7 @@ void add_impulse_error(const Drop& drop, const StateErrors& before, SustainedCon
 }
 
 bool can_follow(const Drop& drop, const std::vector<int>& corners) {
-  const ImpactLaw& law = drop.law.law;
+  const ImpactLaw& law = drop.law;
   const auto is_vertex = [&](int i) { return static_cast<std::size_t>(i) < drop.body.vertices.size(); };
   const bool one_or_two = corners.size() == 1 || corners.size() == 2;
   return one_or_two && std::ranges::all_of(corners, is_vertex) && drop.gravity > 0 && drop.gravity_along == 0 &&

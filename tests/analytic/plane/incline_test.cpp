@@ -152,7 +152,7 @@ BOOST_AUTO_TEST_CASE(a_sequence_on_a_slope_is_the_same_in_space_as_in_the_plane)
                     .angular_velocity = {0, drop.velocity.angular, 0},
                     .gravity = drop.gravity,
                     .gravity_along = drop.gravity_along,
-                    .law = {.law = drop.law}};
+                    .law = drop.law};
   const Sequence plane = impact_sequence(drop, {.impacts = 5});
   const space::Sequence found = impact_sequence(other, {.impacts = 5});
   BOOST_TEST_REQUIRE(found.rows.size() == plane.rows.size());

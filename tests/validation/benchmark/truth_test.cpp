@@ -75,7 +75,7 @@ std::vector<TruthRow> planar_rows(const Reference& reference, const std::string&
 
 std::vector<TruthRow> rows_in_space(const Problem& problem, const std::string& law, int impacts) {
   auto drop = std::get<analytic::space::Drop>(discrete_drop(problem.scene));
-  drop.law.law = with_law(drop.law.law, law);
+  drop.law = with_law(drop.law, law);
   std::vector<TruthRow> rows;
   for (const analytic::space::ImpactRow& row : impact_sequence(drop, {.impacts = impacts}).rows) {
     BOOST_TEST((row.corners.size() == 1U || row.group.has_value()));

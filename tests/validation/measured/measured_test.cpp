@@ -93,10 +93,10 @@ class TrackMaker {
     const Vector3 spin(uniform() - 0.5, uniform() - 0.5, uniform() - 0.5);
     drop.angular_velocity = recipe_.planar ? Vector3(0, 8 * spin.y(), 0) : Vector3(8 * spin);
     drop.gravity = 9.81;
-    drop.law.law = {.restitution = recipe_.restitution,
-                    .law = analytic::RestitutionLaw::poisson,
-                    .friction = analytic::FrictionKind::coulomb,
-                    .friction_value = recipe_.friction};
+    drop.law = {.restitution = recipe_.restitution,
+                .law = analytic::RestitutionLaw::poisson,
+                .friction = analytic::FrictionKind::coulomb,
+                .friction_value = recipe_.friction};
     return drop;
   }
 

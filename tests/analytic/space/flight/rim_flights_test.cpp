@@ -48,10 +48,9 @@ Scene random_scene(Random& random) {
   d.velocity = random.vector(1) - Vector3(0, 0, 1);
   d.angular_velocity = std::pow(10, random.uniform(-2, 1)) / d.body.reach() * random.vector(1);
   d.gravity = random.whole(1, 5) == 1 ? 0 : 9.81;
-  d.law.law.law = static_cast<RestitutionLaw>(random.whole(0, 2));
-  d.law.law.restitution = random.uniform(0.02, 1);
-  if (random.whole(1, 3) > 1)
-    d.law.law.friction = FrictionKind::coulomb, d.law.law.friction_value = random.uniform(0, 1);
+  d.law.law = static_cast<RestitutionLaw>(random.whole(0, 2));
+  d.law.restitution = random.uniform(0.02, 1);
+  if (random.whole(1, 3) > 1) d.law.friction = FrictionKind::coulomb, d.law.friction_value = random.uniform(0, 1);
   return s;
 }
 

@@ -55,7 +55,7 @@ ManyMatrix cross_of(const ManyVector& u) {
 }
 
 /// P, V′, ω′ of a corner after a shift of the state, by stepping.  The state is that of `c` to its last digit.
-Rows stepped(const Collision& c, const Law& law, int variable, const Many& shift) {
+Rows stepped(const Collision& c, const ImpactLaw& law, int variable, const Many& shift) {
   const ManyVector along = shift * ManyVector::Unit(variable % 3), none = ManyVector::Zero();
   // By Rodrigues's formula for a turn so small that its cube is beyond 30 digits.
   const ManyMatrix turn = cross_of(variable < 3 ? along : none);
@@ -67,7 +67,7 @@ Rows stepped(const Collision& c, const Law& law, int variable, const Many& shift
   const ManyVector turning = c.before.angular_velocity.cast<Many>() + (variable / 3 == 2 ? along : none);
   const ManyMatrix cross = cross_of(arm);
   const ManyMatrix w = ManyMatrix::Identity() / Many(c.body.mass) + cross * inverse * cross.transpose();
-  const ManyVector impulse = clatter::oracle::SteppedImpact<Many>(w, velocity + turning.cross(arm), law.law).impulse();
+  const ManyVector impulse = clatter::oracle::SteppedImpact<Many>(w, velocity + turning.cross(arm), law).impulse();
   Rows rows;
   rows << impulse, velocity + impulse / Many(c.body.mass), turning + inverse * arm.cross(impulse);
   return rows;
@@ -75,7 +75,7 @@ Rows stepped(const Collision& c, const Law& law, int variable, const Many& shift
 
 /// Central differences over `step`, part of the state's own scales: in 50 digits they err by its square, or by itself
 /// where second derivatives jump.
-double error_of_strike(const Collision& c, const Law& law, double step = 1e-14) {
+double error_of_strike(const Collision& c, const ImpactLaw& law, double step = 1e-14) {
   const double speed = contact_velocity(c.before, c.place).value.norm(), reach = c.place.norm();
   StrikeDerivatives found, expected;
   Body body = c.body;
@@ -96,7 +96,7 @@ BOOST_AUTO_TEST_CASE(derivatives_where_slip_turns_stops_or_goes_on_anew_are_thos
   for (const PathKind path : {PathKind::turning_slip, PathKind::slip_stick, PathKind::slip_reslip}) {
     for (int i = 0; i < strikes;) {
       const Collision c = clatter::oracle::random_collision(random);
-      const Law law = clatter::oracle::random_law(random, 1.5);
+      const ImpactLaw law = clatter::oracle::random_law(random, 1.5);
       if (contact_impulse(clatter::oracle::contact_of(c), law).path != path) continue;
       ++i;
       BOOST_TEST_CONTEXT("path " << static_cast<int>(path) << " corner " << i) {
@@ -107,9 +107,9 @@ BOOST_AUTO_TEST_CASE(derivatives_where_slip_turns_stops_or_goes_on_anew_are_thos
 }
 
 /// A corner whose slip starts at `distance` [rad] from the first direction that leads slip away, or towards itself.
-Collision beside_a_direction(Collision c, const Law& law, bool attracts, double distance, double speed) {
+Collision beside_a_direction(Collision c, const ImpactLaw& law, bool attracts, double distance, double speed) {
   const Contact contact = clatter::oracle::contact_of(c);
-  const InvariantDirections directions = invariant_directions(contact.inverse_inertia, law.law.friction_value);
+  const InvariantDirections directions = invariant_directions(contact.inverse_inertia, law.friction_value);
   const auto near = std::find_if(directions.list.begin(), directions.list.end(),
                                  [&](const InvariantDirection& d) { return d.attracts == attracts; });
   const Vector2 slip = Eigen::Rotation2Dd(distance) * near->direction * speed;
@@ -120,7 +120,7 @@ Collision beside_a_direction(Collision c, const Law& law, bool attracts, double 
 BOOST_AUTO_TEST_CASE(derivatives_of_slip_that_starts_near_a_zero_of_g_are_those_of_stepped_impacts) {
   Random random(31);
   for (int i = 0; i < 2 * strikes; ++i) {
-    const Law law = clatter::oracle::random_law(random, 1.5);
+    const ImpactLaw law = clatter::oracle::random_law(random, 1.5);
     const double distance = std::pow(10, -1 - i % 5) * (i % 2 == 0 ? 1 : -1);
     const Collision c = beside_a_direction(clatter::oracle::random_collision(random), law, i % 3 == 0, distance,
                                            random.uniform(0.5, 2));
@@ -139,10 +139,10 @@ BOOST_AUTO_TEST_CASE(derivatives_in_a_plane_of_symmetry_are_those_of_stepped_imp
     c.before.attitude = Quaternion::Identity();
     c.before.velocity = {i % 3 == 0 ? 0 : random.uniform(-1, 1), 0, -3};
     c.before.angular_velocity = {0, i % 3 == 0 ? 0 : random.uniform(-3, 3), 0};
-    const Law law = clatter::oracle::random_law(random, 0.6);
+    const ImpactLaw law = clatter::oracle::random_law(random, 0.6);
     const Contact contact = clatter::oracle::contact_of(c);
     const double slope = std::fabs(contact.inverse_inertia(0, 2) / contact.inverse_inertia(0, 0));
-    if (!(contact.velocity.z() < -0.5) || law.law.friction_value < slope + 0.05) continue;
+    if (!(contact.velocity.z() < -0.5) || law.friction_value < slope + 0.05) continue;
     ++i;
     BOOST_TEST_CONTEXT("corner " << i) { BOOST_CHECK_LE(error_of_strike(c, law), tolerance_of_strikes); }
   }
@@ -153,9 +153,9 @@ BOOST_AUTO_TEST_CASE(derivatives_without_friction_and_at_an_impulse_ratio_are_th
   Random random(7);
   for (int i = 0; i < corners; ++i) {
     const Collision c = clatter::oracle::random_collision(random);
-    Law law = clatter::oracle::random_law(random, 1);
-    law.law.friction = i % 2 == 0 ? FrictionKind::none : FrictionKind::impulse_ratio;
-    law.law.friction_value = 0.1, law.ratio_direction = {0.6, 0.8};
+    ImpactLaw law = clatter::oracle::random_law(random, 1);
+    law.friction = i % 2 == 0 ? FrictionKind::none : FrictionKind::impulse_ratio;
+    law.friction_value = 0.1, law.ratio_direction = {0.6, 0.8};
     Body body = c.body;
     body.rims = {{.centre = c.place, .axis = random.vector(1).normalized(), .radius = 0.3 * c.place.norm()}};
     const Corner corner = touching_corner(body, c.before.attitude, 0);

@@ -36,17 +36,17 @@ Collision turned(Collision c, const Quaternion& turn) {
   return c;
 }
 
-Impact strike(const Collision& c, const Law& law) { return space::strike(c.body, c.before, c.place, law); }
+Impact strike(const Collision& c, const ImpactLaw& law) { return space::strike(c.body, c.before, c.place, law); }
 
 BOOST_AUTO_TEST_CASE(friction_stays_within_coulombs_cone_and_stronges_law_creates_no_energy) {
   constexpr double tolerance = 1e-13;
   Random random(21);
   for (int i = 0; i < 4000; ++i) {
     const Collision c = clatter::oracle::random_collision(random);
-    const Law law = clatter::oracle::random_law(random, 3);
+    const ImpactLaw law = clatter::oracle::random_law(random, 3);
     const Impact impact = strike(c, law);
-    BOOST_CHECK_LE(impact.impulse.head<2>().norm(), law.law.friction_value * impact.impulse.z() * (1 + tolerance));
-    if (law.law.law == RestitutionLaw::newton || law.law.law == RestitutionLaw::poisson) continue;
+    BOOST_CHECK_LE(impact.impulse.head<2>().norm(), law.friction_value * impact.impulse.z() * (1 + tolerance));
+    if (law.law == RestitutionLaw::newton || law.law == RestitutionLaw::poisson) continue;
     const double before = kinetic_energy(c.body, c.before.attitude, c.before.velocity, c.before.angular_velocity);
     const double after =
         kinetic_energy(c.body, c.before.attitude, impact.velocity_after, impact.angular_velocity_after);
@@ -83,7 +83,7 @@ BOOST_AUTO_TEST_CASE(turning_a_scene_about_the_vertical_turns_its_impulse) {
   Random random(23);
   for (int i = 0; i < 2000; ++i) {
     const Collision c = clatter::oracle::random_collision(random);
-    const Law law = clatter::oracle::random_law(random, 3);
+    const ImpactLaw law = clatter::oracle::random_law(random, 3);
     const Quaternion turn(Eigen::AngleAxisd(random.uniform(-3, 3), Vector3::UnitZ()));
     const Impact impact = strike(c, law), other = strike(turned(c, turn), law);
     // A path whose slip nearly stops, or that leaves an invariant direction, amplifies the rounding of the scene.
@@ -104,7 +104,7 @@ BOOST_AUTO_TEST_CASE(a_mirrored_scene_gets_the_mirrored_impulse) {
   const Matrix3 mirror = Vector3(1, -1, 1).asDiagonal();
   for (int i = 0; i < 2000; ++i) {
     const Contact contact = clatter::oracle::contact_of(clatter::oracle::random_collision(random));
-    const Law law = clatter::oracle::random_law(random, 3);
+    const ImpactLaw law = clatter::oracle::random_law(random, 3);
     Contact mirrored = contact;
     mirrored.inverse_inertia = mirror * contact.inverse_inertia * mirror;
     mirrored.velocity = mirror * contact.velocity;
@@ -117,14 +117,14 @@ BOOST_AUTO_TEST_CASE(units_that_differ_by_powers_of_two_change_no_bit_of_an_impa
   Random random(25);
   for (int i = 0; i < 2000; ++i) {
     const Collision c = clatter::oracle::random_collision(random);
-    Law law = clatter::oracle::random_law(random, 3);
+    ImpactLaw law = clatter::oracle::random_law(random, 3);
     const double length = std::ldexp(1, random.whole(-20, 20)), time = std::ldexp(1, random.whole(-20, 20)),
                  mass = std::ldexp(1, random.whole(-20, 20)), speed = length / time;
     Collision scaled = c;
     scaled.body.mass *= mass, scaled.body.inertia *= mass * length * length, scaled.place *= length;
     scaled.before.velocity *= speed, scaled.before.angular_velocity /= time;
     const Impact impact = strike(c, law);
-    law.law.damping_per_stiffness /= speed;
+    law.damping_per_stiffness /= speed;
     const Impact other = strike(scaled, law);
     BOOST_CHECK(other.impulse == mass * speed * impact.impulse);
     BOOST_CHECK(other.velocity_after == speed * impact.velocity_after);
@@ -151,10 +151,10 @@ BOOST_AUTO_TEST_CASE(a_drop_that_stays_in_its_plane_agrees_with_the_planar_model
     if (i % 10 == 0) v.tangential = v.angular = 0, v.normal -= 0.5;  // no slip before
     c.before.velocity = {v.tangential, 0, v.normal};
     c.before.angular_velocity = {0, v.angular, 0};
-    Law law = clatter::oracle::random_law(random, 2);
-    if (i % 11 == 0) law.law.friction = FrictionKind::none;
+    ImpactLaw law = clatter::oracle::random_law(random, 2);
+    if (i % 11 == 0) law.friction = FrictionKind::none;
     const clatter::analytic::Impact planar =
-        clatter::analytic::strike({.mass = c.body.mass, .gyration_square = gyration}, v, d, law.law);
+        clatter::analytic::strike({.mass = c.body.mass, .gyration_square = gyration}, v, d, law);
     const double heading = random.uniform(-3, 3);
     const Quaternion turn(Eigen::AngleAxisd(i % 2 == 0 ? 0 : heading, Vector3::UnitZ()));
     const Impact impact = strike(turned(c, turn), law);
@@ -191,19 +191,18 @@ BOOST_AUTO_TEST_CASE(slip_of_a_cube_with_its_centre_above_the_corner_is_straight
     before.attitude = Quaternion(Eigen::AngleAxisd(random.uniform(-3, 3), Vector3::UnitZ())) *
                       Quaternion::FromTwoVectors(place, -Vector3::UnitZ());
     before.velocity = {random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-2, -0.1)};
-    Law law = clatter::oracle::random_law(random, 0.5);
-    law.law.law = static_cast<RestitutionLaw>(i % 3), law.law.restitution = random.uniform(0, 1);
-    law.law.damping_per_stiffness = 0;
+    ImpactLaw law = clatter::oracle::random_law(random, 0.5);
+    law.law = static_cast<RestitutionLaw>(i % 3), law.restitution = random.uniform(0, 1);
+    law.damping_per_stiffness = 0;
     const Impact impact = space::strike(cube, before, place, law);
-    const double normal = (1 + law.law.restitution) * mass * -before.velocity.z();
+    const double normal = (1 + law.restitution) * mass * -before.velocity.z();
     const Vector2 slip = before.velocity.head<2>();
-    const bool stops = slip.norm() < law.law.friction_value * normal * a;
-    const double friction = stops ? slip.norm() / a : law.law.friction_value * normal;
+    const bool stops = slip.norm() < law.friction_value * normal * a;
+    const double friction = stops ? slip.norm() / a : law.friction_value * normal;
     BOOST_CHECK_CLOSE_FRACTION(impact.impulse.z(), normal, tolerance);
     BOOST_CHECK_LE((impact.impulse.head<2>() + friction * slip.normalized()).norm(), tolerance * normal);
     BOOST_CHECK(impact.path == (stops ? PathKind::slip_stick : PathKind::slip));
-    if (stops)
-      BOOST_CHECK_CLOSE_FRACTION(impact.slip_stop_impulse, slip.norm() / a / law.law.friction_value, tolerance);
+    if (stops) BOOST_CHECK_CLOSE_FRACTION(impact.slip_stop_impulse, slip.norm() / a / law.friction_value, tolerance);
   }
 }
 
@@ -211,16 +210,15 @@ BOOST_AUTO_TEST_CASE(a_frictionless_impulse_is_one_plus_e_times_approach_over_th
   Random random(28);
   for (int i = 0; i < 1000; ++i) {
     const Collision c = clatter::oracle::random_collision(random);
-    Law law;
-    law.law.restitution = random.uniform(0, 1);
+    ImpactLaw law;
+    law.restitution = random.uniform(0, 1);
     const Impact impact = strike(c, law);
     const Vector3 arm = c.before.attitude * c.place;
     const Vector3 bent = c.before.attitude.conjugate() * arm.cross(Vector3::UnitZ());
     const double inverse = 1 / c.body.mass + bent.dot(c.body.inertia.inverse() * bent);
-    BOOST_CHECK_CLOSE_FRACTION(impact.impulse.z(), -(1 + law.law.restitution) * impact.contact_before.z() / inverse,
-                               1e-13);
+    BOOST_CHECK_CLOSE_FRACTION(impact.impulse.z(), -(1 + law.restitution) * impact.contact_before.z() / inverse, 1e-13);
     BOOST_CHECK_EQUAL(impact.impulse.head<2>().norm(), 0);
-    BOOST_CHECK_CLOSE_FRACTION(impact.restitution(), law.law.restitution, 1e-14);
+    BOOST_CHECK_CLOSE_FRACTION(impact.restitution(), law.restitution, 1e-14);
     BOOST_CHECK(impact.path == PathKind::frictionless);
   }
 }
@@ -230,15 +228,14 @@ BOOST_AUTO_TEST_CASE(an_impulse_ratio_acts_in_its_direction_and_jamming_is_refus
   int jams = 0;
   for (int i = 0; i < 2000; ++i) {
     const Collision c = clatter::oracle::random_collision(random);
-    Law law;
-    law.law = {.restitution = random.uniform(0, 1),
-               .friction = FrictionKind::impulse_ratio,
-               .friction_value = random.uniform(-3, 3)};
+    ImpactLaw law;
+    law = {.restitution = random.uniform(0, 1),
+           .friction = FrictionKind::impulse_ratio,
+           .friction_value = random.uniform(-3, 3)};
     const double angle = random.uniform(-3, 3);
     law.ratio_direction = {std::cos(angle), std::sin(angle)};
     const Contact contact = clatter::oracle::contact_of(c);
-    const Vector3 along(law.law.friction_value * law.ratio_direction.x(),
-                        law.law.friction_value * law.ratio_direction.y(), 1);
+    const Vector3 along(law.friction_value * law.ratio_direction.x(), law.friction_value * law.ratio_direction.y(), 1);
     const double rate = contact.inverse_inertia.row(2).dot(along);
     if (rate <= 0) {
       ++jams;
@@ -247,7 +244,7 @@ BOOST_AUTO_TEST_CASE(an_impulse_ratio_acts_in_its_direction_and_jamming_is_refus
       });
       continue;
     }
-    const Vector3 expected = -(1 + law.law.restitution) * contact.velocity.z() / rate * along;
+    const Vector3 expected = -(1 + law.restitution) * contact.velocity.z() / rate * along;
     // Near jamming the terms of `rate` cancel, and W's rounding grows by this.
     const double condition = contact.inverse_inertia.norm() * along.norm() / rate;
     BOOST_CHECK_LE((strike(c, law).impulse - expected).norm(), 1e-14 * condition * expected.norm());
@@ -261,10 +258,10 @@ BOOST_AUTO_TEST_CASE(a_corner_that_digs_in_while_its_slip_slows_has_a_bounded_im
   int digs = 0;
   for (int i = 0; i < 20000 && digs < 100; ++i) {
     const Contact contact = clatter::oracle::contact_of(clatter::oracle::random_collision(random));
-    Law law = clatter::oracle::random_law(random, 3);
+    ImpactLaw law = clatter::oracle::random_law(random, 3);
     const Matrix3& w = contact.inverse_inertia;
     const Vector2 s = contact.velocity.head<2>().normalized();
-    if (w(2, 2) - law.law.friction_value * w.block<2, 1>(0, 2).dot(s) >= 0) continue;
+    if (w(2, 2) - law.friction_value * w.block<2, 1>(0, 2).dot(s) >= 0) continue;
     ++digs;
     const ContactImpulse impact = contact_impulse(contact, law);
     // More than what would end the approach of an unhindered corner, and no corner that goes on approaching.
@@ -280,13 +277,13 @@ BOOST_AUTO_TEST_CASE(poissons_impulse_goes_on_where_a_second_compression_would_l
   int second = 0;
   for (int i = 0; i < (CLATTER_TEST_SLOW_BUILD ? 6000 : 60000); ++i) {
     const Contact contact = clatter::oracle::contact_of(clatter::oracle::random_collision(random));
-    Law law = clatter::oracle::random_law(random, 3);
-    law.law.law = RestitutionLaw::poisson, law.law.restitution = random.uniform(0, 1);
-    law.law.damping_per_stiffness = 0;
-    law.law.friction_value += 1;
+    ImpactLaw law = clatter::oracle::random_law(random, 3);
+    law.law = RestitutionLaw::poisson, law.restitution = random.uniform(0, 1);
+    law.damping_per_stiffness = 0;
+    law.friction_value += 1;
     const ContactImpulse impact = contact_impulse(contact, law);
     BOOST_CHECK_GE(impact.velocity_after.z(), 0);
-    const double impulse = (1 + law.law.restitution) * impact.compression_impulse;
+    const double impulse = (1 + law.restitution) * impact.compression_impulse;
     if (impact.impulse.z() <= impulse * (1 + 1e-9)) {
       BOOST_CHECK_CLOSE_FRACTION(impact.impulse.z(), impulse, 1e-13);
     } else {
@@ -339,7 +336,7 @@ BOOST_AUTO_TEST_CASE(a_corner_that_separates_gets_no_impulse_and_bad_input_is_re
   BOOST_CHECK_EQUAL(none.impulse.norm(), 0);
   BOOST_CHECK(none.velocity_after == before.velocity);
   BOOST_CHECK_EQUAL(none.restitution(), 0);
-  Law law;
+  ImpactLaw law;
   law.ratio_direction = {1, 1};
   const auto names_direction = [](const std::domain_error& e) {
     return std::string(e.what()).find("direction") != std::string::npos;

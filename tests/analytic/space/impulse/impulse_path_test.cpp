@@ -26,9 +26,9 @@ BOOST_AUTO_TEST_CASE(random_corners_with_friction_and_any_law_agree_with_steppin
   double worst = 0;
   for (int i = 0; i < corners; ++i) {
     const Contact contact = contact_of(random_collision(random));
-    const Law law = random_law(random, 3);
+    const ImpactLaw law = random_law(random, 3);
     const ContactImpulse impact = contact_impulse(contact, law);
-    const clatter::oracle::SteppedImpact<long double> stepped(contact, law.law);
+    const clatter::oracle::SteppedImpact<long double> stepped(contact, law);
     const double of_impulse =
         (impact.impulse - stepped.impulse().cast<double>()).norm() / stepped.impulse().cast<double>().norm();
     const double of_velocity =
@@ -36,8 +36,7 @@ BOOST_AUTO_TEST_CASE(random_corners_with_friction_and_any_law_agree_with_steppin
     worst = std::fmax(worst, std::fmax(of_impulse, of_velocity));
     if (impact.is_path_ambiguous) continue;
     unlike += std::isnan(impact.slip_stop_impulse) == stepped.slip_stopped();
-    BOOST_TEST_CONTEXT("corner " << i << " law " << static_cast<int>(law.law.law) << " friction "
-                                 << law.law.friction_value) {
+    BOOST_TEST_CONTEXT("corner " << i << " law " << static_cast<int>(law.law) << " friction " << law.friction_value) {
       BOOST_CHECK_LE(of_impulse, tolerance);
       BOOST_CHECK_LE(of_velocity, tolerance);
     }
@@ -71,10 +70,10 @@ BOOST_AUTO_TEST_CASE(slip_of_roundings_size_in_any_direction_grows_as_slip_that_
   int slipping = 0;
   for (int i = 0; i < contacts; ++i) {
     Contact contact = contact_of(random_collision(random));
-    Law law = random_law(random, 1);
-    law.law.law = RestitutionLaw::newton;
-    law.law.restitution = random.uniform(0, 1);
-    const auto wanted = impulse_from_rest(contact, law.law.friction_value, law.law.restitution);
+    ImpactLaw law = random_law(random, 1);
+    law.law = RestitutionLaw::newton;
+    law.restitution = random.uniform(0, 1);
+    const auto wanted = impulse_from_rest(contact, law.friction_value, law.restitution);
     if (!wanted) continue;
     const double outwards = std::atan2(-wanted->y(), -wanted->x());
     for (const double part : {1e-17, 1e-16, 1e-15, 1e-14}) {

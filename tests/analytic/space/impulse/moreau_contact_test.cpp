@@ -19,31 +19,31 @@ using clatter::oracle::contact_of;
 using clatter::oracle::Random;
 using clatter::oracle::random_collision;
 
-Law moreau(double friction, double restitution) {
-  return {.law = {.restitution = restitution, .friction = FrictionKind::moreau, .friction_value = friction}};
+ImpactLaw moreau(double friction, double restitution) {
+  return {.restitution = restitution, .friction = FrictionKind::moreau, .friction_value = friction};
 }
 
 /// By how much the definition is missed, over the approach speed and over the impulse.
-double miss(const Contact& contact, const Law& law, const ContactImpulse& found) {
+double miss(const Contact& contact, const ImpactLaw& law, const ContactImpulse& found) {
   const Vector3 after = contact.velocity + contact.inverse_inertia * found.impulse;
   const double speed = contact.velocity.norm() + (contact.inverse_inertia * found.impulse).norm();
   const Vector2 slip = after.head<2>(), friction = found.impulse.head<2>();
-  const double most = law.law.friction_value * found.impulse.z();
+  const double most = law.friction_value * found.impulse.z();
   const bool sticks = found.path == PathKind::stick || found.path == PathKind::slip_stick;
   const double of_friction = sticks ? slip.norm() / speed : (friction + most * slip.normalized()).norm() / most;
-  return std::fmax(std::fmax(std::fabs(after.z() + law.law.restitution * contact.velocity.z()) / speed,
+  return std::fmax(std::fmax(std::fabs(after.z() + law.restitution * contact.velocity.z()) / speed,
                              (found.velocity_after - after).norm() / speed),
                    std::fmax(of_friction, friction.norm() / most - 1));
 }
 
 /// Directions of slip that satisfy the definition, by a scan.
-int solutions(const Contact& contact, const Law& law) {
+int solutions(const Contact& contact, const ImpactLaw& law) {
   constexpr int parts = 7200;
   const Matrix3& w = contact.inverse_inertia;
   const auto across = [&](double angle, double& along) {
     const Vector3 s(std::cos(angle), std::sin(angle), 0);
-    const Vector3 rate = w * (Vector3::UnitZ() - law.law.friction_value * s);
-    const Vector3 after = contact.velocity - (1 + law.law.restitution) * contact.velocity.z() / rate.z() * rate;
+    const Vector3 rate = w * (Vector3::UnitZ() - law.friction_value * s);
+    const Vector3 after = contact.velocity - (1 + law.restitution) * contact.velocity.z() / rate.z() * rate;
     along = rate.z() > 0 ? s.dot(after) : -1;
     return s.x() * after.y() - s.y() * after.x();
   };
@@ -64,11 +64,11 @@ BOOST_AUTO_TEST_CASE(random_corners_end_as_the_law_asks) {
   int stuck = 0, several = 0;
   for (int i = 0; i < corners; ++i) {
     const Contact contact = contact_of(random_collision(random));
-    const Law law = moreau(std::exp(random.uniform(-4, 1.5)), random.uniform(0, 1));
+    const ImpactLaw law = moreau(std::exp(random.uniform(-4, 1.5)), random.uniform(0, 1));
     const ContactImpulse found = contact_impulse(contact, law);
     const double off = miss(contact, law, found);
     worst = std::fmax(worst, off);
-    BOOST_TEST_CONTEXT("corner " << i << " friction " << law.law.friction_value) BOOST_CHECK_LE(off, 1e-9);
+    BOOST_TEST_CONTEXT("corner " << i << " friction " << law.friction_value) BOOST_CHECK_LE(off, 1e-9);
     stuck += found.velocity_after.head<2>().isZero(0);
     several += found.is_path_ambiguous;
     if (i % 20 != 0) continue;
@@ -84,7 +84,7 @@ BOOST_AUTO_TEST_CASE(slopes_are_those_of_differences) {
   int compared = 0;
   for (int i = 0; i < 200; ++i) {
     const Contact contact = contact_of(random_collision(random));
-    const Law law = moreau(random.uniform(0.05, 0.6), random.uniform(0, 1));
+    const ImpactLaw law = moreau(random.uniform(0.05, 0.6), random.uniform(0, 1));
     ImpulseSlopes slopes;
     Matrix3 turned = Matrix3::Zero();
     turned(0, 2) = turned(2, 0) = 0.3;
@@ -124,9 +124,8 @@ BOOST_AUTO_TEST_CASE(the_plane_and_space_agree) {
                                   .slip_drift = -arm * height,
                                   .tangential = 1 + height * height};
     const double e = random.uniform(0, 1), slip = i % 10 == 0 ? 0 : random.uniform(-2, 2);
-    const Law law = moreau(random.uniform(0, 3), e);
-    const PathEnd<> plane =
-        point_impulse(path, PathStart<>{.approach_speed = 1, .slip = slip, .restitution = e}, law.law);
+    const ImpactLaw law = moreau(random.uniform(0, 3), e);
+    const PathEnd<> plane = point_impulse(path, PathStart<>{.approach_speed = 1, .slip = slip, .restitution = e}, law);
     Contact contact{.velocity = {slip, 0, -1}, .velocity_scale = 1};
     contact.inverse_inertia << path.tangential, 0, -path.slip_drift, 0, 1, 0, -path.slip_drift, 0, path.normal;
     const ContactImpulse space = contact_impulse(contact, law);
@@ -140,8 +139,8 @@ BOOST_AUTO_TEST_CASE(the_plane_and_space_agree) {
 }
 
 BOOST_AUTO_TEST_CASE(other_laws_of_restitution_are_refused) {
-  Law law = moreau(0.3, 0.5);
-  law.law.law = RestitutionLaw::poisson;
+  ImpactLaw law = moreau(0.3, 0.5);
+  law.law = RestitutionLaw::poisson;
   CHECK_REFUSED(law.validate(), std::domain_error);
 }
 

@@ -62,14 +62,14 @@ inline analytic::space::Contact contact_of(const Collision& c) {
 }
 
 /// Coulomb friction μ in [0, most] with one of the four restitution laws.
-inline analytic::space::Law random_law(Random& random, double most) {
+inline analytic::ImpactLaw random_law(Random& random, double most) {
   using analytic::RestitutionLaw;
-  analytic::space::Law law;
-  law.law.friction = analytic::FrictionKind::coulomb;
-  law.law.friction_value = random.uniform(0, most);
-  law.law.law = static_cast<RestitutionLaw>(random.whole(0, 3));
-  if (law.law.law == RestitutionLaw::viscoelastic) law.law.damping_per_stiffness = random.uniform(0, 1);
-  else law.law.restitution = random.uniform(0, 1);
+  analytic::ImpactLaw law;
+  law.friction = analytic::FrictionKind::coulomb;
+  law.friction_value = random.uniform(0, most);
+  law.law = static_cast<RestitutionLaw>(random.whole(0, 3));
+  if (law.law == RestitutionLaw::viscoelastic) law.damping_per_stiffness = random.uniform(0, 1);
+  else law.restitution = random.uniform(0, 1);
   return law;
 }
 

@@ -17,7 +17,7 @@ struct ReferenceImpact {
   analytic::space::Vector3 place;
   analytic::space::State before;  ///< from the state after and the reference's impulse
   analytic::space::Contact contact;
-  analytic::space::Law law;
+  analytic::ImpactLaw law;
   double tolerance = 0;
   analytic::space::Vector3 impulse, contact_after, velocity_after, angular_velocity_after;
   double compression = 0, slip_stop = 0;
@@ -30,10 +30,10 @@ inline ReferenceImpact reference_impact(const ReferenceRow& row) {
   r.path = fields.text("path");
   r.body = {.mass = fields.number("mass"), .inertia = fields.symmetric("I"), .vertices = {}, .rims = {}};
   r.place = fields.vector("r");
-  r.law.law.law = law_named(fields.text("law"));
-  r.law.law.restitution = fields.number("restitution");
-  r.law.law.friction_value = fields.number("friction");
-  r.law.law.friction = r.law.law.friction_value > 0 ? analytic::FrictionKind::coulomb : analytic::FrictionKind::none;
+  r.law.law = law_named(fields.text("law"));
+  r.law.restitution = fields.number("restitution");
+  r.law.friction_value = fields.number("friction");
+  r.law.friction = r.law.friction_value > 0 ? analytic::FrictionKind::coulomb : analytic::FrictionKind::none;
   r.tolerance = fields.number("tolerance");
   r.contact = {.inverse_inertia = fields.symmetric("W"),
                .velocity = fields.vector("v"),

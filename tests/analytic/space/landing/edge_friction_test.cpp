@@ -12,6 +12,7 @@
 namespace {
 
 using namespace clatter::analytic::space;
+using clatter::analytic::ImpactLaw;
 using clatter::analytic::RestitutionLaw;
 using clatter::oracle::check_energy_account;
 using clatter::oracle::check_turned;
@@ -46,8 +47,8 @@ auto land_by(const auto& how, const EdgeLanding& l, double angle, double damping
   before.velocity = before.attitude * l.velocity;
   before.angular_velocity = before.attitude * l.angular_velocity;
   const std::vector<Corner> corners{{.index = 0, .place = l.from}, {.index = 1, .place = l.to}};
-  Law law = coulomb(l.restitution, l.friction, l.law);
-  law.law.damping_per_stiffness = damping;
+  ImpactLaw law = coulomb(l.restitution, l.friction, l.law);
+  law.damping_per_stiffness = damping;
   return how(body, before, corners, law);
 }
 

@@ -15,10 +15,10 @@
 namespace clatter::oracle {
 
 using analytic::FrictionKind;
+using analytic::ImpactLaw;
 using analytic::RestitutionLaw;
 using analytic::space::Body;
 using analytic::space::Corner;
-using analytic::space::Law;
 using analytic::space::Vector3;
 
 inline std::vector<Corner> corners_of(const std::vector<Vector3>& places) {
@@ -27,17 +27,17 @@ inline std::vector<Corner> corners_of(const std::vector<Vector3>& places) {
   return corners;
 }
 
-inline Law frictionless(double e) {
-  Law law;
-  law.law.restitution = e;
+inline ImpactLaw frictionless(double e) {
+  ImpactLaw law;
+  law.restitution = e;
   return law;
 }
 
-inline Law coulomb(double e, double friction, RestitutionLaw restitution = RestitutionLaw::newton) {
-  Law law = frictionless(e);
-  law.law.law = restitution;
-  law.law.friction = FrictionKind::coulomb;
-  law.law.friction_value = friction;
+inline ImpactLaw coulomb(double e, double friction, RestitutionLaw restitution = RestitutionLaw::newton) {
+  ImpactLaw law = frictionless(e);
+  law.law = restitution;
+  law.friction = FrictionKind::coulomb;
+  law.friction_value = friction;
   return law;
 }
 

@@ -70,7 +70,7 @@ Landing planar_landing(Random& random, int number) {
                   .velocity = {drop.velocity.tangential, 0, drop.velocity.normal},
                   .angular_velocity = {0, drop.velocity.angular, 0},
                   .gravity = drop.gravity,
-                  .law = {.law = drop.law}};
+                  .law = drop.law};
   return one;
 }
 
@@ -258,8 +258,8 @@ BOOST_AUTO_TEST_CASE(no_corner_that_is_on_the_ground_moves_into_it_after_a_level
   for (int n = 0; n < landings; ++n) {
     const Body body =
         box(random.uniform(0.5, 2), {.size = {random.uniform(0.1, 2), random.uniform(0.1, 2), random.uniform(0.1, 2)}});
-    Law law{.law = random_law(random, n)};
-    if (n / 8 % 2 == 1) law.law.friction = FrictionKind::coulomb, law.law.friction_value = random.uniform(0, 0.5);
+    ImpactLaw law = random_law(random, n);
+    if (n / 8 % 2 == 1) law.friction = FrictionKind::coulomb, law.friction_value = random.uniform(0, 0.5);
     State before;
     before.attitude = Quaternion(Eigen::AngleAxisd(random.uniform(0, 6), Vector3::UnitZ()));
     before.velocity = random.vector(1) - Vector3(0, 0, 0.6);
@@ -282,8 +282,8 @@ BOOST_AUTO_TEST_CASE(a_level_landing_mirrored_or_with_its_corners_in_another_ord
   for (int n = 0; n < landings; ++n) {
     const Body body =
         box(random.uniform(0.5, 2), {.size = {random.uniform(0.1, 2), random.uniform(0.1, 2), random.uniform(0.1, 2)}});
-    Law law{.law = random_law(random, n)};
-    if (n / 8 % 2 == 1) law.law.friction = FrictionKind::coulomb, law.law.friction_value = random.uniform(0, 0.5);
+    ImpactLaw law = random_law(random, n);
+    if (n / 8 % 2 == 1) law.friction = FrictionKind::coulomb, law.friction_value = random.uniform(0, 0.5);
     // Some of the motion vanishes in most of the landings: corners are then equally fast.
     const auto some = [&](double size) { return random.whole(0, 2) == 0 ? random.uniform(-size, size) : 0; };
     State before;
@@ -314,9 +314,9 @@ BOOST_AUTO_TEST_CASE(a_landing_of_which_an_index_decides_the_first_corner_has_no
   drop.body = box(1, {.size = {0.1, 0.1, 0.4}});
   drop.velocity = {0.1, 0.05, -1};
   drop.angular_velocity = {0, 0, 1e-6};
-  drop.law.law.restitution = 0.66;
-  drop.law.law.friction = FrictionKind::coulomb;
-  drop.law.law.friction_value = 0.1;
+  drop.law.restitution = 0.66;
+  drop.law.friction = FrictionKind::coulomb;
+  drop.law.friction_value = 0.1;
   const ImpactRow flat = impact_sequence(drop, {.impacts = 1}).rows.at(0);
   BOOST_TEST(flat.group.value().is_whole);
   BOOST_TEST(!flat.group->is_open);
@@ -325,7 +325,7 @@ BOOST_AUTO_TEST_CASE(a_landing_of_which_an_index_decides_the_first_corner_has_no
   drop.attitude = Quaternion(Eigen::AngleAxisd(0.2, Vector3::UnitY()));
   drop.velocity = {0, 0.5, -1};
   drop.angular_velocity = Vector3::Zero();
-  drop.law.law.friction_value = 0.6;
+  drop.law.friction_value = 0.6;
   const ImpactRow tipped = impact_sequence(drop, {.impacts = 1}).rows.at(0);
   BOOST_TEST(!tipped.group.value().is_open);
   // A face that does not lie below the centre of mass.
@@ -342,15 +342,15 @@ namespace {
 struct TallLanding {
   Body body;
   State before;
-  Law law;
+  ImpactLaw law;
 
   TallLanding(Random& random, int number) {
     const double height = random.uniform(0.5, 4);
     body = box(1, {.size = {random.uniform(0.7, 1.4), random.uniform(0.7, 1.4), height}});
     if (number % 3 == 0) body.inertia(0, 2) = body.inertia(2, 0) = 0.03;
-    law.law = random_law(random, number);
-    law.law.friction = FrictionKind::coulomb;
-    law.law.friction_value = random.uniform(0.1, 1);
+    law = random_law(random, number);
+    law.friction = FrictionKind::coulomb;
+    law.friction_value = random.uniform(0.1, 1);
     const auto size = [&] { return std::pow(10.0, -random.whole(0, 12)); };
     before.velocity = {size() * random.uniform(-1, 1), size() * random.uniform(-1, 1), -random.uniform(0.5, 1)};
     before.angular_velocity = {0, 0, size() * random.uniform(-1, 1)};
@@ -416,10 +416,10 @@ struct Wheel {
 }  // namespace
 
 BOOST_AUTO_TEST_CASE(a_wheel_of_spokes_that_comes_down_on_two_feet_keeps_its_spin_about_both) {
-  Law law;
-  law.law.restitution = 0;
-  law.law.friction = FrictionKind::coulomb;
-  law.law.friction_value = 10;
+  ImpactLaw law;
+  law.restitution = 0;
+  law.friction = FrictionKind::coulomb;
+  law.friction_value = 10;
   for (int k = 0; k <= 80; ++k) {
     const double inertia = std::pow(10.0, -6 + 6 * k / 80.0);
     const double right = (inertia + std::cos(2 * half_angle)) / (inertia + 1);
@@ -448,9 +448,9 @@ BOOST_AUTO_TEST_CASE(a_wheel_that_rolls_over_its_feet_loses_at_each_what_its_clo
               .angular_velocity = {0, 1, 0},
               .gravity = 0.1,
               .law = {}};
-    drop.law.law.restitution = 0;
-    drop.law.law.friction = FrictionKind::coulomb;
-    drop.law.law.friction_value = 10;
+    drop.law.restitution = 0;
+    drop.law.friction = FrictionKind::coulomb;
+    drop.law.friction_value = 10;
     const double lost = (inertia + std::cos(2 * half_angle)) / (inertia + 1);
     // From foot to foot without loss between: the centre is as high at each landing.
     const Sequence sequence = impact_sequence(drop, {.impacts = 4, .until_rest = true});
@@ -479,9 +479,9 @@ BOOST_AUTO_TEST_CASE(a_wheel_under_its_weight_rolls_over_its_feet_by_the_closed_
                 .angular_velocity = turn * wheel.before.angular_velocity,
                 .gravity = 1.4,
                 .law = {}};
-      drop.law.law.restitution = 0;
-      drop.law.law.friction = FrictionKind::coulomb;
-      drop.law.law.friction_value = 10;
+      drop.law.restitution = 0;
+      drop.law.friction = FrictionKind::coulomb;
+      drop.law.friction_value = 10;
       drop.velocity *= 1.5, drop.angular_velocity *= 1.5;
       const double lost = (inertia + std::cos(2 * half_angle)) / (inertia + 1);
       const double climb = 2 * drop.gravity * (1 - std::cos(half_angle)) / (inertia + 1);

@@ -90,7 +90,8 @@ BOOST_AUTO_TEST_CASE(corners_of_a_face_or_an_edge_that_rebounds_as_a_whole_leave
     auto touching = box.bottom;
     if (is_edge) touching = {box.bottom[1], box.bottom[2]};
     // Friction does not act on the normal motion of a face that it does not tilt.
-    const Law law = is_edge ? frictionless(random.uniform(0, 1)) : coulomb(random.uniform(0, 1), random.uniform(0, 2));
+    const ImpactLaw law =
+        is_edge ? frictionless(random.uniform(0, 1)) : coulomb(random.uniform(0, 1), random.uniform(0, 2));
     const auto whole = rebound_as_a_whole(box.body, before, touching, law);
     if (!whole || whole->tilts) continue;
     bool all_approach = true;
@@ -100,7 +101,7 @@ BOOST_AUTO_TEST_CASE(corners_of_a_face_or_an_edge_that_rebounds_as_a_whole_leave
       all_approach = all_approach && u < 0;
       if (u < 0 && whole->order[0].size() == touching.size()) {
         const double after = normal_velocity(whole->velocity_after, whole->angular_velocity_after, arm);
-        BOOST_CHECK_LE(std::fabs(after + law.law.restitution * u), tolerance * 4);
+        BOOST_CHECK_LE(std::fabs(after + law.restitution * u), tolerance * 4);
       }
     }
     if (all_approach) ++(is_edge ? edges : faces);
@@ -151,7 +152,7 @@ BOOST_AUTO_TEST_CASE(corners_that_cannot_rebound_as_a_whole_strike_one_after_the
     State before;
     before.velocity = random.vector(1) - Vector3(0, 0, 0.5);
     before.angular_velocity = random.vector(6);
-    const Law law = coulomb(random.uniform(0, 1), random.uniform(0, 1), RestitutionLaw::stronge);
+    const ImpactLaw law = coulomb(random.uniform(0, 1), random.uniform(0, 1), RestitutionLaw::stronge);
     const GroupImpact impact = strike_together(box.body, before, box.bottom, law);
     const double scale = before.velocity.norm() + before.angular_velocity.norm() * 3;
     double fastest = 0;
@@ -186,10 +187,9 @@ BOOST_AUTO_TEST_CASE(a_planar_flat_landing_with_friction_agrees_with_the_planar_
     const PlanarBody body{.mass = box.body.mass, .gyration_square = gyration};
     const PlanarVelocity v{random.uniform(-2, -0.1), random.uniform(-1, 1), random.uniform(-2, 2)};
     const ContactPoint left{-box.length / 2, -box.height / 2}, right{box.length / 2, -box.height / 2};
-    Law law = coulomb(random.uniform(0, 1), random.uniform(0, 1));
-    if (i % 5 == 0)
-      law.law.law = RestitutionLaw::viscoelastic, law.law.restitution = 1, law.law.damping_per_stiffness = 0.3;
-    const auto planar = strike_flat(body, v, left, right, law.law);
+    ImpactLaw law = coulomb(random.uniform(0, 1), random.uniform(0, 1));
+    if (i % 5 == 0) law.law = RestitutionLaw::viscoelastic, law.restitution = 1, law.damping_per_stiffness = 0.3;
+    const auto planar = strike_flat(body, v, left, right, law);
     State before;
     before.velocity = {v.tangential, 0, v.normal};
     before.angular_velocity = {0, v.angular, 0};
@@ -219,16 +219,16 @@ BOOST_AUTO_TEST_CASE(faces_and_edges_on_damped_ground_bounce_as_a_mass_at_their_
     const bool is_edge = i % 2 == 0;
     if (is_edge) before.attitude = Eigen::AngleAxisd(random.uniform(0.2, 1), Vector3::UnitY());
     const std::vector<Corner> touching = is_edge ? std::vector{box.bottom[1], box.bottom[2]} : box.bottom;
-    Law law = frictionless(1);
-    law.law.law = RestitutionLaw::viscoelastic;
-    law.law.damping_per_stiffness = random.uniform(0.05, 1);
+    ImpactLaw law = frictionless(1);
+    law.law = RestitutionLaw::viscoelastic;
+    law.damping_per_stiffness = random.uniform(0.05, 1);
     const auto whole = rebound_as_a_whole(box.body, before, touching, law);
     if (!whole || whole->order.front().size() != touching.size()) continue;  // one corner alone approaches
     ++(is_edge ? edges : faces);
     // Without friction the impulses, all upwards, have their resultant at (−M_y, M_x)/P_z.
     const Vector3 centre(-whole->moment.y() / whole->impulse.z(), whole->moment.x() / whole->impulse.z(), 0);
     const double approach = -normal_velocity(before.velocity, before.angular_velocity, centre);
-    const double e = clatter::analytic::test::integrated_restitution(law.law.damping_per_stiffness, approach);
+    const double e = clatter::analytic::test::integrated_restitution(law.damping_per_stiffness, approach);
     for (const Corner& corner : touching) {
       const Vector3 arm = before.attitude * corner.place;
       BOOST_TEST(std::fabs(normal_velocity(whole->velocity_after, whole->angular_velocity_after, arm) +
@@ -249,11 +249,11 @@ BOOST_AUTO_TEST_CASE(an_edge_that_lands_level_strikes_as_the_corner_of_the_plana
     const PlanarVelocity v{random.uniform(-2, -1), random.uniform(-1, 1), random.uniform(-0.5, 0.5)};
     before.velocity = {v.tangential, 0, v.normal};
     before.angular_velocity = {0, v.angular, 0};
-    const Law law =
+    const ImpactLaw law =
         coulomb(random.uniform(0, 1), random.uniform(0, 2), static_cast<RestitutionLaw>(random.whole(0, 2)));
     const Vector3 arm = before.attitude * box.bottom[1].place;
     const double gyration = (box.length * box.length + box.height * box.height) / 12;
-    const auto planar = strike({.mass = box.body.mass, .gyration_square = gyration}, v, {arm.x(), arm.z()}, law.law);
+    const auto planar = strike({.mass = box.body.mass, .gyration_square = gyration}, v, {arm.x(), arm.z()}, law);
     const auto whole = rebound_as_a_whole(box.body, before, std::vector{box.bottom[1], box.bottom[2]}, law);
     BOOST_REQUIRE(whole.has_value());
     const double size = std::hypot(planar.normal_impulse, planar.tangential_impulse);
@@ -297,7 +297,7 @@ BOOST_AUTO_TEST_CASE(edges_of_a_face_that_strike_in_turn_go_on_as_edges_until_ro
   int in_turn = 0;
   for (int i = 0; i < 60; ++i) {
     const BoxBesideEdge scene(random);
-    const Law law = coulomb(0, random.uniform(0.05, 1));
+    const ImpactLaw law = coulomb(0, random.uniform(0.05, 1));
     const auto landed = [&](const Vector3& kicked) {
       State before = scene.before;
       before.velocity += kicked;
@@ -362,7 +362,7 @@ BOOST_AUTO_TEST_CASE(a_face_that_slips_to_its_stop_against_much_friction_rebound
   before.attitude = Quaternion(0.1566730109646018, 0, 0, 0.9876505291019115).normalized();
   before.velocity = {0.7704, 0, -1.011};
   before.angular_velocity = {0, 0, 0.1893};
-  const Law law = clatter::oracle::coulomb(0.523, 1.38, RestitutionLaw::poisson);
+  const ImpactLaw law = clatter::oracle::coulomb(0.523, 1.38, RestitutionLaw::poisson);
   const GroupImpact stopped = strike_together(box.body, before, box.bottom, law);
   BOOST_TEST(stopped.is_whole);
   BOOST_TEST((stopped.velocity_after - Vector3(0, 0, 0.523 * 1.011)).norm() <= 1e-12);

@@ -82,7 +82,7 @@ bool agree(const Vector3& v, const Vector3& spin, const GroupImpact& impact, dou
 }
 
 /// Corners one after the other as the heights of one tilt have it, each by its own impact.
-State after_tilt(const Body& body, const State& before, const std::vector<Corner>& touching, const Law& law,
+State after_tilt(const Body& body, const State& before, const std::vector<Corner>& touching, const ImpactLaw& law,
                  double direction) {
   State state = before;
   std::vector<double> heights;
@@ -123,7 +123,7 @@ BOOST_AUTO_TEST_CASE(each_direction_lies_in_one_sector_the_outcome_of_which_its_
   State before;
   before.angular_velocity = {0.3, -1, 0.1};
   before.velocity = {0, 0, -0.6};
-  const Law law = frictionless(0.7);
+  const ImpactLaw law = frictionless(0.7);
   const OutcomeSet set = tilted_outcomes(block.body, before, block.bottom, law);
   BOOST_REQUIRE_GE(set.outcomes.size(), 3u);
   for (const TiltedOutcome& outcome : set.outcomes) {
@@ -182,7 +182,7 @@ BOOST_AUTO_TEST_CASE(no_direction_of_the_tilt_has_an_outcome_beyond_the_set_and_
   for (int i = 0; i < faces; ++i) {
     const LevelFace face(random);
     const double e = random.uniform(0.3, 1);
-    const Law law =
+    const ImpactLaw law =
         i % 4 == 0 ? coulomb(e, random.uniform(0, 1), static_cast<RestitutionLaw>(i / 4 % 3)) : frictionless(e);
     const OutcomeSet set = tilted_outcomes(face.body, face.before, face.touching, law);
     BOOST_REQUIRE(set.is_complete());
@@ -271,7 +271,7 @@ BOOST_AUTO_TEST_CASE(the_sum_of_a_rattle_with_friction_is_that_of_its_strikes) {
   State now;
   now.velocity = {0.0054, 0.0012, -0.975};
   now.angular_velocity = {0, 1.95, -0.12};
-  const Law law{.law = {.restitution = 0, .friction = FrictionKind::coulomb, .friction_value = 0.3}};
+  const ImpactLaw law{.restitution = 0, .friction = FrictionKind::coulomb, .friction_value = 0.3};
   const GroupImpact sum = strike_together(light.body, now, light.bottom, law);
   std::vector<Corner> edges[2];
   for (const Corner& corner : light.bottom) edges[corner.place.x() > 0].push_back(corner);
@@ -298,7 +298,7 @@ BOOST_AUTO_TEST_CASE(edges_that_rattle_on_give_outcomes_that_mirror_one_another_
   const FlatBox light = needle_in_a_box();
   State before;
   before.velocity = {0, 0, -1};
-  const Law law{.law = {.restitution = 0, .friction = FrictionKind::coulomb, .friction_value = 0.3}};
+  const ImpactLaw law{.restitution = 0, .friction = FrictionKind::coulomb, .friction_value = 0.3};
   const OutcomeSet set = tilted_outcomes(light.body, before, light.bottom, law);
   BOOST_TEST(set.is_complete());
   const auto share_of = [&](const Vector3& velocity) {

@@ -29,7 +29,7 @@ space::Drop slab(const Quaternion& attitude, double e) {
   drop.attitude = attitude;
   drop.velocity = {0, 0, -1};
   drop.gravity = 9.81;
-  drop.law.law.restitution = e;
+  drop.law.restitution = e;
   return drop;
 }
 
@@ -63,8 +63,8 @@ BOOST_AUTO_TEST_CASE(a_slab_on_damped_ground_never_comes_to_rest_since_slow_cont
   for (const Quaternion& attitude : {Quaternion::Identity(), turn(0.05, {1, 0, 0}) * turn(0.2, {0, 1, 0})}) {
     for (const double damping : {0.01, 0.3, 10.0}) {
       space::Drop drop = slab(attitude, 1);
-      drop.law.law.law = RestitutionLaw::viscoelastic;
-      drop.law.law.damping_per_stiffness = damping;
+      drop.law.law = RestitutionLaw::viscoelastic;
+      drop.law.damping_per_stiffness = damping;
       const space::Sequence s = space::impact_sequence(drop, {.impacts = 200, .digits = 1});
       BOOST_TEST_CONTEXT(damping << " s/m: " << s.message) {
         BOOST_CHECK(s.outcome == Outcome::impact_limit);
@@ -206,13 +206,13 @@ BOOST_AUTO_TEST_CASE(
       drop.velocity = extreme.velocity;
       drop.angular_velocity = extreme.spin;
       drop.gravity = extreme.gravity;
-      drop.law.law.restitution = e;
+      drop.law.restitution = e;
       BOOST_TEST_CONTEXT("velocity " << drop.velocity.transpose() << " size " << extreme.size.transpose() << ", spin "
                                      << extreme.spin.transpose() << ", e " << e) {
         try {
           const space::Sequence s = space::impact_sequence(drop, {.impacts = 20});
           BOOST_TEST(!s.rows.empty());
-          BOOST_TEST(s.evaluations < 3'000'000);  // each takes a third of a microsecond
+          BOOST_TEST(s.root_evaluations < 3'000'000);  // each takes a third of a microsecond
           for (const space::ImpactRow& row : s.rows) {
             BOOST_TEST(row.impact.impulse.allFinite());
             BOOST_TEST(row.impact.velocity_after.allFinite());
@@ -257,7 +257,7 @@ space::Drop tumbling(int n) {
   drop.velocity = {0.5 * normal(random), 0.5 * normal(random), -0.5 - uniform(random)};
   drop.angular_velocity = 5 * vector();
   drop.gravity = 9.81;
-  ImpactLaw& law = drop.law.law;
+  ImpactLaw& law = drop.law;
   law.restitution = 0.7 * uniform(random);
   law.law = std::array{RestitutionLaw::newton, RestitutionLaw::poisson, RestitutionLaw::stronge}[n / 3 % 3];
   if (n / 9 % 2 == 0) return drop;
@@ -417,14 +417,14 @@ BOOST_AUTO_TEST_CASE(the_impulse_of_a_tail_acts_against_the_slip_of_its_own_impa
   int slipping = 0;
   for (int n = 9; n < 200; ++n) {
     const space::Drop drop = tumbling(n);
-    if (drop.law.law.friction == FrictionKind::none) continue;
+    if (drop.law.friction == FrictionKind::none) continue;
     const space::Sequence s = space::impact_sequence(drop, {.impacts = 2000});
     if (!s.tail || s.tail->corners.size() != 1) continue;
     const space::Impact& last = s.rows.back().impact;
     if (last.path != space::PathKind::slip && last.path != space::PathKind::turning_slip) continue;
     ++slipping;
     const space::Vector2 slip = last.contact_after.head<2>().normalized();
-    const space::Vector2 expected = -drop.law.law.friction_value * s.tail->normal_impulse * slip;
+    const space::Vector2 expected = -drop.law.friction_value * s.tail->normal_impulse * slip;
     BOOST_TEST((s.tail->tangential_impulse - expected).norm() <= 1e-3 * expected.norm());
   }
   BOOST_TEST(slipping > 5);
@@ -432,8 +432,8 @@ BOOST_AUTO_TEST_CASE(the_impulse_of_a_tail_acts_against_the_slip_of_its_own_impa
 
 BOOST_AUTO_TEST_CASE(a_drop_on_damped_ground_says_that_slow_contacts_lose_nothing) {
   space::Drop drop = slab(turn(0.05, {1, 0, 0}) * turn(0.2, {0, 1, 0}), 1);
-  drop.law.law.law = RestitutionLaw::viscoelastic;
-  drop.law.law.damping_per_stiffness = 0.3;
+  drop.law.law = RestitutionLaw::viscoelastic;
+  drop.law.damping_per_stiffness = 0.3;
   const space::Sequence s = space::impact_sequence(drop, {.impacts = 100});
   BOOST_TEST(!s.rest);
   BOOST_TEST(s.message.find("hops last for ever") != std::string::npos);
@@ -465,12 +465,12 @@ BOOST_AUTO_TEST_CASE(what_a_body_must_settle_on_is_the_face_that_its_energy_cann
   tall.body = space::box(1, {.size = {0.1, 0.1, 0.4}});
   flat.position.z() = 0.2;
   BOOST_TEST(space::settles(tall, flat, 1).has_value());
-  tall.law.law.friction = FrictionKind::coulomb;
-  tall.law.law.friction_value = 0.3;
+  tall.law.friction = FrictionKind::coulomb;
+  tall.law.friction_value = 0.3;
   BOOST_TEST(!space::settles(tall, flat, 1));
   // Its whole energy is not enough to raise its centre over an edge, by √(0.05² + 0.2²) − 0.2 m.
   flat.velocity = {std::sqrt(2 * drop.gravity * (std::hypot(0.05, 0.2) - 0.2)) - 1e-6, 0, 0};
-  tall.law.law.law = RestitutionLaw::stronge;
+  tall.law.law = RestitutionLaw::stronge;
   BOOST_REQUIRE(space::settles(tall, flat, 1));
   BOOST_TEST(std::isinf(space::settles(tall, flat, 1)->latest));
   flat.velocity.x() += 2e-6;
@@ -480,21 +480,21 @@ BOOST_AUTO_TEST_CASE(what_a_body_must_settle_on_is_the_face_that_its_energy_cann
   space::State tilted;
   tilted.attitude = turn(85 * std::numbers::pi / 180, {0, 1, 0});
   tilted.position.z() = 0.05 * std::sin(85 * std::numbers::pi / 180) + 0.2 * std::cos(85 * std::numbers::pi / 180);
-  tall.law.law.friction = FrictionKind::none;
+  tall.law.friction = FrictionKind::none;
   for (const double share : {0.0, 1 - 1e-6, 1 + 1e-6}) {
     tilted.velocity.z() = -share * std::sqrt(2 * drop.gravity * (std::sqrt(2) * 0.05 - tilted.position.z()));
     const auto side = space::settles(tall, tilted, 1);
     BOOST_TEST(side.has_value() == (share < 1));
     if (side) BOOST_TEST(side->corners == (std::vector<int>{7, 5, 4, 6}), boost::test_tools::per_element());
   }
-  drop.law.law.law = RestitutionLaw::viscoelastic;
+  drop.law.law = RestitutionLaw::viscoelastic;
   flat.position.z() = 0.01;
   BOOST_TEST(!space::settles(drop, flat, 1));
 }
 
 BOOST_AUTO_TEST_CASE(a_corner_that_hardly_rebounds_ends_in_few_rows_though_its_slip_is_rounding) {
   const space::Drop drop = tumbling(88);
-  BOOST_TEST_REQUIRE(drop.law.law.restitution < 0.01);
+  BOOST_TEST_REQUIRE(drop.law.restitution < 0.01);
   const space::Sequence s = space::impact_sequence(drop, {.impacts = 200});
   BOOST_TEST(s.rows.size() < 15);
   BOOST_TEST(s.end_predictable);
@@ -508,7 +508,7 @@ BOOST_AUTO_TEST_CASE(a_tilted_rim_bounces_to_rest_on_itself_and_rolls_on) {
     drop.velocity = {0, 0, -1};
     drop.angular_velocity = {1, 0, 0};
     drop.gravity = 9.81;
-    drop.law.law.restitution = e;
+    drop.law.restitution = e;
     const space::Sequence s = space::impact_sequence(drop, {.impacts = 200});
     BOOST_TEST_CONTEXT("e = " << e << ": " << s.message) {
       BOOST_TEST(s.rows.size() < 40);

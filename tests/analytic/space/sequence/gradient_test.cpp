@@ -41,7 +41,7 @@ class Oracle {
  public:
   /// The drop with one of its numbers moved.
   Oracle(const Drop& drop, SpaceParameter parameter, double by)
-      : law_(drop.law.law), gravity_(drop.gravity), mass_(drop.body.mass), places_(drop.body.vertices) {
+      : law_(drop.law), gravity_(drop.gravity), mass_(drop.body.mass), places_(drop.body.vertices) {
     if (parameter == SpaceParameter::restitution) law_.restitution += by;
     if (parameter == SpaceParameter::friction) law_.friction_value += by;
     const Quaternion& q = drop.attitude;
@@ -225,7 +225,7 @@ Drop random_drop(Random& random, int i) {
   drop.velocity = {random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-3, -1)};
   drop.angular_velocity = random.vector(0.5);
   drop.gravity = i % 3 == 0 ? 0 : random.uniform(1, 10);
-  ImpactLaw& law = drop.law.law;
+  ImpactLaw& law = drop.law;
   law.law = i % 3 == 0 ? RestitutionLaw::newton : i % 3 == 1 ? RestitutionLaw::poisson : RestitutionLaw::stronge;
   law.restitution = round_number(random.uniform(0.3, 0.9));
   law.friction = FrictionKind::coulomb;
@@ -262,7 +262,7 @@ BOOST_AUTO_TEST_CASE(a_thin_rod_in_its_plane_has_the_plane_s_derivatives) {
     drop.velocity = {0.25, 0, -1.5};
     drop.angular_velocity = {0, 0.5, 0};
     drop.gravity = 9.81;
-    drop.law.law = flat.law;
+    drop.law = flat.law;
     const plane::SequenceGradient wanted = plane::sequence_gradient(flat, 3);
     const SpaceGradient found = sequence_gradient(drop, 3);
     BOOST_TEST_REQUIRE(found.rows.size() == 3U);
@@ -291,7 +291,7 @@ BOOST_AUTO_TEST_CASE(a_level_face_has_derivatives_but_none_of_a_turn) {
   drop.body = box(1, {.size = {0.3, 0.2, 0.1}});
   drop.velocity = {0, 0, -2};
   drop.gravity = 10;
-  drop.law.law.restitution = 0.5;
+  drop.law.restitution = 0.5;
   const SpaceGradient gradient = sequence_gradient(drop, 2);
   BOOST_TEST_REQUIRE(gradient.rows.size() == 2U);
   for (const std::size_t turn : {0U, 1U}) {
@@ -312,7 +312,7 @@ BOOST_AUTO_TEST_CASE(slip_that_begins_from_rest_has_derivatives_along_which_it_s
   drop.attitude = turn_by({0.3, -0.6, 0});
   drop.velocity = {0, 0, -2};
   drop.gravity = 9.81;
-  drop.law.law = {.restitution = 0.5, .friction = FrictionKind::coulomb, .friction_value = 0.125};
+  drop.law = {.restitution = 0.5, .friction = FrictionKind::coulomb, .friction_value = 0.125};
   const SpaceGradient gradient = sequence_gradient(drop, 1);
   BOOST_TEST_REQUIRE(gradient.rows.size() == 1U);
   // The impact is of degree one in the velocities.

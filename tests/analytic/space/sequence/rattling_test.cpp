@@ -49,7 +49,7 @@ Drop thrown(int n, bool rebounds) {
   drop.velocity = {0, 0, -4 - 5 * uniform(random)};
   for (int i = 0; i < 3; ++i) drop.angular_velocity[i] = 5 * around_zero();
   drop.gravity = 9.81;
-  auto& law = drop.law.law;
+  auto& law = drop.law;
   law.restitution = 0;
   law.friction = FrictionKind::coulomb;
   law.friction_value = 0.1 + 1.4 * uniform(random);
@@ -84,7 +84,7 @@ BOOST_AUTO_TEST_CASE(slip_that_grows_faster_than_its_direction_is_driven_back_be
   drop.velocity = {0, 0, -7.89};
   drop.angular_velocity = {-9.626, 7.83, 6.308};
   drop.gravity = 9.81;
-  drop.law.law = {.restitution = 0, .friction = FrictionKind::coulomb, .friction_value = 1.17};
+  drop.law = {.restitution = 0, .friction = FrictionKind::coulomb, .friction_value = 1.17};
   const Sequence s = impact_sequence(drop, {.impacts = 100, .until_rest = true});
   BOOST_REQUIRE(!s.contacts.empty());
   const SustainedContact& first = s.contacts.front();
@@ -138,7 +138,7 @@ BOOST_AUTO_TEST_CASE(throws_by_any_law_run_to_their_end_where_corners_come_to_st
   drop.velocity = {0.5, 0.2, -1.5};
   drop.angular_velocity = {-0.9471435261017057, -7.608443773962224, -26.198162628006155};
   drop.gravity = 9.81;
-  drop.law.law = {
+  drop.law = {
       .restitution = 0.5, .law = RestitutionLaw::stronge, .friction = FrictionKind::coulomb, .friction_value = 0.25};
   const Sequence s = impact_sequence(drop, {.impacts = 100'000, .digits = 2, .until_rest = true});
   BOOST_CHECK(s.outcome == Outcome::at_rest);

@@ -40,11 +40,11 @@ Drop random_drop(Random& random) {
   d.velocity = random.vector(1) - Vector3(0, 0, 1);
   d.angular_velocity = std::pow(10, random.uniform(-2, 1)) / d.body.reach() * random.vector(1);
   d.gravity = random.whole(1, 5) == 1 ? 0 : 9.81;
-  d.law.law.law = static_cast<RestitutionLaw>(random.whole(0, 2));
-  d.law.law.restitution = random.uniform(0.02, 1);
+  d.law.law = static_cast<RestitutionLaw>(random.whole(0, 2));
+  d.law.restitution = random.uniform(0.02, 1);
   if (random.whole(1, 3) > 1) {
-    d.law.law.friction = FrictionKind::coulomb;
-    d.law.law.friction_value = random.uniform(0, 1);
+    d.law.friction = FrictionKind::coulomb;
+    d.law.friction_value = random.uniform(0, 1);
   }
   return d;
 }
@@ -195,9 +195,9 @@ Drop ball_drop(double restitution, double friction) {
   Drop d{.body = ellipsoid(2, Vector3::Constant(0.3)), .law = {}};
   d.velocity = {1, 0, -2};
   d.gravity = 9.81;
-  d.law.law.restitution = restitution;
-  d.law.law.friction = FrictionKind::coulomb;
-  d.law.law.friction_value = friction;
+  d.law.restitution = restitution;
+  d.law.friction = FrictionKind::coulomb;
+  d.law.friction_value = friction;
   return d;
 }
 
@@ -263,7 +263,7 @@ BOOST_AUTO_TEST_CASE(a_ball_bounces_in_geometric_series_and_rolls_on_however_it_
     BOOST_TEST((thrown.tail->velocity_after - Vector3(5. / 7, 0, 0)).norm() <= 1e-14);
     d.velocity.x() = 0;
     Drop slides = ball_drop(e, 0);
-    slides.law.law.friction = FrictionKind::none;
+    slides.law.friction = FrictionKind::none;
     for (const Drop& other : {d, slides}) {
       const Sequence rest = impact_sequence(other, {.impacts = 10000});
       BOOST_TEST_REQUIRE((rest.outcome == Outcome::at_rest), rest.message);
@@ -278,7 +278,7 @@ BOOST_AUTO_TEST_CASE(a_ball_bounces_in_geometric_series_and_rolls_on_however_it_
 
 BOOST_AUTO_TEST_CASE(an_elastic_ball_hops_with_equal_times_and_keeps_its_energy) {
   Drop d = ball_drop(1, 0);
-  d.law.law.friction = FrictionKind::none;
+  d.law.friction = FrictionKind::none;
   d.angular_velocity = {3, -40, 7};
   const Sequence sequence = impact_sequence(d, {.impacts = 50});
   BOOST_TEST_REQUIRE(sequence.rows.size() == 50);
@@ -293,9 +293,9 @@ BOOST_AUTO_TEST_CASE(an_elastic_ball_hops_with_equal_times_and_keeps_its_energy)
 BOOST_AUTO_TEST_CASE(a_level_capsule_lands_on_its_side_as_an_edge_and_rolls_on_it) {
   Drop d{.body = capsule(2, {.length = 1, .radius = 0.1}), .law = {}};
   d.velocity = {0, 0.7, -2};
-  d.law.law.restitution = 0.5;
-  d.law.law.friction = FrictionKind::coulomb;
-  d.law.law.friction_value = 5;
+  d.law.restitution = 0.5;
+  d.law.friction = FrictionKind::coulomb;
+  d.law.friction_value = 5;
   const Sequence sequence = impact_sequence(d, {.impacts = 2});
   const ImpactRow& row = sequence.rows.at(0);
   BOOST_TEST_REQUIRE(row.group.has_value());

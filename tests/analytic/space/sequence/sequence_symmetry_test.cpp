@@ -53,7 +53,7 @@ PlanarScene planar_scene(auto& random) {
   drop.velocity = {s.planar.velocity.tangential, 0, s.planar.velocity.normal};
   drop.angular_velocity = {0, s.planar.velocity.angular, 0};
   drop.gravity = s.planar.gravity;
-  drop.law.law = law;
+  drop.law = law;
   return s;
 }
 
@@ -69,11 +69,11 @@ space::Drop random_drop(auto& random) {
   drop.velocity = Vector3(sided(random), sided(random), -2 - share(random));
   drop.angular_velocity = vector();
   drop.gravity = share(random) < 0.3 ? 0 : 9.81;
-  drop.law.law.restitution = 0.3 + 0.7 * share(random);
-  drop.law.law.law = std::array{RestitutionLaw::newton, RestitutionLaw::poisson, RestitutionLaw::stronge}[random() % 3];
+  drop.law.restitution = 0.3 + 0.7 * share(random);
+  drop.law.law = std::array{RestitutionLaw::newton, RestitutionLaw::poisson, RestitutionLaw::stronge}[random() % 3];
   if (share(random) < 0.6) {
-    drop.law.law.friction = FrictionKind::coulomb;
-    drop.law.law.friction_value = 1.5 * share(random);
+    drop.law.friction = FrictionKind::coulomb;
+    drop.law.friction_value = 1.5 * share(random);
   }
   return drop;
 }

@@ -182,8 +182,24 @@ BOOST_AUTO_TEST_CASE(a_drop_of_the_plane_has_the_same_rows_in_space) {
       BOOST_TEST((one.angular_velocity_after() - other.angular_velocity_after()).norm() <= 100 * rounding);
     }
   }
-  Law law;
-  law = drop.law;
-  BOOST_TEST(law.law.friction_value == 0.3);
+  drop.law.ratio_direction = {0, 1};
+  BOOST_CHECK_THROW(drop.validate(), std::domain_error);
   BOOST_TEST(make_rod({.mass = 2, .length = 3, .radius = 0.1}).rims.size() == 2U);
+}
+
+BOOST_AUTO_TEST_CASE(the_total_impulse_changes_the_momentum_within_its_bound) {
+  Drop drop;
+  drop.body = make_box({.mass = 0.18, .length = 0.14, .width = 0.07, .thickness = 0.008});
+  drop.attitude = Eigen::AngleAxisd(0.5, Vector3(1, -1, 0).normalized());
+  drop.law.restitution = 0.8;
+  for (const double speed : {0.3, 1.0, 7.0}) {
+    drop.velocity.z() = -speed;
+    const Sequence sequence = impact_sequence(drop, {.impacts = 3});
+    const double change = drop.body.mass * (sequence.rows.back().velocity_after().z() + speed);
+    BOOST_TEST(std::fabs(sequence.total_normal_impulse - change) <= sequence.total_normal_impulse_error);
+    BOOST_TEST(sequence.total_normal_impulse_error <= 1e-9 * change);
+  }
+  drop.gravity = 9.81;
+  drop.law.restitution = 0.3;
+  BOOST_TEST(std::isinf(impact_sequence(drop, {.impacts = 3, .amplification = false}).total_normal_impulse_error));
 }

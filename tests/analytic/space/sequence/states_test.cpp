@@ -39,7 +39,7 @@ space::Drop pushed(const Vector3& velocity, double spin, double friction) {
   drop.velocity = velocity + Vector3(0, 0, -1);
   drop.angular_velocity = {0, 0, spin};
   drop.gravity = g;
-  drop.law.law = {.restitution = 0, .friction = FrictionKind::coulomb, .friction_value = friction};
+  drop.law = {.restitution = 0, .friction = FrictionKind::coulomb, .friction_value = friction};
   return drop;
 }
 
@@ -197,7 +197,7 @@ BOOST_AUTO_TEST_CASE(a_ball_slips_until_five_sevenths_of_its_speed_are_left_and_
   drop.body = space::ellipsoid(1, Vector3(r, r, r));
   drop.velocity = {v + mu * 1e-3, 0, -1e-3};
   drop.gravity = g;
-  drop.law.law = {.restitution = 0, .friction = FrictionKind::coulomb, .friction_value = mu};
+  drop.law = {.restitution = 0, .friction = FrictionKind::coulomb, .friction_value = mu};
   drop.angular_velocity = {0, -mu * 1e-3 * r / (0.4 * r * r), 0};  // which the landing takes away
   const space::Sequence s = impact_sequence(drop, {.impacts = 2});
   BOOST_REQUIRE(s.last_motion);
@@ -236,7 +236,7 @@ BOOST_AUTO_TEST_CASE(an_outline_in_space_moves_as_the_body_in_the_plane_and_come
                      .angular_velocity = {0, turn, 0},
                      .gravity = g,
                      .law = {}};
-    drop.law.law = law;
+    drop.law = law;
     const Sequence plane = impact_sequence(planar, {.impacts = 100});
     const space::Sequence s = impact_sequence(drop, {.impacts = 100'000, .until_rest = true});
     BOOST_TEST_CONTEXT("drop " << n << ": " << s.message << "; in the plane: " << plane.message) {

@@ -29,8 +29,8 @@ Drop drop_of(const Body& body, double friction) {
   Drop drop;
   drop.body = body;
   drop.gravity = g;
-  drop.law.law.restitution = 0.5;
-  if (friction > 0) drop.law.law.friction = FrictionKind::coulomb, drop.law.law.friction_value = friction;
+  drop.law.restitution = 0.5;
+  if (friction > 0) drop.law.friction = FrictionKind::coulomb, drop.law.friction_value = friction;
   return drop;
 }
 
@@ -191,7 +191,7 @@ BOOST_AUTO_TEST_CASE(a_body_that_turns_on_a_corner_keeps_its_energy_and_what_no_
     const State& end = contact.after;
     BOOST_TEST_CONTEXT("body " << n) {
       BOOST_TEST(std::fabs(energy(drop, s) - energy(drop, end)) <= 1e-11);
-      const bool held = drop.law.law.friction == FrictionKind::coulomb;
+      const bool held = drop.law.friction == FrictionKind::coulomb;
       const auto about_vertical = [&](const State& at) {
         const Vector3 arm = at.attitude * body.vertices[static_cast<std::size_t>(lowest)];
         const Vector3 orbital = held ? Vector3(body.mass * (-arm).cross(at.velocity)) : Vector3(Vector3::Zero());
