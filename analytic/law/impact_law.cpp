@@ -18,6 +18,7 @@ void ImpactLaw::validate() const {
     refuse("restitution", restitution, "between 0 and 1");
   }
   if (!std::isfinite(friction_value)) refuse("friction", friction_value, "finite");
+  if (friction == FrictionKind::none && friction_value != 0) refuse("friction of no kind", friction_value, "0");
   if (has_cone() && !(friction_value >= 0)) refuse("friction", friction_value, "at least 0");
   if (friction == FrictionKind::moreau && law != RestitutionLaw::newton) {
     throw std::domain_error("friction at the end of an impact (Moreau): goes with Newton's restitution alone");

@@ -37,7 +37,7 @@ struct ImpactLaw {
   double restitution = 1;  ///< e in [0, 1]; 1 for the viscoelastic law, which computes its own
   RestitutionLaw law = RestitutionLaw::newton;
   FrictionKind friction = FrictionKind::none;
-  double friction_value = 0;         ///< μ_i (any finite value) or μ >= 0
+  double friction_value = 0;         ///< μ_i (any finite value) or μ >= 0; 0 with FrictionKind::none
   double damping_per_stiffness = 0;  ///< τ = c_G/k_G >= 0 of the viscoelastic law [s/m]
   /// In space, the unit horizontal direction in which P_t of FrictionKind::impulse_ratio acts: P_t = μ_i P_n ·
   /// direction; in the plane it is x.

@@ -8,16 +8,17 @@
 namespace clatter::analytic {
 
 struct SequenceOptions {
-  int impacts = 6;  ///< most impacts to report, >= 1
+  int impacts = 6;  ///< most impacts to report, >= 1, with until_rest too: some hundreds may come before the rest
   /// Relative error to which the end of an accumulation of impacts must be known before the sequence
   /// is cut there: 10^−digits of the remaining time.  In [1, 15].
   int digits = 6;
   /// Also follow how errors of the drop and of rounding grow: `error` and `amplification` of each row, and the errors
-  /// of tail and total.
+  /// of tail and total.  In space this takes most of the time: a loop over many drops that needs no bounds does
+  /// without.
   bool amplification = true;
-  /// The end is asked for and no number of rows: bouncing in closed form is summed up at once.  In space: goes on after
-  /// corners have stayed on the ground while the body turns, and ends where the
-  /// body has to settle on one face and no impact can be predicted any more.
+  /// The end is asked for and not each row: bouncing in closed form is summed up at once.  In space: goes on after
+  /// corners have stayed on the ground while the body turns, and ends where the body has to settle on one face and no
+  /// impact can be predicted any more.
   bool until_rest = false;
   /// With until_rest, in space: ends as soon as the face is known on which the body must come to rest (Sequence::rest).
   bool until_face = false;

@@ -21,9 +21,9 @@ namespace {
 /// Turns instants of contacts and flights into history samples.
 class HistoryWriter {
  public:
-  /// `recorder` may be null: then nothing is done.
-  HistoryWriter(const Body& body, const Gravity& gravity, HistoryRecorder* recorder)
-      : body_(body), gravity_(gravity), recorder_(recorder) {}
+  /// Without an observer of the history nothing is done.
+  HistoryWriter(const Body& body, const Gravity& gravity, const Observer& observer)
+      : body_(body), gravity_(gravity), recorder_(observer.history) {}
 
   /// An instant of the contact that began at `start` [s].
   void contact(const ContactSystem& system, const ContactInstant& at, double start);
@@ -37,7 +37,7 @@ class HistoryWriter {
 
   const Body& body_;
   Gravity gravity_;
-  HistoryRecorder* recorder_;
+  const HistoryRecorder& recorder_;
 };
 
 HistorySample HistoryWriter::sample(double time, const MotionState& state) const {
@@ -59,7 +59,7 @@ void HistoryWriter::contact(const ContactSystem& system, const ContactInstant& a
   row.force = Vector3(at.diagnosis.friction.east, at.diagnosis.friction.north, load.force);
   row.energy_ground = load.energy;
   row.point_velocity = point_velocity(row.state, load.force > 0 ? at.diagnosis.centre : touch_point(body_, row.state));
-  recorder_->record(row);
+  recorder_(row);
 }
 
 void HistoryWriter::slide(const GroundMotion& motion, double start) {
@@ -72,7 +72,7 @@ void HistoryWriter::slide(const GroundMotion& motion, double start) {
     row.force = i < parts ? motion.force : motion.rest_force;
     row.energy_ground = i < parts ? motion.energy_stored : motion.rest.energy_stored;
     row.point_velocity = row.state.velocity;
-    recorder_->record(row);
+    recorder_(row);
   }
 }
 
@@ -84,16 +84,15 @@ void HistoryWriter::flight(const FreeFlight& flight, double start, double durati
     const double time = duration * i / parts;
     HistorySample row = sample(start + time, flight.at(time));
     row.point_velocity = point_velocity(row.state, touch_point(body_, row.state));
-    recorder_->record(row);
+    recorder_(row);
   }
 }
 
-/// Gives the pieces of contacts and flights to a recorder that takes them.
+/// Gives the pieces of contacts and flights to an observer that takes them.
 class PieceWriter {
  public:
-  /// `recorder` may be null, or take no pieces: then nothing is done.
-  PieceWriter(const Body& body, bool planar, HistoryRecorder* recorder)
-      : body_(body), planar_(planar), recorder_(dynamic_cast<PieceRecorder*>(recorder)) {}
+  PieceWriter(const Body& body, bool planar, const Observer& observer)
+      : body_(body), planar_(planar), recorder_(observer.pieces) {}
 
   [[nodiscard]] bool is_wanted() const { return recorder_ != nullptr; }
   /// An accepted step of the contact `impact`, which began at `origin` [s].
@@ -108,7 +107,7 @@ class PieceWriter {
 
   const Body& body_;
   bool planar_;
-  PieceRecorder* recorder_;
+  const std::function<void(const HistoryPiece&)>& recorder_;
   std::vector<PieceSample> row_;
 };
 
@@ -121,7 +120,7 @@ void PieceWriter::step(const ContactSystem& system, std::span<const ContactInsta
                     angular_velocity(at.rate)});
   }
   const double begin = instants.front().time, length = instants.back().time - begin;
-  recorder_->record_piece({impact, true, origin, begin, length, row_});
+  recorder_({impact, true, origin, begin, length, row_});
 }
 
 void PieceWriter::slide(const GroundMotion& motion, int impact, double end, double origin) {
@@ -133,7 +132,7 @@ void PieceWriter::slide(const GroundMotion& motion, int impact, double end, doub
     row_.push_back({motion.at(time), motion.force, Vector3::Zero()});
   }
   const double begin = end - motion.stops_after - origin;
-  recorder_->record_piece({impact, true, origin, begin, motion.stops_after, row_});
+  recorder_({impact, true, origin, begin, motion.stops_after, row_});
 }
 
 /// I ω̇′ + ω′ × I ω′ = 0; in the plane nothing turns the axis.
@@ -154,7 +153,7 @@ void PieceWriter::flight(const FreeFlight& flight, int impact, double origin, do
       const MotionState state = flight.at(length * (i + piece_point(j)));
       row_.push_back({state, Vector3::Zero(), free_acceleration(state.angular_velocity)});
     }
-    recorder_->record_piece({impact, false, origin, length * i, length, row_});
+    recorder_({impact, false, origin, length * i, length, row_});
   }
 }
 
@@ -192,8 +191,8 @@ class Run {
         system_(body, world.ground, contact_gravity_, world.planar), stepper_(make_stepper(integration.method)),
         contact_(system_, *stepper_), rough_stepper_(make_stepper(Method::rkck)),
         rough_contact_(system_, *rough_stepper_), state_(world.planar ? in_plane(start) : start),
-        growth_(body, start, gravity_, world.planar), history_(body, gravity_, observer.history),
-        pieces_(body, world.planar, observer.history), notes_(body, gravity_, world.planar, request.times) {
+        growth_(body, start, gravity_, world.planar), history_(body, gravity_, observer),
+        pieces_(body, world.planar, observer), notes_(body, gravity_, world.planar, request.times) {
     control_.steps = integration.steps;
     control_.evaluation_limit = integration.evaluation_limit;
     control_.estimate_local_slip =
@@ -201,7 +200,7 @@ class Run {
         world.ground.has_friction() && world.ground.friction == FrictionLaw::coulomb;
     control_.least_local_slip = request.local_slip ? 0 : integration.least_local_slip;
     control_.point_friction = world.point_friction;
-    if (observer.history || observer.progress || std::isfinite(request.until)) {
+    if (observer.history || observer.pieces || observer.progress || std::isfinite(request.until)) {
       observe_ = [this](const ContactInstant& at) { return observe(at); };
     }
     steps_.at_time = [this](std::size_t, const ContactInstant* at) { notes_.contact(system_, at); };

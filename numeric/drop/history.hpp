@@ -2,6 +2,8 @@
 // The time history of a simulated drop.
 #pragma once
 
+#include <functional>
+
 #include "numeric/motion/motion_state.hpp"
 
 namespace clatter::numeric {
@@ -24,12 +26,8 @@ struct HistorySample {
   }
 };
 
-/// Takes the samples in the order of time: every accepted step of a contact, its ends and peak, and points of each
+/// Takes the samples, in the order of time: every accepted step of a contact, its ends and peak, and points of each
 /// flight.
-class HistoryRecorder {
- public:
-  virtual ~HistoryRecorder() = default;
-  virtual void record(const HistorySample& sample) = 0;
-};
+using HistoryRecorder = std::function<void(const HistorySample&)>;
 
 }  // namespace clatter::numeric

@@ -4,7 +4,7 @@
 
 #include <span>
 
-#include "numeric/drop/history.hpp"
+#include "numeric/motion/motion_state.hpp"
 
 namespace clatter::numeric {
 
@@ -28,14 +28,6 @@ struct HistoryPiece {
   double start = 0;   ///< of the piece, after that [s]
   double length = 0;  ///< [s]
   std::span<const PieceSample> samples;  ///< at start + piece_point(j) × length, each by the method of integration
-};
-
-/// A recorder that takes the pieces, too, in the order of time: all steps of all contacts, and the flights between
-/// them.  Samples within steps count as force evaluations.
-class PieceRecorder : public HistoryRecorder {
- public:
-  void record(const HistorySample& /*sample*/) override {}
-  virtual void record_piece(const HistoryPiece& piece) = 0;
 };
 
 }  // namespace clatter::numeric

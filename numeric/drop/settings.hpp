@@ -16,6 +16,8 @@
 
 namespace clatter::numeric {
 
+struct HistoryPiece;
+
 /// What is simulated: the laws that hold around the body.
 struct World {
   Ground ground = {};     ///< with its law of friction
@@ -82,7 +84,10 @@ struct Accuracy {
 
 /// Who looks on, and may end the run.  Of the main run only.
 struct Observer {
-  HistoryRecorder* history = nullptr;  ///< takes the time history, if any
+  HistoryRecorder history = nullptr;
+  /// Takes the pieces of the history in the order of time: all steps of all contacts, and the flights between them
+  /// (history_pieces.hpp).  Samples within steps count as force evaluations.
+  std::function<void(const HistoryPiece&)> pieces = nullptr;
   /// Called now and then with (impacts so far, contact force evaluations so far); return false to end the run.
   std::function<bool(int, long)> progress = nullptr;
   /// Called with each impact, without its errors; return false to end the run with it.

@@ -4,11 +4,12 @@
 # Python is imported from there.  Usage: consumer_test.bash BUILD
 set -euo pipefail
 
-build=$1
+build=$(readlink -f -- "$1")
 self=$(readlink -f -- "${BASH_SOURCE[0]}")
 source=${self%/*}
 prefix=$(mktemp -d)
 trap 'rm -rf -- "$prefix"' EXIT
+cd -- "$prefix"  # where the examples write
 cmake --install "$build" --prefix "$prefix" --strip >"$prefix/install.log"
 
 with_cmake() {
@@ -87,7 +88,6 @@ without_a_component() {
 with_python() {
   local package
   package=$(dirname -- "$(find "$prefix" -path '*/clatter/__init__.py')")
-  cd -- "$prefix"  # isolated from the build tree and from where this script is called
   PYTHONPATH=${package%/*} /usr/bin/python3 -B - "$package" <<'PYTHON'
 import os
 import sys

@@ -3,25 +3,18 @@
 
 #include <fmt/format.h>
 
+#include <functional>
+
 #include "validation/output/bad_input.hpp"
 #include "validation/run/history_file.hpp"
 
 namespace clatter::validation {
 namespace {
 
-class SampleList : public numeric::HistoryRecorder {
- public:
-  explicit SampleList(std::vector<numeric::HistorySample>& samples) : samples_(samples) {}
-  void record(const numeric::HistorySample& sample) override { samples_.push_back(sample); }
-
- private:
-  std::vector<numeric::HistorySample>& samples_;
-};
-
 /// ∫F_z dt of what it records.
-class ForceIntegral : public numeric::HistoryRecorder {
+class ForceIntegral {
  public:
-  void record(const numeric::HistorySample& sample) override {
+  void operator()(const numeric::HistorySample& sample) {
     impulse_ += (sample.time - time_) * (sample.force.z() + force_) / 2;
     time_ = sample.time;
     force_ = sample.force.z();
@@ -38,7 +31,7 @@ constexpr int fall_points = 20;
 
 double RecordedRun::force_impulse() const {
   ForceIntegral integral;
-  for (const numeric::HistorySample& sample : samples) integral.record(sample);
+  for (const numeric::HistorySample& sample : samples) integral(sample);
   return integral.impulse();
 }
 
@@ -89,11 +82,11 @@ const RecordedRun& CaseRuns::history(const std::string& name, const RunOptions& 
     Scene scene = this->scene(name, options);
     const numeric::Body body = scene.make_body();
     RecordedRun recorded;
-    SampleList list(recorded.samples);
+    const auto list = [&](const numeric::HistorySample& sample) { recorded.samples.push_back(sample); };
     double fall = 0;
     const numeric::MotionState start = scene.start(body, &fall);
     record_fall(list, body, scene.world, start, fall, fall_points);
-    recorded.run = numeric::simulate(body, scene.world, start, scene.request, scene.accuracy, {.history = &list});
+    recorded.run = numeric::simulate(body, scene.world, start, scene.request, scene.accuracy, {.history = list});
     return recorded;
   });
 }
@@ -112,7 +105,7 @@ const std::vector<SweptSimulation>& CaseRuns::sweep(const std::string& name, con
       const Scene one = scene.at(value);
       ForceIntegral force;
       numeric::Simulation run =
-          numeric::simulate(body, one.world, one.start(body), one.request, one.accuracy, {.history = &force});
+          numeric::simulate(body, one.world, one.start(body), one.request, one.accuracy, {.history = std::ref(force)});
       swept.push_back({value, std::move(run), force.impulse()});
     }
     return swept;

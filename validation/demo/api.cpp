@@ -76,9 +76,9 @@ Scene continuous_scene(const NamedTexts& texts) {
 }
 
 /// The time history, a column a name.
-class HistoryColumns : public numeric::HistoryRecorder {
+class HistoryColumns {
  public:
-  void record(const numeric::HistorySample& sample) override {
+  void operator()(const numeric::HistorySample& sample) {
     const std::vector<double> numbers = history_numbers(sample);
     for (std::size_t i = 0; i < numbers.size(); ++i) columns_[i].push_back(numbers[i]);
   }
@@ -99,8 +99,9 @@ Value simulate(NamedTexts texts) {
   double fall = 0;
   const numeric::MotionState start = scene.start(body, &fall);
   HistoryColumns history;
-  if (with_history) record_fall(history, body, scene.world, start, fall, 20);
-  const PlannedRun planned = run_to_digits(scene, body, {.history = with_history ? &history : nullptr});
+  const numeric::HistoryRecorder recorder = with_history ? std::ref(history) : numeric::HistoryRecorder();
+  if (with_history) record_fall(recorder, body, scene.world, start, fall, 20);
+  const PlannedRun planned = run_to_digits(scene, body, {.history = recorder});
   Value fields = simulation_report(scene, planned).fields;
   if (with_history) fields["history"] = history.fields();
   return fields;

@@ -95,14 +95,14 @@ HistoryFile::HistoryFile(const std::string& path, const std::vector<std::string>
   sink_.write(fmt::format("{}\n", fmt::join(history_names(), ",")));
 }
 
-void HistoryFile::record(const HistorySample& sample) {
+void HistoryFile::write(const HistorySample& sample) {
   if (!window_.holds(sample.time)) return;
   std::string line;
   for (const double number : history_numbers(sample)) line += (line.empty() ? "" : ",") + shortest(number);
   sink_.write(line + "\n");
 }
 
-void record_fall(numeric::HistoryRecorder& recorder, const numeric::Body& body, const numeric::World& world,
+void record_fall(const numeric::HistoryRecorder& recorder, const numeric::Body& body, const numeric::World& world,
                  const numeric::MotionState& touch, double fall, int parts) {
   if (!(fall > 0)) return;
   const numeric::FreeFlight flight(body, touch, world.pull(), world.planar);
@@ -115,7 +115,7 @@ void record_fall(numeric::HistoryRecorder& recorder, const numeric::Body& body, 
     sample.energy_translation = 0.5 * body.mass() * s.velocity.squaredNorm();
     sample.energy_rotation = 0.5 * s.angular_velocity.dot(body.inertia() * s.angular_velocity);
     sample.energy_potential = body.mass() * world.gravity * s.centre.z();
-    recorder.record(sample);
+    recorder(sample);
   }
 }
 

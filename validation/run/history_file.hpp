@@ -38,12 +38,12 @@ struct TimeWindow {
 [[nodiscard]] std::vector<double> history_numbers(const numeric::HistorySample& sample);
 
 /// Streams samples into a file that appears whole or not at all.
-class HistoryFile : public numeric::HistoryRecorder {
+class HistoryFile {
  public:
   /// @param head  lines without "# ", written first.  @param window  what of the history is written.
   /// @throws BadInput if the file cannot be created.
   HistoryFile(const std::string& path, const std::vector<std::string>& head, const TimeWindow& window = {});
-  void record(const numeric::HistorySample& sample) override;
+  void write(const numeric::HistorySample& sample);
   void commit() { sink_.commit(); }
 
  private:
@@ -52,7 +52,7 @@ class HistoryFile : public numeric::HistoryRecorder {
 };
 
 /// Samples of the free flight that ends in `touch` at time 0: `parts` of them, over `fall` [s]; none if that is 0.
-void record_fall(numeric::HistoryRecorder& recorder, const numeric::Body& body, const numeric::World& world,
+void record_fall(const numeric::HistoryRecorder& recorder, const numeric::Body& body, const numeric::World& world,
                  const numeric::MotionState& touch, double fall, int parts);
 
 }  // namespace clatter::validation

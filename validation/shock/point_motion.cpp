@@ -83,7 +83,7 @@ Vector3 value_at(const VectorPolynomial& vector, double x) {
   return {vector[0].at(x), vector[1].at(x), vector[2].at(x)};
 }
 
-void MotionRecorder::record_piece(const numeric::HistoryPiece& piece) {
+void MotionRecorder::operator()(const numeric::HistoryPiece& piece) {
   assert(piece.samples.size() == sample_count);
   pieces_.push_back({piece, {piece.samples.begin(), piece.samples.end()}});
   pieces_.back().piece.samples = {};

@@ -66,9 +66,9 @@ using VectorPolynomial = std::array<ChebyshevPolynomial, 3>;
 }
 
 /// Keeps a drop's pieces.
-class MotionRecorder : public numeric::PieceRecorder {
+class MotionRecorder {
  public:
-  void record_piece(const numeric::HistoryPiece& piece) override;
+  void operator()(const numeric::HistoryPiece& piece);
   [[nodiscard]] const std::vector<MotionPiece>& pieces() const { return pieces_; }
 
  private:

@@ -200,7 +200,7 @@ numeric::Simulation record(const Scene& scene, const numeric::Body& body, int im
   alone.impacts = impacts;
   alone.error_estimates = alone.amplification = alone.local_slip = false;
   return numeric::simulate(body, scene.world, scene.start(body), alone, accuracy,
-                           {.history = &motion, .progress = observer.progress});
+                           {.pieces = std::ref(motion), .progress = observer.progress});
 }
 
 /// Relative error of each impact's impulse; infinite from the impact on that cannot be predicted, or in which the

@@ -45,7 +45,7 @@ void check_window(const SimulateInput& input, const Scene& scene) {
 constexpr long evaluations_before_progress = 200'000;
 
 PlannedRun run_scene(const Scene& scene, const numeric::Body& body, const CooperativeInterrupt& interrupt,
-                     const std::function<void(int, long)>& show, numeric::HistoryRecorder* history) {
+                     const std::function<void(int, long)>& show, const numeric::HistoryRecorder& history) {
   numeric::Observer observer{.history = history};
   observer.progress = [&](int impacts, long evaluations) {
     if (evaluations >= evaluations_before_progress) show(impacts, evaluations);
@@ -53,7 +53,7 @@ PlannedRun run_scene(const Scene& scene, const numeric::Body& body, const Cooper
   };
   double fall = 0;
   const numeric::MotionState start = scene.start(body, &fall);
-  if (history) record_fall(*history, body, scene.world, start, fall, 20);
+  if (history) record_fall(history, body, scene.world, start, fall, 20);
   return run_to_digits(scene, body, observer);
 }
 
@@ -103,9 +103,13 @@ int run_single(const Scene& scene, const numeric::Body& body, const SimulateInpu
                     window);
   }
   PictureHistory picture(body);
-  HistoryFan recorders;
-  if (history) recorders.add(*history);
-  if (plot.is_wanted()) recorders.add(picture);
+  numeric::HistoryRecorder recorder;
+  if (history || plot.is_wanted()) {
+    recorder = [&](const numeric::HistorySample& sample) {
+      if (history) history->write(sample);
+      if (plot.is_wanted()) picture.add(sample);
+    };
+  }
   PlannedRun planned;
   {
     Progress progress;
@@ -114,7 +118,7 @@ int run_single(const Scene& scene, const numeric::Body& body, const SimulateInpu
           "{} force evaluations, {}", evaluations,
           progress_bar(static_cast<std::size_t>(impacts), static_cast<std::size_t>(scene.request.impacts))));
     };
-    planned = run_scene(scene, body, interrupt, show, recorders.is_empty() ? nullptr : &recorders);
+    planned = run_scene(scene, body, interrupt, show, recorder);
   }
   if (plot.is_wanted()) check_times(planned.run, picture, input.window);
   if (history) history->commit();

@@ -111,7 +111,7 @@ PicturePanel swept_panel(const Scene& scene, const std::vector<SweptRun>& runs, 
 
 }  // namespace
 
-void PictureHistory::record(const numeric::HistorySample& s) {
+void PictureHistory::add(const numeric::HistorySample& s) {
   if (s.time < 0) return;
   rows_.push_back({s.time, s.state.centre.z(), lowest_height(body_, s.state), s.force.z(), s.energy_translation,
                    s.energy_rotation, s.energy_potential, s.energy_ground, s.energy_total()});

@@ -13,28 +13,15 @@
 namespace clatter::validation {
 
 /// Keeps of each sample from the first touch-down on what the picture shows: some 80 bytes.
-class PictureHistory : public numeric::HistoryRecorder {
+class PictureHistory {
  public:
   explicit PictureHistory(const numeric::Body& body) : body_(body) {}
-  void record(const numeric::HistorySample& sample) override;
+  void add(const numeric::HistorySample& sample);
   [[nodiscard]] const std::vector<std::vector<double>>& rows() const { return rows_; }
 
  private:
   const numeric::Body& body_;
   std::vector<std::vector<double>> rows_;
-};
-
-/// Passes samples on to several recorders.
-class HistoryFan : public numeric::HistoryRecorder {
- public:
-  void add(numeric::HistoryRecorder& recorder) { recorders_.push_back(&recorder); }
-  void record(const numeric::HistorySample& sample) override {
-    for (numeric::HistoryRecorder* recorder : recorders_) recorder->record(sample);
-  }
-  [[nodiscard]] bool is_empty() const { return recorders_.empty(); }
-
- private:
-  std::vector<numeric::HistoryRecorder*> recorders_;
 };
 
 /// Heights, contact force and energies over time, as far as the window goes.

@@ -20,12 +20,14 @@ namespace clatter::analytic::space {
 /// on x = y = 0.  With a release height, the body as it is let go to fly freely until then.
 struct Drop {
   Body body;
-  Quaternion attitude = Quaternion::Identity();  ///< body to world
+  Quaternion attitude = Quaternion::Identity();  ///< body to world, of any length
   Vector3 velocity = Vector3::Zero();            ///< of the centre of mass, world frame, before the first impact [m/s]
   Vector3 angular_velocity = Vector3::Zero();    ///< world frame [rad/s]
   double gravity = 0;                            ///< towards the ground, >= 0 [m/s²]
   double gravity_along = 0;                      ///< along x, where the ground slopes [m/s²]
-  std::optional<double> release_height{};        ///< of the centre of mass above the ground [m]
+  /// Height of the centre of mass above the ground [m]; for a fall of h until the lowest point touches
+  /// h + touch_height(body, attitude).
+  std::optional<double> release_height{};
   ImpactLaw law;
 
   /// @throws std::domain_error naming the field, its value and what is allowed.

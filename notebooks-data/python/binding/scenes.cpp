@@ -32,16 +32,6 @@ using validation::PlannedRun;
 using validation::Scene;
 using Samples = std::vector<HistorySample>;
 
-/// A time history in memory.
-class History : public numeric::HistoryRecorder {
- public:
-  void record(const HistorySample& sample) override { samples_.push_back(sample); }
-  [[nodiscard]] const Samples& samples() const { return samples_; }
-
- private:
-  Samples samples_;
-};
-
 template <class Number, class Get>
 py::array_t<Number> column(const Samples& samples, const Get& get) {
   py::array_t<Number> array(static_cast<py::ssize_t>(samples.size()));
@@ -91,16 +81,17 @@ py::dict arrays_of(const Samples& s) {
 }
 
 /// @param seen  is told the number of impacts that are done, and says whether to go on.
-PlannedRun run_scene(const Scene& scene, const std::function<bool(int)>& seen, numeric::HistoryRecorder* history) {
+PlannedRun run_scene(const Scene& scene, const std::function<bool(int)>& seen,
+                     const numeric::HistoryRecorder& history) {
   const numeric::Body body = scene.make_body();
   const numeric::Observer observer{.history = history, .progress = [&](int impacts, long) { return seen(impacts); }};
   double fall = 0;
   const numeric::MotionState start = scene.start(body, &fall);
-  if (history) validation::record_fall(*history, body, scene.world, start, fall, 20);
+  if (history) validation::record_fall(history, body, scene.world, start, fall, 20);
   return validation::run_to_digits(scene, body, observer);
 }
 
-Report single_report(const Scene& scene, const Watch& watch, numeric::HistoryRecorder* history) {
+Report single_report(const Scene& scene, const Watch& watch, const numeric::HistoryRecorder& history) {
   const auto asked = static_cast<std::size_t>(scene.request.impacts);
   const auto seen = [&](int impacts) { return watch.tell(static_cast<std::size_t>(impacts), asked); };
   const auto run = std::make_shared<const PlannedRun>(run_scene(scene, seen, history));
@@ -125,14 +116,16 @@ Report swept_report(const Scene& scene, const Watch& watch) {
 /// (report, history or None)
 py::tuple simulate(const std::string& name, const std::optional<std::string>& text, const NamedTexts& changes,
                    bool with_history, const py::object& progress) {
-  const auto history = with_history ? std::make_shared<History>() : nullptr;
-  const auto work = [source = SceneSource{name, text, changes}, history](const Watch& watch) {
+  const auto history = with_history ? std::make_shared<Samples>() : nullptr;
+  numeric::HistoryRecorder recorder;
+  if (history) recorder = [history](const HistorySample& sample) { history->push_back(sample); };
+  const auto work = [source = SceneSource{name, text, changes}, recorder](const Watch& watch) {
     const Scene scene = source.read(Model::continuous);
     const bool sweeps = scene.sweep.has_value();
-    return std::pair(sweeps ? swept_report(scene, watch) : single_report(scene, watch, history.get()), sweeps);
+    return std::pair(sweeps ? swept_report(scene, watch) : single_report(scene, watch, recorder), sweeps);
   };
   const auto [report, sweeps] = run_interruptible(work, progress);
-  return py::make_tuple(report, history && !sweeps ? py::object(arrays_of(history->samples())) : py::none());
+  return py::make_tuple(report, history && !sweeps ? py::object(arrays_of(*history)) : py::none());
 }
 
 Report compare(const std::string& name, const std::optional<std::string>& text, const NamedTexts& changes,

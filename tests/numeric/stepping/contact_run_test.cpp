@@ -10,10 +10,10 @@ using namespace clatter::numeric;
 using namespace clatter::numeric::test;
 
 /// Whether all that a history was given is a number.
-struct Finite : HistoryRecorder {
+struct Finite {
   long rows = 0;
   bool all = true;
-  void record(const HistorySample& s) override {
+  void operator()(const HistorySample& s) {
     ++rows;
     all = all && std::isfinite(s.time) && std::isfinite(s.energy_total()) && s.state.centre.allFinite() &&
           s.state.velocity.allFinite() && s.state.attitude.coeffs().allFinite() &&
@@ -75,7 +75,7 @@ BOOST_AUTO_TEST_CASE(a_flat_or_upright_landing_with_friction_is_the_plain_reboun
         const double mu = number % 4 < 2 ? 0.3 : 1;
         Finite history;
         const Simulation run = dropped(body, weightless(with_friction({.stiffness = 1e9}, mu), planar), angle * degree,
-                                       2, {.method = method}, {.history = &history});
+                                       2, {.method = method}, {.history = std::ref(history)});
         BOOST_TEST_CONTEXT("angle " << angle << " mu " << mu << " method " << static_cast<int>(method)) {
           const ImpactNumbers& n = run.impacts.at(0).value;
           BOOST_TEST(n.impulse.z() == 4 * body.mass(), boost::test_tools::tolerance(1e-6));
@@ -92,10 +92,10 @@ BOOST_AUTO_TEST_CASE(a_flat_or_upright_landing_with_friction_is_the_plain_reboun
 /// Coulomb's bound in every row down to the last; and stick that has come to it slides from there on, with less
 /// friction.
 BOOST_AUTO_TEST_CASE(sticking_never_takes_more_than_the_static_friction_gives_and_then_gives_way) {
-  struct Bound : HistoryRecorder {
+  struct Bound {
     double mu = 0, peak = 0;
     long beyond = 0, held_at_the_bound = 0;
-    void record(const HistorySample& s) override {
+    void operator()(const HistorySample& s) {
       const double tangential = std::hypot(s.force.x(), s.force.y()), bound = mu * s.force.z();
       peak = std::max(peak, s.force.z());
       beyond += tangential > bound * (1 + 1e-12);
@@ -108,7 +108,7 @@ BOOST_AUTO_TEST_CASE(sticking_never_takes_more_than_the_static_friction_gives_an
         Bound bound;
         bound.mu = mu;
         const Ground ground{.stiffness = 1e9, .static_friction = mu, .sliding_friction = mu / 2};
-        static_cast<void>(dropped(body, weightless(ground), angle * degree, 1, {}, {.history = &bound}));
+        static_cast<void>(dropped(body, weightless(ground), angle * degree, 1, {}, {.history = std::ref(bound)}));
         BOOST_TEST(bound.beyond == 0);
         BOOST_TEST(bound.held_at_the_bound == 0);
       }
@@ -241,7 +241,7 @@ BOOST_AUTO_TEST_CASE(the_history_of_a_high_flight_holds_numbers) {
     const Body body = phone();
     const MotionState start = touching_state(body, {.inclination = 30 * degree, .velocity = {0, 0, -speed}});
     const World world{.ground = {.stiffness = 1e8 * speed * speed}};
-    static_cast<void>(simulate(body, world, start, plain_impacts(2), {}, {.history = &history}));
+    static_cast<void>(simulate(body, world, start, plain_impacts(2), {}, {.history = std::ref(history)}));
     BOOST_TEST(history.rows > 20);
     BOOST_TEST(history.all);
   }
@@ -291,7 +291,7 @@ BOOST_AUTO_TEST_CASE(random_scenes_with_friction_end_in_numbers) {
     Scene scene(number);
     Finite history;
     const Simulation run =
-        simulate(scene.body, scene.world, scene.start, scene.request, scene.accuracy, {.history = &history});
+        simulate(scene.body, scene.world, scene.start, scene.request, scene.accuracy, {.history = std::ref(history)});
     BOOST_TEST_CONTEXT("scene " << number << ": " << run.message) {
       BOOST_TEST((run.outcome == Outcome::no_further_impact || run.outcome == Outcome::impact_limit ||
                   run.outcome == Outcome::at_rest || run.outcome == Outcome::sustained_contact));
