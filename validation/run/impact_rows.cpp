@@ -128,7 +128,7 @@ Known ImpactQuantity::known_to(RunModel model) const {
 }
 
 Entry ImpactQuantity::kind() const {
-  static const Impact some{};
+  static const Impact some{.corners = "0"};  // the text that an impact without named corners lacks
   return value(some);
 }
 

@@ -428,6 +428,7 @@ class RowsTogether(Folder):
         import h5py  # pylint: disable=import-outside-toplevel
         for arguments in ([self.scene, "--set", "drop.angle_deg=0.5:89:0.5", "--columns", "hardest,end_1"],
                           [self.scene, "--set", "drop.angle_deg=0.5:89:0.5", "--rows", "impact"],
+                          ["phone-corner", "--model", "discrete", "--set", "drop.attitude=26", "--columns", "corners,hardest_corners,hardest_mode"],
                           [self.scene, "--set", "drop.angle_deg=0.0005:60:0.0005"]):
             rows = records(self.sweep(*arguments))
             self.assertEqual(self.sweep(*arguments, "--output", self.path("rows.h5")), "")
