@@ -260,6 +260,19 @@ Scales scales_of(const Run& run, double reach) {
   return scales;
 }
 
+std::vector<std::string> shown_quantities(RunModel model) {
+  if (model != RunModel::space)
+    return {"n", "end", "start", "contact_angle_deg", "impulse_normal", "velocity_after_z", "angular_velocity_after_y"};
+  return {"n",
+          "corners",
+          "start",
+          "impulse_normal",
+          "velocity_after_z",
+          "angular_velocity_after_x",
+          "angular_velocity_after_y",
+          "angular_velocity_after_z"};
+}
+
 std::vector<Column> impact_columns(RunModel model, const std::vector<std::string>& shown) {
   std::vector<Column> columns, errors;
   for (const ImpactQuantity& quantity : impact_quantities()) {

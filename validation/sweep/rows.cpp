@@ -88,9 +88,6 @@ Column error_beside(const Column& number) {
   return {.name = name, .heading = name, .unit = number.unit, .meaning = "error of " + number.name, .shown = false};
 }
 
-const std::vector<std::string> shown_of_impacts{
-    "n", "end", "start", "contact_angle_deg", "impulse_normal", "velocity_after_z", "angular_velocity_after_y"};
-
 /// The model whose columns rows of impacts have.
 RunModel columns_model(const RowLayout& layout) {
   if (layout.model == Model::continuous) return RunModel::continuous;
@@ -98,7 +95,7 @@ RunModel columns_model(const RowLayout& layout) {
 }
 
 std::vector<Column> columns_of_impacts(const RowLayout& layout) {
-  std::vector<Column> columns = impact_columns(columns_model(layout), shown_of_impacts);
+  std::vector<Column> columns = impact_columns(columns_model(layout), shown_quantities(columns_model(layout)));
   for (const ImpactQuantity& quantity : impact_quantities()) {
     if (!std::holds_alternative<std::string>(quantity.kind())) continue;
     const auto column =
