@@ -424,15 +424,23 @@ class SweepOutput {
     stream_->write(report_text(report_, style_));
   }
 
-  void write_hdf5(const std::string& path) {
+  [[nodiscard]] ColumnFileHead column_head() const {
     ColumnFileHead head{report_.grid.columns, {{"title", report_.title}}};
     for (const char* name : {"scene", "body"}) {
       const Value* const value = report_.fields.find(name);
       if (value != nullptr) head.attributes.emplace_back(name, compact_json(*value));
     }
-    head.attributes.emplace_back("sweep", fmt::format("{}", fmt::join(plan_.words, "\n")));
-    const std::unique_ptr<ColumnFile> columns = open_hdf5(path, head);
+    head.attributes.emplace_back("sweep", fmt::format("{}", fmt::join(report_.remarks, "\n")));
+    return head;
+  }
+
+  void write_hdf5(const std::string& path) {
+    ColumnFileHead head = column_head();
     std::vector<PackedCell> row(head.columns.size());
+    file_->with_rows([&](std::string_view rows) {
+      for (PackedRows packed(rows); packed.next(row);) ++head.rows;
+    });
+    const std::unique_ptr<ColumnFile> columns = open_hdf5(path, head);
     file_->with_rows([&](std::string_view rows) {
       for (PackedRows packed(rows); packed.next(row);) columns->add(row);
     });
