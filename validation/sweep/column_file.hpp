@@ -39,5 +39,7 @@ void require_hdf5();
 /// and its meaning as attributes.
 /// @throws BadInput where the program was built without HDF5, std::runtime_error if the file cannot be written
 [[nodiscard]] std::unique_ptr<ColumnFile> open_hdf5(const std::string& path, const ColumnFileHead& head);
+/// Whether there is an HDF5 file with these attributes whose last row is that of scene `last`.
+[[nodiscard]] bool is_hdf5_of(const std::string& path, const ColumnFileHead& head, long long last);
 
 }  // namespace clatter::validation

@@ -59,6 +59,26 @@ void write_attribute(hid_t object, const std::string& name, const std::string& t
   require(H5Awrite(attribute, type, &bytes));
 }
 
+std::string attribute_of(hid_t object, const std::string& name) {
+  const Handle attribute(H5Aopen(object, name.c_str(), H5P_DEFAULT), H5Aclose), type = text_type();
+  char* bytes = nullptr;
+  require(H5Aread(attribute, type, &bytes));
+  const std::string text(bytes);
+  require(H5free_memory(bytes));
+  return text;
+}
+
+/// The last number of a dataset that has some.
+double last_of(hid_t file, const char* name) {
+  const Handle dataset(H5Dopen2(file, name, H5P_DEFAULT), H5Dclose), place(H5Dget_space(dataset), H5Sclose);
+  const hsize_t one = 1, last = static_cast<hsize_t>(H5Sget_simple_extent_npoints(place) - 1);
+  require(H5Sselect_hyperslab(place, H5S_SELECT_SET, &last, nullptr, &one, nullptr));
+  const Handle memory(H5Screate_simple(1, &one, nullptr), H5Sclose);
+  double number = 0;
+  require(H5Dread(dataset, H5T_NATIVE_DOUBLE, memory, place, H5P_DEFAULT, &number));
+  return number;
+}
+
 /// One column: its dataset, and the rows that were not written yet.
 class Dataset {
  public:
@@ -171,4 +191,19 @@ extern "C" clatter::validation::ColumnFile* clatter_open_hdf5(const std::string&
                                                               const clatter::validation::ColumnFileHead& head) {
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // failures are told once, by who catches them
   return new clatter::validation::Hdf5File(path, head);
+}
+
+extern "C" bool clatter_is_hdf5_of(const std::string& path, const clatter::validation::ColumnFileHead& head,
+                                   long long last) {
+  using namespace clatter::validation;
+  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+  try {
+    const Handle file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
+    for (const auto& [name, text] : head.attributes) {
+      if (attribute_of(file, name) != text) return false;
+    }
+    return last_of(file, "index") == static_cast<double>(last);
+  } catch (const std::runtime_error&) {
+    return false;
+  }
 }

@@ -379,6 +379,12 @@ class SweepOutput {
 
   [[nodiscard]] long long first() const { return file_ ? file_->scenes() : 0; }
   [[nodiscard]] const Shortfalls& shortfalls() const { return shortfalls_.found(); }
+  /// Whether the file is there already, of this very sweep and with all of its scenes, and none is being made anew.
+  [[nodiscard]] bool is_done() const {
+    if (!file_ || plot_.is_wanted() || style_.bare || first() > 0) return false;
+    const long long last = plan_.points.count() - 1;
+    return hdf5_ ? is_hdf5_of(file_->path(), column_head(), last) : file_->is_complete(csv_head(report_, false), last);
+  }
   void write(const RangeRows& rows) {
     shortfalls_.add(rows.text);
     if (plot_.is_wanted() && (file_ || is_csv())) collected_ += rows.text;
@@ -520,8 +526,14 @@ int run_sweep(const SweepInput& input, const SweepPlan& plan, const SweepBody& b
   const CooperativeInterrupt interrupt;
   SweepOutput output(input, plan);
   const long long scenes = plan.points.count();
-  RangeQueue queue({output.first(), scenes - output.first()}, range_size(plan));
+  const bool is_done = !input.restart && output.is_done();
+  const long long first = is_done ? scenes : output.first();
+  if (is_done) say(fmt::format("{} is complete, nothing is left to do; --restart computes it anew", input.output));
+  else if (first > 0 && first < scenes)
+    say(fmt::format("goes on at {} {} of {}", plan.layout.rows == RowKind::scene ? "row" : "scene", first + 1, scenes));
+  RangeQueue queue({first, scenes - first}, range_size(plan));
   fill(output, queue, {plan, body, threads, interrupt}, ranks);
+  if (is_done) return 0;
   if (queue.is_complete()) {
     output.commit();
     return output.shortfalls().status(scenes, "scenes");
@@ -555,7 +567,8 @@ constexpr const char* sweep_footer =
     "with columns q0, q1, q2, q3. Columns asked for are quantities that rows of impacts have; the hardest impact "
     "has\n"
     "the largest normal impulse.\n"
-    "An interrupted sweep goes on when the same command is given again. The discrete model takes the impact.* keys.\n"
+    "An interrupted sweep goes on when the same command is given again; of a complete FILE it says so and leaves it.\n"
+    "The discrete model takes the impact.* keys.\n"
     "Continuous scenes are planned for run.digits. Each number has a column with its error, empty where that is not "
     "known.\n"
     "A scene that is refused or fails is a row with its outcome, refused, outside-model or not-computed, and "

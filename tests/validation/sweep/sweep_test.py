@@ -267,13 +267,36 @@ class Scenes(Folder):
                     break
                 self.assertEqual(status, -number if number == signal.SIGKILL else 130)
                 if status == 130:
-                    self.assertRegex(words, r"^clatter: interrupted after \d+ of \d+ scenes; the same command goes on\n$")
+                    self.assertRegex(words, r"\A(clatter: goes on at .*\n)?clatter: interrupted after \d+ of \d+ scenes; the same command goes on\n$")
                 self.assertTrue(os.path.exists(self.path("out.csv.part")))
             if not os.path.exists(self.path("out.csv")):
-                self.sweep(*arguments, "--output", self.path("out.csv"))
+                done = run("sweep", *arguments, "--output", self.path("out.csv"))
+                self.assertRegex(done.stderr, rf"\Aclatter: goes on at {'scene' if 'impact' in arguments else 'row'} \d+ of \d+\n\Z")
+                self.assertEqual(done.returncode, 0)
             self.assertEqual(self.read("out.csv"), self.sweep(*arguments))
             self.assertFalse(os.path.exists(self.path("out.csv.part")))
             os.remove(self.path("out.csv"))
+
+    def test_a_complete_file_of_the_same_sweep_is_left_as_it_is(self):
+        for name in ["out.csv"] + ["out.h5"] * bool(HDF5):
+            command = ["sweep", self.scene, "--set", "drop.angle_deg=1:40:0.01", "--rows", "impact", "--output", self.path(name)]
+            self.sweep(*command[1:])
+            whole, inode = self.bytes(name), os.stat(self.path(name)).st_ino
+            again = run(*command)
+            self.assertEqual((again.returncode, again.stderr), (0, f"clatter: {self.path(name)} is complete, nothing is left to do; --restart computes it anew\n"))
+            self.assertEqual((os.stat(self.path(name)).st_ino, self.bytes(name)), (inode, whole))
+            self.assertFalse(os.path.exists(self.path(name + ".part")))
+            self.sweep(*command[1:], "--restart")
+            self.assertNotEqual(os.stat(self.path(name)).st_ino, inode)
+            for other in (["--set", "drop.speed=2"], ["--set", "run.errors=false"], ["--columns", "hardest", "--rows", "scene"]):
+                self.sweep(*command[1:-4], *command[-2:], *(other if "--rows" in other else ["--rows", "impact", *other]))
+                self.assertNotEqual(self.bytes(name), whole, other)
+                self.sweep(*command[1:])
+                self.assertEqual(self.bytes(name), whole, other)
+        for damaged in (self.read("out.csv")[:-1], self.read("out.csv").rsplit("\n", 9)[0] + "\n"):
+            self.write("out.csv", damaged)
+            self.sweep(self.scene, "--set", "drop.angle_deg=1:40:0.01", "--rows", "impact", "--output", self.path("out.csv"))
+            self.assertNotEqual(self.read("out.csv"), damaged)
 
     def test_a_sweep_does_not_go_on_with_another_mesh_of_the_same_name(self):
         self.write("body.stl", box_stl(0.1))
@@ -454,6 +477,6 @@ class RowsTogether(Folder):
         arguments = [self.scene, "--set", "drop.angle_deg=0.0004:60:0.0004"]
         self.assertEqual(self.stopped(signal.SIGKILL, "rows.h5", "sweep", *arguments)[0], -signal.SIGKILL, "too short a sweep to interrupt")
         self.assertFalse(os.path.exists(self.path("rows.h5")))
-        for name in ("rows.h5", "whole.h5"):
-            self.sweep(*arguments, "--output", self.path(name))
+        self.assertRegex(run("sweep", *arguments, "--output", self.path("rows.h5")).stderr, r"\A(clatter: goes on at row \d+ of 150000\n)?\Z")
+        self.sweep(*arguments, "--output", self.path("whole.h5"))
         self.assertEqual(self.bytes("rows.h5"), self.bytes("whole.h5"))
