@@ -378,6 +378,7 @@ class SweepOutput {
   }
 
   [[nodiscard]] long long first() const { return file_ ? file_->scenes() : 0; }
+  [[nodiscard]] long long cut() const { return shortfalls_.cut(); }
   [[nodiscard]] const Shortfalls& shortfalls() const { return shortfalls_.found(); }
   /// Whether the file is there already, of this very sweep and with all of its scenes, and none is being made anew.
   [[nodiscard]] bool is_done() const {
@@ -536,6 +537,10 @@ int run_sweep(const SweepInput& input, const SweepPlan& plan, const SweepBody& b
   if (is_done) return 0;
   if (queue.is_complete()) {
     output.commit();
+    if (output.cut() > 0 && !plan.has_own_limit && !input.request.summary) {
+      say(fmt::format("{} of {} scenes end at {} impacts, where more may follow: run.impacts is not given",
+                      output.cut(), scenes, plan.scene.request.impacts));
+    }
     return output.shortfalls().status(scenes, "scenes");
   }
   const std::string words = fmt::format("interrupted after {} of {} scenes", queue.taken(), scenes);
@@ -574,7 +579,8 @@ constexpr const char* sweep_footer =
     "A scene that is refused or fails is a row with its outcome, refused, outside-model or not-computed, and "
     "reason.\n"
     "Exit status 3 if a number could not be computed, a limit left fewer impacts than asked for, or required digits\n"
-    "are not known, in any scene; its row says why.";
+    "are not known, in any scene; its row says why. run.impacts is how many are asked for: a scene that ends\n"
+    "there has outcome impact-limit, and falls short with run.until_rest alone.";
 
 /// Which scenes, and what their rows hold.
 void add_request_options(Command& command, SweepRequest& request) {

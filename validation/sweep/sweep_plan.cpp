@@ -249,6 +249,7 @@ void read_scene(const SweepRequest& request, std::vector<Setting>& settings, Sce
   make_room(values, settings);
   const Model model = plan.layout.model = read_model(request, values, settings);
   require_effects(settings, model);
+  plan.has_own_limit = values.has("run.impacts") || sets(settings, "run.impacts");
   plan.scene = read_scene(values, overrides_at(values, settings, &SweepAxis::first), model);
   static_cast<void>(read_scene(values, overrides_at(values, settings, &SweepAxis::last), model));
   number_attitudes(plan.scene, settings);

@@ -247,6 +247,19 @@ class Scenes(Folder):
                                   "--set", "run.digits=3"))
         self.assertEqual(len(rows), 2)
 
+    def test_a_limit_that_nobody_gave_is_said_where_it_cuts(self):
+        scene = self.write("free.toml", "[drop]\nangle_deg = 10\n[body]\nradius = 0\n")
+        cuts = {}
+        for options in ((), ("--rows", "impact"), ("--output", self.path("rows.csv")), ("--set", "run.impacts=6")):
+            done = run("sweep", scene, "--set", "drop.angle_deg=1:89:1", "--set", "impact.restitution=0.05", *options)
+            rows = records(self.read("rows.csv") if "--output" in options else done.stdout)
+            cuts[options] = len({row["index"] for row in rows if row["outcome"] == "impact-limit"})
+            self.assertEqual((done.returncode, {row["reason"] for row in rows}), (0, {""}))
+            words = f"clatter: {cuts[options]} of 89 scenes end at 6 impacts, where more may follow: run.impacts is not given\n"
+            self.assertEqual(done.stderr, "" if "run.impacts=6" in options else words)
+        self.assertEqual(len(set(cuts.values())), 1)
+        self.assertTrue(0 < cuts[()] < 89)
+
     def test_the_file_does_not_depend_on_the_number_of_threads(self):
         for arguments in ([self.scene, "--set", "drop.angle_deg=0.1:60:0.1", "--rows", "impact"],
                           [self.scene, "--set", "drop.angle_deg=1:60", "--set", "body.length=0.1:3:log", "--random", "3000"],
