@@ -60,6 +60,8 @@ std::string tally_words(const Counts& counts) {
   return words + (order.size() > most_named ? fmt::format(" and {} others", order.size() - most_named) : "");
 }
 
+constexpr std::size_t few = 64;  // values of a column that are counted each
+
 bool is_summarised(const Column& column) { return !column.words && !column.name.ends_with("_error"); }
 
 }  // namespace
@@ -117,13 +119,13 @@ void Summary::add(std::string_view rows) {
     for (std::size_t i = first_; i < row_.size(); ++i) {
       const PackedCell& cell = row_[i];
       if (cell.is_text) ++texts_[i][std::string(cell.text)];
+      if (cell.is_truth) ++texts_[i][cell.number != 0 ? "true" : "false"];
       if (!std::isfinite(cell.number) || !is_summarised(columns_[i])) continue;
       Numbers& numbers = numbers_[i];
       const bool first = numbers.histogram.count() == 0;
       if (first || cell.number < numbers.least.value) numbers.least = {cell.number, index};
       if (first || cell.number > numbers.largest.value) numbers.largest = {cell.number, index};
       numbers.histogram.add(cell.number);
-      constexpr std::size_t few = 64;
       if (columns_[i].unit.empty() && numbers.tally.size() <= few) ++numbers.tally[cell.number];
       if (worst_.empty()) continue;
       Extreme& of_attitude = worst_[static_cast<std::size_t>(points_->attitude_of(index))][i];
@@ -162,6 +164,9 @@ void Summary::add_number(Report& report, std::size_t column, const std::string& 
   const Numbers& numbers = numbers_[column];
   const auto is_whole = [](const auto& counted) { return counted.first == std::rint(counted.first); };
   const bool counts = !numbers.tally.empty() && std::ranges::all_of(numbers.tally, is_whole);
+  for (const auto& [value, count] : numbers.tally) {
+    if (counts && numbers.tally.size() <= few) report.fields["counts"][columns_[column].name][shortest(value)] = count;
+  }
   const auto shown = [&](const Estimated& value) {
     return counts && value.error == 0 ? Cell(std::llrint(value.value)) : known_cell(value, {});
   };
@@ -237,18 +242,27 @@ void Summary::add_texts(Report& report) const {
                                          [](long long sum, const auto& text) { return sum + text.second; });
   report.fields["texts"] = Value(Value::Fields{});
   for (std::size_t i = 0; i < texts_.size(); ++i) {
-    if (texts_[i].empty()) continue;
+    if (texts_[i].empty() && columns_[i].name != "rest_face") continue;
     Value counts(Value::Fields{});
     Value::List shares;
     std::string words;
+    const bool has_shares = columns_[i].name == "rest_face" || is_flag(i);
+    long long others = rows;
+    const auto add_share = [&](const std::string& text, long long count) {
+      if (has_shares && count > 0) words += share_words(text, count, rows, words.empty(), shares);
+    };
     for (const auto& [text, count] : std::map<std::string, long long>(texts_[i].begin(), texts_[i].end())) {
       counts[text] = count;
-      if (columns_[i].name == "rest_face") words += share_words(text, count, rows, words.empty(), shares);
+      others -= count;
+      add_share(text, count);
     }
+    add_share("none", others);
     report.fields["texts"][columns_[i].name] = counts;
-    if (!shares.empty()) report.fields["shares"][columns_[i].name] = shares;
-    if (words.empty() && std::ranges::find(asked_, i) != asked_.end()) words = tally_words(texts_[i]);
-    if (!words.empty()) report.notes.push_back(fmt::format("{}: {}", columns_[i].name, words));
+    if (has_shares) report.fields["shares"][columns_[i].name] = shares;
+    const bool is_asked = std::ranges::find(asked_, i) != asked_.end();
+    if (!has_shares && is_asked) words = tally_words(texts_[i]);
+    if (is_asked || columns_[i].name.starts_with("rest_"))
+      report.notes.push_back(fmt::format("{}: {}", columns_[i].name, words));
   }
 }
 
@@ -272,6 +286,7 @@ std::vector<std::size_t> Summary::remarked(Report& report) const {
       const auto is_its = [&](const Row& row) { return shown_text(row.front()) == columns_[column].name; };
       std::ranges::copy_if(report.grid.rows, std::back_inserter(report.digest->rows), is_its);
     }
+    if (report.digest->rows.empty()) report.digest.reset();
   }
   std::string outcome = fmt::format("outcome: {}", tally_words(texts_[outcome_])), counts;
   for (std::size_t i = first_; i < columns_.size(); ++i) {

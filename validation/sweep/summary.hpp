@@ -48,8 +48,8 @@ struct Wilson {
 /// The percentiles that a summary lists.
 inline constexpr double summary_percents[]{1, 5, 25, 50, 75, 95, 99};
 
-/// Takes rows, keeps for each column of numbers their count, percentiles and extremes, for each column of texts how
-/// often each occurs.  The order of the rows changes nothing; of equal extremes the first row's is kept.
+/// Takes rows, keeps for each column of numbers their count, percentiles and extremes, for each column of texts or
+/// truths how often each occurs.  The order of the rows changes nothing; of equal extremes the first row's is kept.
 class Summary {
  public:
   /// @param points  their listed attitudes, if any, are told apart by the largest of each number, of margins the least
@@ -67,7 +67,7 @@ class Summary {
   void fill(Report& report, const Command& command, const Attitude& attitude) const {
     report.grid.columns = columns();
     for (std::size_t i = 0; i < numbers_.size(); ++i) {
-      if (numbers_[i].histogram.count() > 0)
+      if (numbers_[i].histogram.count() > 0 && !is_flag(i))
         add_number(report, i, command(numbers_[i].least.index), command(numbers_[i].largest.index));
     }
     if (points_->attitudes() > 0) add_attitudes(report, attitude);
@@ -96,6 +96,10 @@ class Summary {
 
   void add_number(Report& report, std::size_t column, const std::string& least, const std::string& largest) const;
   void add_texts(Report& report) const;
+  /// Whether a column says true or false.
+  [[nodiscard]] bool is_flag(std::size_t column) const {
+    return texts_[column].contains("true") || texts_[column].contains("false");
+  }
   /// Adds the notes on what is remarkable; returns the columns whose worst scene a reader may want to see.
   [[nodiscard]] std::vector<std::size_t> remarked(Report& report) const;
   struct Tail {

@@ -378,8 +378,8 @@ class RowsTogether(Folder):
         rows = self.sweep(*arguments)
         summary = self.summary(*arguments)
         self.assertEqual([row["quantity"] for row in summary["rows"]],
-                         ["impacts", "total_normal_impulse", "energy_loss", "last_start", "predictable"])
-        for row in summary["rows"][:-1]:
+                         ["impacts", "total_normal_impulse", "energy_loss", "last_start"])
+        for row in summary["rows"]:
             values = sorted(self.numbers(rows, row["quantity"]))
             self.assertEqual((row["count"], row["least"], row["largest"]), (len(values), values[0], values[-1]))
             for percent in (1, 5, 25, 50, 75, 95, 99):
@@ -393,6 +393,9 @@ class RowsTogether(Folder):
         for row in records(rows):
             outcomes[row["outcome"]] = outcomes.get(row["outcome"], 0) + 1
         self.assertEqual(summary["texts"]["outcome"], outcomes)
+        self.assertEqual(summary["counts"], {"impacts": collections.Counter(row["impacts"] for row in records(rows))})
+        truths = collections.Counter(row["predictable"] for row in records(rows))
+        self.assertEqual({share["text"]: share["count"] for share in summary["shares"]["predictable"]}, truths)
 
     def test_a_summary_of_attitudes_names_the_worst_of_them_and_its_blow(self):
         arguments = ["phone-corner", "--model", "discrete", "--set", "drop.attitude=26", "--random", "104", "--scatter", "4"]
@@ -412,6 +415,7 @@ class RowsTogether(Folder):
         for row in rows:
             corners[row["hardest_corners"]] = corners.get(row["hardest_corners"], 0) + 1
         self.assertEqual(summary["texts"]["hardest_corners"], corners)
+        self.assertEqual(summary["counts"]["hardest"], collections.Counter(row["hardest"] for row in rows))
         worst = [row for row in summary["rows"] if row["quantity"] == "hardest_impulse_normal"][0]
         again = self.numbers(self.sweep(*shlex.split(worst["largest_command"])[2:]), "impulse_normal")
         self.assertEqual(max(again), worst["largest"])
