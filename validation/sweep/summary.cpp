@@ -105,6 +105,7 @@ Summary::Summary(const RowLayout& layout, const SweepPoints& points)
       worst_(static_cast<std::size_t>(points.attitudes()), std::vector<Extreme>(columns_.size(), {0, -1})),
       texts_(columns_.size()), row_(columns_.size()) {
   const auto by = ranking();
+  if (!layout.rank_by.empty() && worst_.empty()) ranked_ = by;
   const bool ranks = by && (!worst_.empty() || !rank_by_.empty());
   for (const std::string& name : asked_names(layout, ranks ? columns_[*by].name : "")) {
     const auto column = std::ranges::find(columns_, name, &Column::name);
@@ -127,6 +128,7 @@ void Summary::add(std::string_view rows) {
       if (first || cell.number > numbers.largest.value) numbers.largest = {cell.number, index};
       numbers.histogram.add(cell.number);
       if (columns_[i].unit.empty() && numbers.tally.size() <= few) ++numbers.tally[cell.number];
+      if (i == ranked_) rank({cell.number, index}, i);
       if (worst_.empty()) continue;
       Extreme& of_attitude = worst_[static_cast<std::size_t>(points_->attitude_of(index))][i];
       if (of_attitude.index < 0 || is_worse(i, cell.number, of_attitude.value)) of_attitude = {cell.number, index};
@@ -235,6 +237,33 @@ void Summary::add_attitudes(Report& report, const std::function<std::string(long
   }
   report.fields["attitudes"] = list;
   report.notes.push_back(words);
+}
+
+void Summary::rank(const Extreme& scene, std::size_t column) {
+  constexpr std::size_t most = 10;
+  const auto is_before = [&](const Extreme& one, const Extreme& other) {
+    return is_worse(column, one.value, other.value) || (one.value == other.value && one.index < other.index);
+  };
+  if (worst_scenes_.size() == most && !is_before(scene, worst_scenes_.back())) return;
+  const auto same = std::ranges::find(worst_scenes_, scene.index, &Extreme::index);
+  if (same == worst_scenes_.end()) worst_scenes_.push_back(scene);
+  else if (is_before(scene, *same)) *same = scene;
+  std::ranges::sort(worst_scenes_, is_before);
+  if (worst_scenes_.size() > most) worst_scenes_.pop_back();
+}
+
+Grid Summary::worst_scenes() const {
+  Grid grid{{columns_.front(), columns_[*ranked_]}, {}};
+  grid.columns.insert(grid.columns.end(), columns_.begin() + 1, columns_.begin() + static_cast<std::ptrdiff_t>(first_));
+  grid.columns.push_back(word_column("command", "command", "command that shows the scene"));
+  grid.columns.back().shown = false;
+  std::vector<double> values;
+  for (const Extreme& scene : worst_scenes_) {
+    points_->at(scene.index, values);
+    grid.rows.push_back({Cell(scene.index), known_cell({scene.value, 0}, {})});
+    for (const double value : values) grid.rows.back().push_back(known_cell({value, 0}, {}));
+  }
+  return grid;
 }
 
 void Summary::add_texts(Report& report) const {

@@ -71,6 +71,12 @@ class Summary {
         add_number(report, i, command(numbers_[i].least.index), command(numbers_[i].largest.index));
     }
     if (points_->attitudes() > 0) add_attitudes(report, attitude);
+    if (!worst_scenes_.empty()) {
+      Grid worst = worst_scenes();
+      for (std::size_t i = 0; i < worst.rows.size(); ++i) worst.rows[i].emplace_back(command(worst_scenes_[i].index));
+      report.fields["worst"] = row_objects(worst);
+      report.further = std::move(worst);
+    }
     add_texts(report);
     for (const std::size_t i : remarked(report)) {
       const Extreme& worst = is_worst_least(columns_[i].name) ? numbers_[i].least : numbers_[i].largest;
@@ -112,6 +118,11 @@ class Summary {
   /// Whether one number of a column is worse than another: a margin where it is less.
   [[nodiscard]] bool is_worse(std::size_t column, double one, double other) const;
   void add_attitudes(Report& report, const std::function<std::string(long long)>& name) const;
+  /// Keeps the scene if it is among the ten worst by the column that was asked for.
+  void rank(const Extreme& scene, std::size_t column);
+  /// The ten worst scenes: their numbers, the ranked quantity and the swept keys, the worst first; a command is to
+  /// follow.
+  [[nodiscard]] Grid worst_scenes() const;
 
   std::vector<Column> columns_;
   std::vector<std::size_t> asked_{};  ///< columns that were asked for, in the order in which they are told
@@ -121,6 +132,8 @@ class Summary {
   std::size_t outcome_;  ///< column that each row has
   std::vector<Numbers> numbers_;
   std::vector<std::vector<Extreme>> worst_;  ///< of each listed attitude, of each column; index -1: none yet
+  std::optional<std::size_t> ranked_{};      ///< column by which scenes are ranked, where no attitudes are listed
+  std::vector<Extreme> worst_scenes_{};      ///< the worst first
   std::vector<Texts> texts_;
   std::vector<PackedCell> row_;
 };
