@@ -22,6 +22,7 @@
 #include "validation/output/json.hpp"
 #include "validation/output/number.hpp"
 #include "validation/output/numeric_table.hpp"
+#include "validation/output/palette.hpp"
 #include "validation/output/picture.hpp"
 #include "validation/output/report.hpp"
 #include "validation/output/sink.hpp"
@@ -179,37 +180,59 @@ std::string range_words(double low, double high) {
   return first == last ? first : fmt::format("{} to {}", first, last);
 }
 
-/// A curve of points for each class that has some, with the range of its values.
-/// @param known  all values, in order
-void add_classes(const std::vector<double>& known, std::span<const char* const> colours, PicturePanel& panel) {
-  for (std::size_t k = 0; k < colours.size(); ++k) {
+/// Classes of as many values each, or one for each of few whole numbers.
+struct ValueClasses {
+  std::vector<double> known;  ///< all values, in order, or each of the few
+  std::span<const char* const> colours;
+  bool are_single = false;
+
+  explicit ValueClasses(std::vector<double> values) : known(std::move(values)) {
+    static constexpr const char* fifths[] = {"#c6dbef", "#6baed6", "#2171b5", "#fd8d3c", "#d7301f"};
+    std::erase_if(known, [](double value) { return !std::isfinite(value); });
+    std::sort(known.begin(), known.end());
+    const std::set<double> each(known.begin(), known.end());
+    colours = each.size() <= std::size(fifths) ? std::span<const char* const>(fifths) : palette::classes;
+    are_single = are_whole(known) && each.size() <= colours.size();
+    if (are_single) known.assign(each.begin(), each.end());
+    else colours = fifths;
+  }
+
+  [[nodiscard]] std::size_t of(double value) const {
+    const auto rank = static_cast<std::size_t>(std::lower_bound(known.begin(), known.end(), value) - known.begin());
+    return are_single ? rank : colours.size() * rank / known.size();
+  }
+  [[nodiscard]] std::string words(std::size_t k) const {
+    if (are_single) return shortest(known[k]);
     const auto at = [&](std::size_t part) {
       return known[std::min(part * known.size() / colours.size(), known.size() - 1)];
     };
+    return range_words(at(k), at(k + 1));
+  }
+};
+
+/// A curve of points for each class that has some, with the range of its values.
+void add_classes(const ValueClasses& classes, PicturePanel& panel) {
+  for (std::size_t k = 0; k < classes.colours.size(); ++k) {
     const auto is_of_class = [&](const std::vector<double>& row) { return row[2] == static_cast<double>(k); };
     if (std::none_of(panel.rows.begin(), panel.rows.end(), is_of_class)) continue;
     panel.plot.curves.push_back({.x = "x",
                                  .y = "y",
-                                 .legend = range_words(at(k), at(k + 1)),
+                                 .legend = classes.words(k),
                                  .style = FigureCurve::Style::points,
                                  .where = {{"class", static_cast<double>(k)}},
-                                 .colour = colours[k]});
+                                 .colour = classes.colours[k]});
   }
 }
 
-/// Which direction of the body points down, coloured by a quantity in classes of as many drops each; the largest on
-/// top.
+/// Which direction of the body points down, coloured by a quantity in classes; the largest on top.
 PicturePanel sphere(const Grid& grid, std::size_t attitude, std::size_t quantity) {
-  constexpr const char* colours[] = {"#c6dbef", "#6baed6", "#2171b5", "#fd8d3c", "#d7301f"};
-  constexpr std::size_t classes = std::size(colours);
   const std::vector<double> values = numbers_of(grid, quantity);
-  std::vector<double> q[4], known;
+  const ValueClasses classes(values);
+  std::vector<double> q[4];
   for (std::size_t i = 0; i < 4; ++i) q[i] = numbers_of(grid, attitude + i);
-  std::copy_if(values.begin(), values.end(), std::back_inserter(known), [](double v) { return std::isfinite(v); });
-  std::sort(known.begin(), known.end());
   PicturePanel panel{.columns = {{"x", "1", "eastward on an equal-area map"},
                                  {"y", "1", "northward on an equal-area map"},
-                                 {"class", "1", "fifth of the drops"}},
+                                 {"class", "1", "class of its colour"}},
                      .plot = {.x_label = "direction of the body that points down: +x in the middle, +z at the top",
                               .y_label = "colour: " + named(grid.columns[quantity]),
                               .curves = {{.x = "x", .y = "y", .where = {{"class", -1}}, .colour = ink}},
@@ -222,13 +245,10 @@ PicturePanel sphere(const Grid& grid, std::size_t attitude, std::size_t quantity
   for (std::size_t i = 0; i < values.size(); ++i) {
     const Eigen::Quaterniond attitude_of(q[0][i], q[1][i], q[2][i], q[3][i]);
     if (!std::isfinite(values[i]) || !std::isfinite(attitude_of.norm())) continue;
-    const auto rank = std::lower_bound(known.begin(), known.end(), values[i]) - known.begin();
     const auto [x, y] = mapped(attitude_of.normalized().conjugate() * -numeric::Vector3::UnitZ());
-    panel.rows.push_back({x, y,
-                          std::floor(static_cast<double>(classes * static_cast<std::size_t>(rank)) /
-                                     static_cast<double>(known.size()))});
+    panel.rows.push_back({x, y, static_cast<double>(classes.of(values[i]))});
   }
-  add_classes(known, colours, panel);
+  add_classes(classes, panel);
   return panel;
 }
 
