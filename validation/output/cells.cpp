@@ -11,8 +11,8 @@
 
 namespace clatter::validation {
 
-void CellWriter::pack(double value) {
-  char bytes[1 + sizeof value] = {'d'};
+void CellWriter::pack(double value, char kind) {
+  char bytes[1 + sizeof value] = {kind};
   std::memcpy(bytes + 1, &value, sizeof value);
   out_.append(bytes, sizeof bytes);
 }
@@ -36,7 +36,7 @@ void CellWriter::whole(long long value) {
 }
 
 void CellWriter::truth(bool value) {
-  if (packed_) return pack(value ? 1 : 0);
+  if (packed_) return pack(value ? 1 : 0, 't');
   out_ += value ? ",true" : ",false";
 }
 
@@ -67,12 +67,13 @@ bool PackedRows::read(PackedCell& cell, std::string_view& from) const {
   from.remove_prefix(1);
   if (kind == '-') return true;
   std::uint32_t size = 0;
-  const std::size_t width = kind == 'd' ? sizeof cell.number : sizeof size;
+  cell.is_text = kind == 'w';
+  cell.is_truth = kind == 't';
+  const std::size_t width = cell.is_text ? sizeof size : sizeof cell.number;
   if (from.size() < width) return false;
-  std::memcpy(kind == 'd' ? static_cast<void*>(&cell.number) : &size, from.data(), width);
+  std::memcpy(cell.is_text ? static_cast<void*>(&size) : &cell.number, from.data(), width);
   from.remove_prefix(width);
   if (from.size() < size) return false;
-  cell.is_text = kind == 'w';
   cell.text = from.substr(0, size);
   from.remove_prefix(size);
   return true;

@@ -10,7 +10,8 @@ namespace clatter::validation {
 
 /// Appends cells to a text.  CSV: a comma before each, numbers in their shortest form.  Packed: a letter, then what it
 /// announces, in the byte order of the machine:
-///     d  number, a double        w  text, its length as 32 bits and its bytes        -  nothing
+///     d  number, a double        t  truth, 1 or 0 as a double        -  nothing
+///     w  text, its length as 32 bits and its bytes
 class CellWriter {
  public:
   CellWriter(std::string& out, bool packed) : out_(out), packed_(packed) {}
@@ -30,17 +31,17 @@ class CellWriter {
   }
 
  private:
-  void pack(double value);
+  void pack(double value, char kind = 'd');
 
   std::string& out_;
   bool packed_;
 };
 
-/// A packed cell: a text, or a number, NaN if there is nothing.
+/// A packed cell: a text, or a number, of a truth 1 or 0, NaN if there is nothing.
 struct PackedCell {
   double number;
   std::string_view text;
-  bool is_text = false;
+  bool is_text = false, is_truth = false;
 };
 
 /// Cuts a packed row, whose cells it reads one after the other.

@@ -128,7 +128,7 @@ Known ImpactQuantity::known_to(RunModel model) const {
 }
 
 Entry ImpactQuantity::kind() const {
-  static const Impact some{};
+  static const Impact some{.corners = "0"};  // the text that an impact without named corners lacks
   return value(some);
 }
 
@@ -258,6 +258,19 @@ Scales scales_of(const Run& run, double reach) {
     grow(Scale::energy, impact.value.energy_before);
   }
   return scales;
+}
+
+std::vector<std::string> shown_quantities(RunModel model) {
+  if (model != RunModel::space)
+    return {"n", "end", "start", "contact_angle_deg", "impulse_normal", "velocity_after_z", "angular_velocity_after_y"};
+  return {"n",
+          "corners",
+          "start",
+          "impulse_normal",
+          "velocity_after_z",
+          "angular_velocity_after_x",
+          "angular_velocity_after_y",
+          "angular_velocity_after_z"};
 }
 
 std::vector<Column> impact_columns(RunModel model, const std::vector<std::string>& shown) {

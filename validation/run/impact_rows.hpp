@@ -54,6 +54,8 @@ struct ImpactQuantity {
 /// All of them, in the order of CSV and JSON.
 [[nodiscard]] std::span<const ImpactQuantity> impact_quantities();
 
+/// Names of the columns that a table of impacts has in every scene of the model; others depend on what the scene has.
+[[nodiscard]] std::vector<std::string> shown_quantities(RunModel model);
 /// The columns of a model's quantities, then those of their errors as NAME_error.
 /// @param shown names of the columns that tables have
 [[nodiscard]] std::vector<Column> impact_columns(RunModel model, const std::vector<std::string>& shown);

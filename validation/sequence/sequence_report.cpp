@@ -355,14 +355,7 @@ bool loses_energy(const Run& run) {
 std::vector<Column> columns_of(const PreparedScene& prepared, const Run& run) {
   const bool friction = law_of(prepared.drop).friction != analytic::FrictionKind::none;
   if (run.model == RunModel::plane) return sequence_columns(friction, loses_energy(run));
-  std::vector<std::string> shown{"n",
-                                 "corners",
-                                 "start",
-                                 "impulse_normal",
-                                 "velocity_after_z",
-                                 "angular_velocity_after_x",
-                                 "angular_velocity_after_y",
-                                 "angular_velocity_after_z"};
+  std::vector<std::string> shown = shown_quantities(RunModel::space);
   if (friction) shown.emplace_back("mode");
   return impact_columns(RunModel::space, shown);
 }
@@ -454,8 +447,7 @@ Report SequenceRows::begun() const {
 }  // namespace
 
 std::vector<Column> sequence_columns(bool friction, bool loses) {
-  std::vector<std::string> shown{
-      "n", "end", "start", "contact_angle_deg", "impulse_normal", "velocity_after_z", "angular_velocity_after_y"};
+  std::vector<std::string> shown = shown_quantities(RunModel::plane);
   if (friction) shown.insert(shown.end(), {"impulse_tangential", "velocity_after_x", "energy_loss", "mode"});
   else if (loses) shown.emplace_back("energy_loss");
   return impact_columns(RunModel::plane, shown);

@@ -12,33 +12,40 @@ namespace clatter::validation {
 namespace {
 
 using Open = ColumnFile* (*)(const std::string&, const ColumnFileHead&);
+using Compare = bool (*)(const std::string&, const ColumnFileHead&, long long);
 
-Open find_module() {
+void* find_module() {
   std::error_code error;
   const std::filesystem::path folder = std::filesystem::read_symlink("/proc/self/exe", error).parent_path();
   for (const std::filesystem::path& place : {folder, folder.parent_path() / "lib/clatter/modules"}) {
     void* const module = dlopen((place / "clatter-hdf5.so").c_str(), RTLD_NOW | RTLD_LOCAL);
-    if (module != nullptr) return reinterpret_cast<Open>(dlsym(module, "clatter_open_hdf5"));
+    if (module != nullptr) return module;
   }
   return nullptr;
 }
 
-/// The function of the module, which is looked for once; none: there is no such module.
-Open open_in_module() {
-  static const Open open = find_module();
-  return open;
+/// A function of the module, which is looked for once; none: there is no such module.
+template <class Function>
+Function in_module(const char* name) {
+  static void* const module = find_module();
+  return module == nullptr ? nullptr : reinterpret_cast<Function>(dlsym(module, name));
 }
 
 }  // namespace
 
 void require_hdf5() {
-  if (open_in_module() != nullptr) return;
+  if (in_module<Open>("clatter_open_hdf5") != nullptr) return;
   throw BadInput("--output: this program was built without HDF5; install libhdf5-dev and build it again");
 }
 
 std::unique_ptr<ColumnFile> open_hdf5(const std::string& path, const ColumnFileHead& head) {
   require_hdf5();
-  return std::unique_ptr<ColumnFile>(open_in_module()(path, head));
+  return std::unique_ptr<ColumnFile>(in_module<Open>("clatter_open_hdf5")(path, head));
+}
+
+bool is_hdf5_of(const std::string& path, const ColumnFileHead& head, long long last) {
+  require_hdf5();
+  return in_module<Compare>("clatter_is_hdf5_of")(path, head, last);
 }
 
 }  // namespace clatter::validation

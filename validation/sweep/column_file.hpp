@@ -16,6 +16,7 @@ namespace clatter::validation {
 struct ColumnFileHead {
   std::vector<Column> columns;
   std::vector<std::pair<std::string, std::string>> attributes;  ///< of the whole file: title, scene, ...
+  long long rows = 0;                                           ///< how many are to come, for the size of its chunks
 };
 
 /// A file that takes rows and holds columns.
@@ -33,10 +34,12 @@ class ColumnFile {
 /// @throws BadInput where the program was built without HDF5
 void require_hdf5();
 /// Opens an HDF5 file, made anew.  The library comes from a module beside the program, so that no other run waits for
-/// it.  One dataset a column, 65,536 rows a chunk: numbers as 64-bit floating point, NaN where there is nothing; texts
-/// as numbers of the texts in the dataset words/COLUMN, −1 where there is nothing.  Each has its unit and its meaning
-/// as attributes.
+/// it.  One dataset a column, at most 65,536 rows a chunk: numbers as 64-bit floating point, NaN where there is
+/// nothing; texts as numbers of the texts in the dataset words/COLUMN, −1 where there is nothing.  Each has its unit
+/// and its meaning as attributes.
 /// @throws BadInput where the program was built without HDF5, std::runtime_error if the file cannot be written
 [[nodiscard]] std::unique_ptr<ColumnFile> open_hdf5(const std::string& path, const ColumnFileHead& head);
+/// Whether there is an HDF5 file with these attributes whose last row is that of scene `last`.
+[[nodiscard]] bool is_hdf5_of(const std::string& path, const ColumnFileHead& head, long long last);
 
 }  // namespace clatter::validation

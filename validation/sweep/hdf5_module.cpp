@@ -15,7 +15,13 @@
 namespace clatter::validation {
 namespace {
 
-constexpr hsize_t chunk_rows = 65536;
+/// Rows that a dataset stores and compresses together, at most `most_rows`: all chunks of a file are stored whole, and
+/// so they are about equally full.
+hsize_t chunk_of(long long rows) {
+  constexpr long long most_rows = 65536;
+  const long long chunks = std::max(1LL, (rows + most_rows - 1) / most_rows);
+  return static_cast<hsize_t>(std::max(1LL, (rows + chunks - 1) / chunks));
+}
 
 /// An identifier of the library, given back at the end.
 class Handle {
@@ -53,10 +59,30 @@ void write_attribute(hid_t object, const std::string& name, const std::string& t
   require(H5Awrite(attribute, type, &bytes));
 }
 
+std::string attribute_of(hid_t object, const std::string& name) {
+  const Handle attribute(H5Aopen(object, name.c_str(), H5P_DEFAULT), H5Aclose), type = text_type();
+  char* bytes = nullptr;
+  require(H5Aread(attribute, type, &bytes));
+  const std::string text(bytes);
+  require(H5free_memory(bytes));
+  return text;
+}
+
+/// The last number of a dataset that has some.
+double last_of(hid_t file, const char* name) {
+  const Handle dataset(H5Dopen2(file, name, H5P_DEFAULT), H5Dclose), place(H5Dget_space(dataset), H5Sclose);
+  const hsize_t one = 1, last = static_cast<hsize_t>(H5Sget_simple_extent_npoints(place) - 1);
+  require(H5Sselect_hyperslab(place, H5S_SELECT_SET, &last, nullptr, &one, nullptr));
+  const Handle memory(H5Screate_simple(1, &one, nullptr), H5Sclose);
+  double number = 0;
+  require(H5Dread(dataset, H5T_NATIVE_DOUBLE, memory, place, H5P_DEFAULT, &number));
+  return number;
+}
+
 /// One column: its dataset, and the rows that were not written yet.
 class Dataset {
  public:
-  Dataset(hid_t file, const Column& column) : file_(file), column_(column) {}
+  Dataset(hid_t file, const Column& column, hsize_t chunk) : file_(file), column_(column), chunk_(chunk) {}
 
   void add(const PackedCell& cell) {
     if (column_.words) {
@@ -65,7 +91,7 @@ class Dataset {
     } else {
       numbers_.push_back(cell.number);
     }
-    if (std::max(codes_.size(), numbers_.size()) == chunk_rows) flush();
+    if (std::max(codes_.size(), numbers_.size()) == chunk_) flush();
   }
 
   void close() {
@@ -96,7 +122,7 @@ class Dataset {
   void create() {
     const hsize_t none = 0, most = H5S_UNLIMITED;
     const Handle space(H5Screate_simple(1, &none, &most), H5Sclose), options(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
-    require(H5Pset_chunk(options, 1, &chunk_rows));
+    require(H5Pset_chunk(options, 1, &chunk_));
     require(H5Pset_obj_track_times(options, false));  // the same rows are the same bytes
     if (is_compressible()) {
       require(H5Pset_shuffle(options));
@@ -125,6 +151,7 @@ class Dataset {
 
   hid_t file_;
   Column column_;
+  hsize_t chunk_;
   std::optional<Handle> dataset_;
   hsize_t rows_ = 0;
   std::vector<double> numbers_;
@@ -141,7 +168,7 @@ class Hdf5File final : public ColumnFile {
     require(H5Pset_obj_track_times(options, false));
     const Handle words(H5Gcreate2(file_, "words", H5P_DEFAULT, options, H5P_DEFAULT), H5Gclose);
     datasets_.reserve(head.columns.size());
-    for (const Column& column : head.columns) datasets_.emplace_back(file_, column);
+    for (const Column& column : head.columns) datasets_.emplace_back(file_, column, chunk_of(head.rows));
   }
 
   void add(const std::vector<PackedCell>& row) override {
@@ -164,4 +191,19 @@ extern "C" clatter::validation::ColumnFile* clatter_open_hdf5(const std::string&
                                                               const clatter::validation::ColumnFileHead& head) {
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // failures are told once, by who catches them
   return new clatter::validation::Hdf5File(path, head);
+}
+
+extern "C" bool clatter_is_hdf5_of(const std::string& path, const clatter::validation::ColumnFileHead& head,
+                                   long long last) {
+  using namespace clatter::validation;
+  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+  try {
+    const Handle file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
+    for (const auto& [name, text] : head.attributes) {
+      if (attribute_of(file, name) != text) return false;
+    }
+    return last_of(file, "index") == static_cast<double>(last);
+  } catch (const std::runtime_error&) {
+    return false;
+  }
 }

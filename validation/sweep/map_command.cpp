@@ -139,6 +139,7 @@ int write_map(const MapInput& input, const MapPlan& plan, int threads, const Mak
   const CooperativeInterrupt interrupt;
   MapOutput output(input, plan);
   RangeQueue queue({output.first(), plan.rows - output.first()}, map_range(plan));
+  if (output.first() > 0) say(fmt::format("goes on at row {} of {}", output.first() + 1, plan.rows));
   Progress progress;
   SweepHooks hooks;
   hooks.write = [&](const RangeRows& rows) { output.write(rows); };

@@ -279,10 +279,12 @@ std::string class_word(const MapQuantity& quantity, const std::string& text) {
   if (std::string(quantity.name) == "impacts" && text == "infinite") return "infinitely many";
   const bool counts = std::string(quantity.name) == "impacts" && !std::isnan(count_in(text));
   if (counts) return (text.starts_with(at_least) ? "≥ " + text.substr(2) : text) + impact_word(text);
+  if (quantity.tells_rest() && text == "none") return "no face";
   return std::string(quantity.name) == "hardest" ? "impact " + text : text;
 }
 
-std::string legend_commands(const MapPlan& plan, const Legend& legend, bool any_open, double scale) {
+/// What stands beside the colours: the classes, then what is open and, of numbers, what has none.
+std::string legend_commands(const MapPlan& plan, const MapImage& image, const Legend& legend, double scale) {
   std::string text;
   const auto entry = [&](const char* colour, const std::string& words) {
     text += fmt::format(", \\\n  NaN with points pt 5 ps {} lc rgb '{}' title {}", 2.2 * scale, colour,
@@ -295,7 +297,11 @@ std::string legend_commands(const MapPlan& plan, const Legend& legend, bool any_
     else if (!are_many) entry(colour, fmt::format("{} and more", palette::classes.size()));
     are_many = are_many || is_many;
   }
-  if (any_open) entry(palette::open, "open");
+  if (image.open() > 0) entry(palette::open, "left open by rounding");
+  const auto has_none = [](const MapPixel& pixel) { return pixel.value.empty(); };
+  if (legend.empty() &&
+      std::ranges::any_of(image.rows, [&](const auto& row) { return std::ranges::any_of(row, has_none); }))
+    entry(palette::refused, "no drop, or no number");
   return text;
 }
 
@@ -375,9 +381,10 @@ std::vector<FoldCurve> fold_curves(const MapPlan& plan) {
 namespace {
 
 /// The legend stands beside a map of classes, in one column; curves alone have theirs in the map.
-std::string key_text(const Sheet& sheet, const Legend& legend, std::size_t curves) {
-  if (legend.empty()) return curves > 0 ? "set key at graph 0.99, graph 0.98 right top opaque\n" : "unset key\n";
-  const double entries = static_cast<double>(std::min(legend.size(), palette::classes.size() + 4) + curves + 1);
+/// @param others  entries that are no classes, about
+std::string key_text(const Sheet& sheet, const Legend& legend, std::size_t others) {
+  if (legend.empty()) return others > 0 ? "set key at graph 0.99, graph 0.98 right top opaque\n" : "unset key\n";
+  const double entries = static_cast<double>(std::min(legend.size(), palette::classes.size() + 4) + others);
   const double room = (sheet.height - sheet.top - sheet.bottom) / (entries * 22 * sheet.scale);
   return fmt::format("set key at screen {}, screen {} left top Left reverse vertical samplen 1.6 spacing {}\n",
                      1 - (sheet.right - 16 * sheet.scale) / sheet.width, 1 - sheet.top / sheet.height,
@@ -411,7 +418,6 @@ std::string map_picture(const MapPlan& plan, const MapImage& image) {
   std::string bytes, rest;
   if (has_classes) {
     bytes = class_bytes(image, legend);
-    rest = legend_commands(plan, legend, image.open() > 0, sheet.scale);
   } else {
     Span span(image);
     if (plan.counts()) span.low = 0, span.high = 1, span.is_clipped = false;
@@ -419,7 +425,8 @@ std::string map_picture(const MapPlan& plan, const MapImage& image) {
     bytes = number_bytes(plan, image, span);
     rest = ", \\\n  NaN with points palette notitle";
   }
-  script += key_text(sheet, legend, curves.size());
+  const std::string entries = legend_commands(plan, image, legend, sheet.scale);
+  script += key_text(sheet, legend, curves.size() + (entries.empty() ? 0 : 1));
   const long long columns = plan.columns * sheet.across, rows = plan.rows * sheet.upward;
   const double left = placed(plan.across(), plan.across().first), right = placed(plan.across(), plan.across().last);
   const double low = placed(plan.upward(), plan.upward().first), high = placed(plan.upward(), plan.upward().last);
@@ -427,7 +434,7 @@ std::string map_picture(const MapPlan& plan, const MapImage& image) {
   script += fmt::format(
       "plot data binary array=({},{}) format='%uchar%uchar%uchar' origin=({},{}) dx={} dy={} using 1:2:3 with rgbimage "
       "notitle{}{}\n",
-      columns, rows, left + dx / 2, low + dy / 2, dx, dy, rest, curve_commands(curves, sheet.scale));
+      columns, rows, left + dx / 2, low + dy / 2, dx, dy, rest + entries, curve_commands(curves, sheet.scale));
   return run_gnuplot(script, magnified(bytes, plan.columns, sheet));
 }
 

@@ -11,6 +11,7 @@
 #include "validation/output/number.hpp"
 #include "validation/run/impact_rows.hpp"
 #include "validation/run/run.hpp"
+#include "validation/scene/names.hpp"
 #include "validation/shock/damage_boundary.hpp"
 
 namespace clatter::validation {
@@ -88,9 +89,6 @@ Column error_beside(const Column& number) {
   return {.name = name, .heading = name, .unit = number.unit, .meaning = "error of " + number.name, .shown = false};
 }
 
-const std::vector<std::string> shown_of_impacts{
-    "n", "end", "start", "contact_angle_deg", "impulse_normal", "velocity_after_z", "angular_velocity_after_y"};
-
 /// The model whose columns rows of impacts have.
 RunModel columns_model(const RowLayout& layout) {
   if (layout.model == Model::continuous) return RunModel::continuous;
@@ -98,7 +96,7 @@ RunModel columns_model(const RowLayout& layout) {
 }
 
 std::vector<Column> columns_of_impacts(const RowLayout& layout) {
-  std::vector<Column> columns = impact_columns(columns_model(layout), shown_of_impacts);
+  std::vector<Column> columns = impact_columns(columns_model(layout), shown_quantities(columns_model(layout)));
   for (const ImpactQuantity& quantity : impact_quantities()) {
     if (!std::holds_alternative<std::string>(quantity.kind())) continue;
     const auto column =
@@ -488,7 +486,6 @@ ShortfallCount::ShortfallCount(const RowLayout& layout, bool packed) : packed_(p
 
 void ShortfallCount::add(std::string_view rows) {
   for (PackedRows packed(rows); packed_ && packed.next(cells_);) {
-    if (!cells_.back().is_text) continue;
     count(std::to_string(static_cast<long long>(cells_.front().number)), cells_[outcome_].text, cells_.back().text);
   }
   while (!packed_ && !rows.empty()) {
@@ -500,14 +497,17 @@ void ShortfallCount::add(std::string_view rows) {
 }
 
 void ShortfallCount::count(std::string_view index, std::string_view outcome, std::string_view reason) {
-  if (outcome == "refused" || outcome == "outside-model" || index == last_) return;
+  if (outcome == outcome_name(analytic::Outcome::impact_limit) && index != last_cut_) {
+    last_cut_ = index;
+    ++cut_;
+  }
+  if (reason.empty() || outcome == "refused" || outcome == "outside-model" || index == last_) return;
   last_ = index;
   if (found_.count() > 0) found_.add("", "falls short");
   else found_.add(last_, std::string(reason));
 }
 
 void ShortfallCount::add_row(std::string_view row) {
-  if (row.back() == ',') return;  // no reason
   std::string_view rest = row;
   for (std::size_t i = 0; i < outcome_; ++i) rest.remove_prefix(rest.find(',') + 1);
   const bool is_quoted = row.back() == '"';

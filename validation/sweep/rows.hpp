@@ -123,8 +123,8 @@ void append_rows(const RowForm& form, const Run& run);
 /// The one row of a scene without numbers.
 void append_failure(const RowForm& form, const char* outcome);
 
-/// Counts the scenes that fall short of what was asked: those with a reason that were neither refused nor outside the
-/// model.
+/// Counts the scenes that fall short of what was asked, those with a reason that were neither refused nor outside the
+/// model, and those that end at run.impacts.
 class ShortfallCount {
  public:
   ShortfallCount(const RowLayout& layout, bool packed);
@@ -133,6 +133,8 @@ class ShortfallCount {
   void add(std::string_view rows);
 
   [[nodiscard]] const Shortfalls& found() const { return found_; }
+  /// Scenes that end at run.impacts, where more impacts may follow.
+  [[nodiscard]] long long cut() const { return cut_; }
 
  private:
   void add_row(std::string_view row);
@@ -143,6 +145,8 @@ class ShortfallCount {
   std::vector<PackedCell> cells_;
   Shortfalls found_;
   std::string last_;  ///< index of the last of them
+  long long cut_ = 0;
+  std::string last_cut_;
 };
 
 }  // namespace clatter::validation

@@ -60,6 +60,8 @@ std::string tally_words(const Counts& counts) {
   return words + (order.size() > most_named ? fmt::format(" and {} others", order.size() - most_named) : "");
 }
 
+constexpr std::size_t few = 64;  // values of a column that are counted each
+
 bool is_summarised(const Column& column) { return !column.words && !column.name.ends_with("_error"); }
 
 }  // namespace
@@ -103,6 +105,7 @@ Summary::Summary(const RowLayout& layout, const SweepPoints& points)
       worst_(static_cast<std::size_t>(points.attitudes()), std::vector<Extreme>(columns_.size(), {0, -1})),
       texts_(columns_.size()), row_(columns_.size()) {
   const auto by = ranking();
+  if (!layout.rank_by.empty() && worst_.empty()) ranked_ = by;
   const bool ranks = by && (!worst_.empty() || !rank_by_.empty());
   for (const std::string& name : asked_names(layout, ranks ? columns_[*by].name : "")) {
     const auto column = std::ranges::find(columns_, name, &Column::name);
@@ -117,14 +120,15 @@ void Summary::add(std::string_view rows) {
     for (std::size_t i = first_; i < row_.size(); ++i) {
       const PackedCell& cell = row_[i];
       if (cell.is_text) ++texts_[i][std::string(cell.text)];
+      if (cell.is_truth) ++texts_[i][cell.number != 0 ? "true" : "false"];
       if (!std::isfinite(cell.number) || !is_summarised(columns_[i])) continue;
       Numbers& numbers = numbers_[i];
       const bool first = numbers.histogram.count() == 0;
       if (first || cell.number < numbers.least.value) numbers.least = {cell.number, index};
       if (first || cell.number > numbers.largest.value) numbers.largest = {cell.number, index};
       numbers.histogram.add(cell.number);
-      constexpr std::size_t few = 64;
       if (columns_[i].unit.empty() && numbers.tally.size() <= few) ++numbers.tally[cell.number];
+      if (i == ranked_) rank({cell.number, index}, i);
       if (worst_.empty()) continue;
       Extreme& of_attitude = worst_[static_cast<std::size_t>(points_->attitude_of(index))][i];
       if (of_attitude.index < 0 || is_worse(i, cell.number, of_attitude.value)) of_attitude = {cell.number, index};
@@ -162,6 +166,9 @@ void Summary::add_number(Report& report, std::size_t column, const std::string& 
   const Numbers& numbers = numbers_[column];
   const auto is_whole = [](const auto& counted) { return counted.first == std::rint(counted.first); };
   const bool counts = !numbers.tally.empty() && std::ranges::all_of(numbers.tally, is_whole);
+  for (const auto& [value, count] : numbers.tally) {
+    if (counts && numbers.tally.size() <= few) report.fields["counts"][columns_[column].name][shortest(value)] = count;
+  }
   const auto shown = [&](const Estimated& value) {
     return counts && value.error == 0 ? Cell(std::llrint(value.value)) : known_cell(value, {});
   };
@@ -232,23 +239,59 @@ void Summary::add_attitudes(Report& report, const std::function<std::string(long
   report.notes.push_back(words);
 }
 
+void Summary::rank(const Extreme& scene, std::size_t column) {
+  constexpr std::size_t most = 10;
+  const auto is_before = [&](const Extreme& one, const Extreme& other) {
+    return is_worse(column, one.value, other.value) || (one.value == other.value && one.index < other.index);
+  };
+  if (worst_scenes_.size() == most && !is_before(scene, worst_scenes_.back())) return;
+  const auto same = std::ranges::find(worst_scenes_, scene.index, &Extreme::index);
+  if (same == worst_scenes_.end()) worst_scenes_.push_back(scene);
+  else if (is_before(scene, *same)) *same = scene;
+  std::ranges::sort(worst_scenes_, is_before);
+  if (worst_scenes_.size() > most) worst_scenes_.pop_back();
+}
+
+Grid Summary::worst_scenes() const {
+  Grid grid{{columns_.front(), columns_[*ranked_]}, {}};
+  grid.columns.insert(grid.columns.end(), columns_.begin() + 1, columns_.begin() + static_cast<std::ptrdiff_t>(first_));
+  grid.columns.push_back(word_column("command", "command", "command that shows the scene"));
+  grid.columns.back().shown = false;
+  std::vector<double> values;
+  for (const Extreme& scene : worst_scenes_) {
+    points_->at(scene.index, values);
+    grid.rows.push_back({Cell(scene.index), known_cell({scene.value, 0}, {})});
+    for (const double value : values) grid.rows.back().push_back(known_cell({value, 0}, {}));
+  }
+  return grid;
+}
+
 void Summary::add_texts(Report& report) const {
   const long long rows = std::accumulate(texts_[outcome_].begin(), texts_[outcome_].end(), 0LL,
                                          [](long long sum, const auto& text) { return sum + text.second; });
   report.fields["texts"] = Value(Value::Fields{});
   for (std::size_t i = 0; i < texts_.size(); ++i) {
-    if (texts_[i].empty()) continue;
+    if (texts_[i].empty() && columns_[i].name != "rest_face") continue;
     Value counts(Value::Fields{});
     Value::List shares;
     std::string words;
+    const bool has_shares = columns_[i].name == "rest_face" || is_flag(i);
+    long long others = rows;
+    const auto add_share = [&](const std::string& text, long long count) {
+      if (has_shares && count > 0) words += share_words(text, count, rows, words.empty(), shares);
+    };
     for (const auto& [text, count] : std::map<std::string, long long>(texts_[i].begin(), texts_[i].end())) {
       counts[text] = count;
-      if (columns_[i].name == "rest_face") words += share_words(text, count, rows, words.empty(), shares);
+      others -= count;
+      add_share(text, count);
     }
+    add_share("none", others);
     report.fields["texts"][columns_[i].name] = counts;
-    if (!shares.empty()) report.fields["shares"][columns_[i].name] = shares;
-    if (words.empty() && std::ranges::find(asked_, i) != asked_.end()) words = tally_words(texts_[i]);
-    if (!words.empty()) report.notes.push_back(fmt::format("{}: {}", columns_[i].name, words));
+    if (has_shares) report.fields["shares"][columns_[i].name] = shares;
+    const bool is_asked = std::ranges::find(asked_, i) != asked_.end();
+    if (!has_shares && is_asked) words = tally_words(texts_[i]);
+    if (is_asked || columns_[i].name.starts_with("rest_"))
+      report.notes.push_back(fmt::format("{}: {}", columns_[i].name, words));
   }
 }
 
@@ -272,6 +315,7 @@ std::vector<std::size_t> Summary::remarked(Report& report) const {
       const auto is_its = [&](const Row& row) { return shown_text(row.front()) == columns_[column].name; };
       std::ranges::copy_if(report.grid.rows, std::back_inserter(report.digest->rows), is_its);
     }
+    if (report.digest->rows.empty()) report.digest.reset();
   }
   std::string outcome = fmt::format("outcome: {}", tally_words(texts_[outcome_])), counts;
   for (std::size_t i = first_; i < columns_.size(); ++i) {

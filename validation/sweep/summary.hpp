@@ -48,8 +48,8 @@ struct Wilson {
 /// The percentiles that a summary lists.
 inline constexpr double summary_percents[]{1, 5, 25, 50, 75, 95, 99};
 
-/// Takes rows, keeps for each column of numbers their count, percentiles and extremes, for each column of texts how
-/// often each occurs.  The order of the rows changes nothing; of equal extremes the first row's is kept.
+/// Takes rows, keeps for each column of numbers their count, percentiles and extremes, for each column of texts or
+/// truths how often each occurs.  The order of the rows changes nothing; of equal extremes the first row's is kept.
 class Summary {
  public:
   /// @param points  their listed attitudes, if any, are told apart by the largest of each number, of margins the least
@@ -67,10 +67,16 @@ class Summary {
   void fill(Report& report, const Command& command, const Attitude& attitude) const {
     report.grid.columns = columns();
     for (std::size_t i = 0; i < numbers_.size(); ++i) {
-      if (numbers_[i].histogram.count() > 0)
+      if (numbers_[i].histogram.count() > 0 && !is_flag(i))
         add_number(report, i, command(numbers_[i].least.index), command(numbers_[i].largest.index));
     }
     if (points_->attitudes() > 0) add_attitudes(report, attitude);
+    if (!worst_scenes_.empty()) {
+      Grid worst = worst_scenes();
+      for (std::size_t i = 0; i < worst.rows.size(); ++i) worst.rows[i].emplace_back(command(worst_scenes_[i].index));
+      report.fields["worst"] = row_objects(worst);
+      report.further = std::move(worst);
+    }
     add_texts(report);
     for (const std::size_t i : remarked(report)) {
       const Extreme& worst = is_worst_least(columns_[i].name) ? numbers_[i].least : numbers_[i].largest;
@@ -96,6 +102,10 @@ class Summary {
 
   void add_number(Report& report, std::size_t column, const std::string& least, const std::string& largest) const;
   void add_texts(Report& report) const;
+  /// Whether a column says true or false.
+  [[nodiscard]] bool is_flag(std::size_t column) const {
+    return texts_[column].contains("true") || texts_[column].contains("false");
+  }
   /// Adds the notes on what is remarkable; returns the columns whose worst scene a reader may want to see.
   [[nodiscard]] std::vector<std::size_t> remarked(Report& report) const;
   struct Tail {
@@ -108,6 +118,11 @@ class Summary {
   /// Whether one number of a column is worse than another: a margin where it is less.
   [[nodiscard]] bool is_worse(std::size_t column, double one, double other) const;
   void add_attitudes(Report& report, const std::function<std::string(long long)>& name) const;
+  /// Keeps the scene if it is among the ten worst by the column that was asked for.
+  void rank(const Extreme& scene, std::size_t column);
+  /// The ten worst scenes: their numbers, the ranked quantity and the swept keys, the worst first; a command is to
+  /// follow.
+  [[nodiscard]] Grid worst_scenes() const;
 
   std::vector<Column> columns_;
   std::vector<std::size_t> asked_{};  ///< columns that were asked for, in the order in which they are told
@@ -117,6 +132,8 @@ class Summary {
   std::size_t outcome_;  ///< column that each row has
   std::vector<Numbers> numbers_;
   std::vector<std::vector<Extreme>> worst_;  ///< of each listed attitude, of each column; index -1: none yet
+  std::optional<std::size_t> ranked_{};      ///< column by which scenes are ranked, where no attitudes are listed
+  std::vector<Extreme> worst_scenes_{};      ///< the worst first
   std::vector<Texts> texts_;
   std::vector<PackedCell> row_;
 };

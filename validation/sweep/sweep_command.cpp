@@ -22,6 +22,7 @@
 #include "validation/output/json.hpp"
 #include "validation/output/number.hpp"
 #include "validation/output/numeric_table.hpp"
+#include "validation/output/palette.hpp"
 #include "validation/output/picture.hpp"
 #include "validation/output/report.hpp"
 #include "validation/output/sink.hpp"
@@ -179,37 +180,59 @@ std::string range_words(double low, double high) {
   return first == last ? first : fmt::format("{} to {}", first, last);
 }
 
-/// A curve of points for each class that has some, with the range of its values.
-/// @param known  all values, in order
-void add_classes(const std::vector<double>& known, std::span<const char* const> colours, PicturePanel& panel) {
-  for (std::size_t k = 0; k < colours.size(); ++k) {
+/// Classes of as many values each, or one for each of few whole numbers.
+struct ValueClasses {
+  std::vector<double> known;  ///< all values, in order, or each of the few
+  std::span<const char* const> colours;
+  bool are_single = false;
+
+  explicit ValueClasses(std::vector<double> values) : known(std::move(values)) {
+    static constexpr const char* fifths[] = {"#c6dbef", "#6baed6", "#2171b5", "#fd8d3c", "#d7301f"};
+    std::erase_if(known, [](double value) { return !std::isfinite(value); });
+    std::sort(known.begin(), known.end());
+    const std::set<double> each(known.begin(), known.end());
+    colours = each.size() <= std::size(fifths) ? std::span<const char* const>(fifths) : palette::classes;
+    are_single = are_whole(known) && each.size() <= colours.size();
+    if (are_single) known.assign(each.begin(), each.end());
+    else colours = fifths;
+  }
+
+  [[nodiscard]] std::size_t of(double value) const {
+    const auto rank = static_cast<std::size_t>(std::lower_bound(known.begin(), known.end(), value) - known.begin());
+    return are_single ? rank : colours.size() * rank / known.size();
+  }
+  [[nodiscard]] std::string words(std::size_t k) const {
+    if (are_single) return shortest(known[k]);
     const auto at = [&](std::size_t part) {
       return known[std::min(part * known.size() / colours.size(), known.size() - 1)];
     };
+    return range_words(at(k), at(k + 1));
+  }
+};
+
+/// A curve of points for each class that has some, with the range of its values.
+void add_classes(const ValueClasses& classes, PicturePanel& panel) {
+  for (std::size_t k = 0; k < classes.colours.size(); ++k) {
     const auto is_of_class = [&](const std::vector<double>& row) { return row[2] == static_cast<double>(k); };
     if (std::none_of(panel.rows.begin(), panel.rows.end(), is_of_class)) continue;
     panel.plot.curves.push_back({.x = "x",
                                  .y = "y",
-                                 .legend = range_words(at(k), at(k + 1)),
+                                 .legend = classes.words(k),
                                  .style = FigureCurve::Style::points,
                                  .where = {{"class", static_cast<double>(k)}},
-                                 .colour = colours[k]});
+                                 .colour = classes.colours[k]});
   }
 }
 
-/// Which direction of the body points down, coloured by a quantity in classes of as many drops each; the largest on
-/// top.
+/// Which direction of the body points down, coloured by a quantity in classes; the largest on top.
 PicturePanel sphere(const Grid& grid, std::size_t attitude, std::size_t quantity) {
-  constexpr const char* colours[] = {"#c6dbef", "#6baed6", "#2171b5", "#fd8d3c", "#d7301f"};
-  constexpr std::size_t classes = std::size(colours);
   const std::vector<double> values = numbers_of(grid, quantity);
-  std::vector<double> q[4], known;
+  const ValueClasses classes(values);
+  std::vector<double> q[4];
   for (std::size_t i = 0; i < 4; ++i) q[i] = numbers_of(grid, attitude + i);
-  std::copy_if(values.begin(), values.end(), std::back_inserter(known), [](double v) { return std::isfinite(v); });
-  std::sort(known.begin(), known.end());
   PicturePanel panel{.columns = {{"x", "1", "eastward on an equal-area map"},
                                  {"y", "1", "northward on an equal-area map"},
-                                 {"class", "1", "fifth of the drops"}},
+                                 {"class", "1", "class of its colour"}},
                      .plot = {.x_label = "direction of the body that points down: +x in the middle, +z at the top",
                               .y_label = "colour: " + named(grid.columns[quantity]),
                               .curves = {{.x = "x", .y = "y", .where = {{"class", -1}}, .colour = ink}},
@@ -222,13 +245,10 @@ PicturePanel sphere(const Grid& grid, std::size_t attitude, std::size_t quantity
   for (std::size_t i = 0; i < values.size(); ++i) {
     const Eigen::Quaterniond attitude_of(q[0][i], q[1][i], q[2][i], q[3][i]);
     if (!std::isfinite(values[i]) || !std::isfinite(attitude_of.norm())) continue;
-    const auto rank = std::lower_bound(known.begin(), known.end(), values[i]) - known.begin();
     const auto [x, y] = mapped(attitude_of.normalized().conjugate() * -numeric::Vector3::UnitZ());
-    panel.rows.push_back({x, y,
-                          std::floor(static_cast<double>(classes * static_cast<std::size_t>(rank)) /
-                                     static_cast<double>(known.size()))});
+    panel.rows.push_back({x, y, static_cast<double>(classes.of(values[i]))});
   }
-  add_classes(known, colours, panel);
+  add_classes(classes, panel);
   return panel;
 }
 
@@ -378,7 +398,14 @@ class SweepOutput {
   }
 
   [[nodiscard]] long long first() const { return file_ ? file_->scenes() : 0; }
+  [[nodiscard]] long long cut() const { return shortfalls_.cut(); }
   [[nodiscard]] const Shortfalls& shortfalls() const { return shortfalls_.found(); }
+  /// Whether the file is there already, of this very sweep and with all of its scenes, and none is being made anew.
+  [[nodiscard]] bool is_done() const {
+    if (!file_ || plot_.is_wanted() || style_.bare || first() > 0) return false;
+    const long long last = plan_.points.count() - 1;
+    return hdf5_ ? is_hdf5_of(file_->path(), column_head(), last) : file_->is_complete(csv_head(report_, false), last);
+  }
   void write(const RangeRows& rows) {
     shortfalls_.add(rows.text);
     if (plot_.is_wanted() && (file_ || is_csv())) collected_ += rows.text;
@@ -424,15 +451,23 @@ class SweepOutput {
     stream_->write(report_text(report_, style_));
   }
 
-  void write_hdf5(const std::string& path) {
+  [[nodiscard]] ColumnFileHead column_head() const {
     ColumnFileHead head{report_.grid.columns, {{"title", report_.title}}};
     for (const char* name : {"scene", "body"}) {
       const Value* const value = report_.fields.find(name);
       if (value != nullptr) head.attributes.emplace_back(name, compact_json(*value));
     }
-    head.attributes.emplace_back("sweep", fmt::format("{}", fmt::join(plan_.words, "\n")));
-    const std::unique_ptr<ColumnFile> columns = open_hdf5(path, head);
+    head.attributes.emplace_back("sweep", fmt::format("{}", fmt::join(report_.remarks, "\n")));
+    return head;
+  }
+
+  void write_hdf5(const std::string& path) {
+    ColumnFileHead head = column_head();
     std::vector<PackedCell> row(head.columns.size());
+    file_->with_rows([&](std::string_view rows) {
+      for (PackedRows packed(rows); packed.next(row);) ++head.rows;
+    });
+    const std::unique_ptr<ColumnFile> columns = open_hdf5(path, head);
     file_->with_rows([&](std::string_view rows) {
       for (PackedRows packed(rows); packed.next(row);) columns->add(row);
     });
@@ -512,10 +547,20 @@ int run_sweep(const SweepInput& input, const SweepPlan& plan, const SweepBody& b
   const CooperativeInterrupt interrupt;
   SweepOutput output(input, plan);
   const long long scenes = plan.points.count();
-  RangeQueue queue({output.first(), scenes - output.first()}, range_size(plan));
+  const bool is_done = !input.restart && output.is_done();
+  const long long first = is_done ? scenes : output.first();
+  if (is_done) say(fmt::format("{} is complete, nothing is left to do; --restart computes it anew", input.output));
+  else if (first > 0 && first < scenes)
+    say(fmt::format("goes on at {} {} of {}", plan.layout.rows == RowKind::scene ? "row" : "scene", first + 1, scenes));
+  RangeQueue queue({first, scenes - first}, range_size(plan));
   fill(output, queue, {plan, body, threads, interrupt}, ranks);
+  if (is_done) return 0;
   if (queue.is_complete()) {
     output.commit();
+    if (output.cut() > 0 && !plan.has_own_limit && !input.request.summary) {
+      say(fmt::format("{} of {} scenes end at {} impacts, where more may follow: run.impacts is not given",
+                      output.cut(), scenes, plan.scene.request.impacts));
+    }
     return output.shortfalls().status(scenes, "scenes");
   }
   const std::string words = fmt::format("interrupted after {} of {} scenes", queue.taken(), scenes);
@@ -547,13 +592,15 @@ constexpr const char* sweep_footer =
     "with columns q0, q1, q2, q3. Columns asked for are quantities that rows of impacts have; the hardest impact "
     "has\n"
     "the largest normal impulse.\n"
-    "An interrupted sweep goes on when the same command is given again. The discrete model takes the impact.* keys.\n"
+    "An interrupted sweep goes on when the same command is given again; of a complete FILE it says so and leaves it.\n"
+    "The discrete model takes the impact.* keys.\n"
     "Continuous scenes are planned for run.digits. Each number has a column with its error, empty where that is not "
     "known.\n"
     "A scene that is refused or fails is a row with its outcome, refused, outside-model or not-computed, and "
     "reason.\n"
     "Exit status 3 if a number could not be computed, a limit left fewer impacts than asked for, or required digits\n"
-    "are not known, in any scene; its row says why.";
+    "are not known, in any scene; its row says why. run.impacts is how many are asked for: a scene that ends\n"
+    "there has outcome impact-limit, and falls short with run.until_rest alone.";
 
 /// Which scenes, and what their rows hold.
 void add_request_options(Command& command, SweepRequest& request) {

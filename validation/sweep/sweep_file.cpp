@@ -199,6 +199,18 @@ void SweepFile::with_rows(const std::function<void(std::string_view rows)>& take
   take(std::string_view(static_cast<const char*>(bytes), size).substr(static_cast<std::size_t>(head_bytes_)));
 }
 
+bool SweepFile::is_complete(const std::string& head, long long last) const {
+  std::ifstream file(destination_.path, std::ios::binary);
+  std::string begin(head.size(), '\0'), end(block_bytes, '\0');
+  if (!file.read(begin.data(), static_cast<std::streamsize>(begin.size())) || begin != head) return false;
+  const auto size = static_cast<std::size_t>(file.seekg(0, std::ios::end).tellg());
+  end.resize(std::min(end.size(), size - head.size()));
+  file.seekg(static_cast<std::streamoff>(size - end.size())).read(end.data(), static_cast<std::streamsize>(end.size()));
+  if (!file || !end.ends_with('\n')) return false;
+  end.pop_back();
+  return end.substr(end.rfind('\n') + 1).starts_with(fmt::format("{},", last));
+}
+
 void SweepFile::write(std::string_view rows, long long scenes) {
   pending_ += rows;
   pending_scenes_ += scenes;

@@ -56,6 +56,9 @@ class SweepFile {
 
   /// Scenes that the part held already: the next row is that of scene number scenes().
   [[nodiscard]] long long scenes() const { return scenes_; }
+  [[nodiscard]] const std::string& path() const { return destination_.path; }
+  /// Whether FILE is there with this head and a row of scene `last` as its last one.
+  [[nodiscard]] bool is_complete(const std::string& head, long long last) const;
   /// Takes the rows of so many whole scenes, or none; they are in the file after half a second or a mebibyte, or after
   /// flush().  @throws BadInput if they cannot be written.
   void write(std::string_view rows, long long scenes);

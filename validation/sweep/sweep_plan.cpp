@@ -249,6 +249,7 @@ void read_scene(const SweepRequest& request, std::vector<Setting>& settings, Sce
   make_room(values, settings);
   const Model model = plan.layout.model = read_model(request, values, settings);
   require_effects(settings, model);
+  plan.has_own_limit = values.has("run.impacts") || sets(settings, "run.impacts");
   plan.scene = read_scene(values, overrides_at(values, settings, &SweepAxis::first), model);
   static_cast<void>(read_scene(values, overrides_at(values, settings, &SweepAxis::last), model));
   number_attitudes(plan.scene, settings);
@@ -358,9 +359,9 @@ void choose_columns(const SweepRequest& request, SweepPlan& plan) {
 /// @throws BadInput for a column that is none, or holds no numbers
 void choose_ranking(const SweepRequest& request, SweepPlan& plan) {
   if (request.rank_by.empty()) return;
-  if (!request.summary || plan.points.attitudes() == 0)
-    throw BadInput(fmt::format("--rank-by {}: ranks the attitudes of --summary, --set {}=26 or a list", request.rank_by,
-                               attitude_key));
+  if (!request.summary)
+    throw BadInput(
+        fmt::format("--rank-by {}: ranks the listed attitudes of --summary, or its scenes", request.rank_by));
   std::vector<std::string> names;
   for (const Column& column : sweep_columns(plan.layout)) {
     if (!column.words && !column.name.ends_with("_error")) names.push_back(column.name);
@@ -471,8 +472,8 @@ Arguments sweep_arguments(SweepRequest& request) {
       {.name = "--rank-by",
        .target = &request.rank_by,
        .type = "COLUMN",
-       .help = "of --summary: by which attitudes are ranked (the first probe's margin, else peak or change of "
-               "velocity, else force or impulse)"}};
+       .help = "of --summary: by which listed attitudes are ranked (the first probe's margin, else peak or change of "
+               "velocity, else force or impulse); without them, the ten worst scenes by it"}};
 }
 
 SweepPlan read_sweep_plan(const SweepRequest& request) {

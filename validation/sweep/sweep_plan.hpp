@@ -44,7 +44,8 @@ struct SweepPlan {
   Scene scene;  ///< the swept keys have their first values
   RowLayout layout;
   SweepPoints points;
-  bool packed = false;  ///< rows are not CSV but packed cells
+  bool packed = false;         ///< rows are not CSV but packed cells
+  bool has_own_limit = false;  ///< run.impacts is given
   /// What puts the value of each axis into a scene.
   std::vector<std::function<void(Scene&, std::span<const double>)>> put;
   /// Places, among the numbers of a point, of those that make the body another one.

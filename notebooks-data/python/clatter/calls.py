@@ -181,7 +181,8 @@ def sweep(
     "impulse_normal_2".  probe and part: as for shock(), columns peak_g_NAME, delta_v_NAME, margin_NAME of each point.
     errors: without them at half the cost.
     summary: percentiles and extremes of each number, however many scenes there are, in place of their rows: a Summary; of
-    listed attitudes also which is the worst, by the column rank_by.
+    listed attitudes also which is the worst, by the column rank_by, which without a list gives the ten worst scenes,
+    to_dict()["worst"].
     progress(done, of): of the scenes.
     Raises BadInput; NotComputed if require_digits and a scene has fewer; warns of scenes that fall short.  A scene that is
     refused or outside the model is a row with its outcome and reason.

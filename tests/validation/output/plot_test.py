@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """--plot and --plot-script: the pictures, the scripts that draw them, and what is refused."""
 
+import collections
 import itertools
 import json
 import math
@@ -295,6 +296,14 @@ class Data(InFolder):
                                 "--columns", "hardest_corners,hardest")
         self.assertEqual(sum(bar[2] for bar in drawn["panel2_0"][::2]), 9)
         self.assertNotIn("panel3_0", drawn)
+
+    def test_each_of_few_whole_numbers_has_its_colour_on_the_map_of_attitudes(self):
+        out, drawn = self.plotted("sweep", case("phone-corner"), "--set", "drop.attitude=uniform", "--random", "60", "--model", "discrete",
+                                  "--set", "run.impacts=20", "--columns", "hardest")
+        counts = collections.Counter(int(row["hardest"]) for row in records(out))
+        self.assertGreater(len(counts), 2)
+        self.assertEqual([len(drawn[f"panel1_{i + 1}"]) for i in range(len(counts))], [counts[n] for n in sorted(counts)])
+        self.assertEqual(re.findall(r"\$panel1_[1-9]\d* .* title '(.*?)'", self.read("p.gnuplot")), [str(n) for n in sorted(counts)])
 
     def test_where_no_drop_has_a_number_the_picture_says_so(self):
         self.plotted("sweep", case("rod-10"), "--model", "discrete", "--set", "drop.angle_deg=5:20", "--random", "9",

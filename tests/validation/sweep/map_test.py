@@ -18,6 +18,7 @@ from run_folder import MPIRUN, PROGRAM, ROOT, EmptyFolder, records, run
 FOLDS = {2: 58.488442288312, 3: 27.577809606636}
 ANGLE = ["--over", "drop.angle_deg=0:60"]
 ELASTIC = [*ANGLE, "--over", "drop.speed=1:2"]
+BLOCK = "[drop]\nangle_deg = 60\n[body]\nshape = 'box'\nsize = [0.1, 0.05, 0.05]\nmass = 0.3\n[world]\ngravity = 9.81\n[impact]\nfriction = 0.5\n"
 FRICTION = [*ANGLE, "--over", "impact.restitution=0.3:0.9", "--set", "impact.friction=0.1", "--set", "run.impacts=4"]
 
 BAD = {
@@ -102,11 +103,26 @@ class Map(EmptyFolder):
             near = pixels[100:200, middle - 1:middle + 2].sum(axis=2)  # some rows: one of the curves is dashed
             self.assertLess(near.min(), 250, f"no dark curve at {fold}")
 
-    def test_no_word_of_the_title_is_cut(self):
-        """The title has as many lines as its words take, and paper beside each."""
+    def keeping_the_script(self):
+        """The environment in which gnuplot leaves what it is told as the file script."""
         fake = self.write("gnuplot", f"#!/bin/sh\ncp \"$2\" {self.path('script')}\nexec {shutil.which('gnuplot')} \"$@\"\n")
         os.chmod(fake, 0o755)
-        env = {**os.environ, "PATH": f"{self.folder}:{os.environ['PATH']}"}
+        return {**os.environ, "PATH": f"{self.folder}:{os.environ['PATH']}"}
+
+    def test_pixels_that_are_open_or_have_no_number_are_in_the_legend(self):
+        env, block = self.keeping_the_script(), self.write("block.toml", BLOCK)
+        for arguments, colour, words in ((["--over", "drop.angle_deg=0:80", "--over", "drop.speed=1:2", "--quantity", "ratio"], "d9d9d9", "no drop, or no number"),
+                                         ([block, "--over", "drop.angle_deg=10:80", "--over", "impact.restitution=0.2:1", "--quantity", "rest_face"],
+                                          "ff2da0", "left open by rounding")):
+            done = run("map", *arguments, "--size", "12x4", "--output", self.path("map.png"), env=env)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertIn((colour, words), re.findall(r"lc rgb '#(\w{6})' title '(.*?)'", self.read("script")))
+        run("map", *ELASTIC, "--quantity", "total", "--size", "12x4", "--output", self.path("map.png"), env=env)
+        self.assertNotRegex(self.read("script"), "no number|left open")
+
+    def test_no_word_of_the_title_is_cut(self):
+        """The title has as many lines as its words take, and paper beside each."""
+        env = self.keeping_the_script()
         for size in ("600x30", "40x30", "20x200", "3x3"):
             with self.subTest(size=size):
                 output = self.path("map.png")

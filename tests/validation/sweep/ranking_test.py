@@ -3,9 +3,10 @@
 """`clatter sweep --summary`: by what attitudes are ranked, and how much a summary asks of the simulator."""
 
 import json
+import shlex
 import unittest
 
-from run_folder import run
+from run_folder import json_of, rows_of, run
 
 SWEEP = ("sweep", "phone-damped", "--set", "drop.attitude=26", "--random", "26", "--scatter", "3", "--set", "run.impacts=1", "--summary")
 PROBE = ("--probe", "camera:0.048,0.016,0.0095")
@@ -31,11 +32,29 @@ class Ranking(unittest.TestCase):
         self.assertEqual((result.returncode, result.stderr.count("\n")), (2, 1))
         self.assertIn("needs --probe", result.stderr)
 
+    def test_without_listed_attitudes_the_ten_worst_scenes_are_told(self):
+        lists = (("drop.angle_deg=1:89", "--random", "300"), ("drop.attitude=uniform", "--random", "60"), ("drop.angle_deg=1:89:1",))
+        for swept in lists:
+            command = ("sweep", "phone-corner", "--model", "discrete", "--set", "run.impacts=3", "--set", *swept)
+            rows = rows_of(*command)
+            for column, sign, options in (("energy_loss", -1, ()), ("margin_camera", 1, (*PROBE, "--part", "2:0.3")), ("impacts", -1, ())):
+                rows = rows_of(*command, *options)
+                worst = json_of(*command, *options, "--summary", "--rank-by", column)["worst"]
+                expected = sorted((row for row in rows if row[column]), key=lambda row: (sign * float(row[column]), int(row["index"])))[:10]
+                for found, row in zip(worst, expected, strict=True):
+                    self.assertEqual((found["index"], found[column]), (int(row["index"]), float(row[column])))
+                    for name in (name for name in row if name.startswith("drop.")):
+                        self.assertEqual(found[name], float(row[name]))
+                again = rows_of(*shlex.split(worst[0]["command"])[1:])
+                if column == "energy_loss":
+                    self.assertAlmostEqual(sum(float(row["energy_loss"]) for row in again), worst[0]["energy_loss"], delta=1e-12)
+            table = run(*command, "--summary", "--rank-by", "energy_loss").stdout
+            self.assertIn("drop.", table)
+
     def test_a_column_that_is_none_is_refused_in_one_line(self):
         for options, words in (((*SWEEP, "--rank-by", "widht"), "must be a column of numbers"),
                                ((*SWEEP, "--rank-by", "outcome"), "must be a column of numbers"),
-                               ((*SWEEP[:-1], "--rank-by", "impacts"), "ranks the attitudes of --summary"),
-                               (("sweep", "rod-10", "--set", "drop.angle_deg=1:5:1", "--summary", "--rank-by", "impacts"), "ranks the attitudes")):
+                               ((*SWEEP[:-1], "--rank-by", "impacts"), "ranks the listed attitudes of --summary, or its scenes")):
             result = run(*options)
             self.assertEqual((result.returncode, result.stderr.count("\n")), (2, 1))
             self.assertIn(words, result.stderr)

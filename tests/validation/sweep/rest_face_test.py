@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """On which face bodies come to lie: by geometry, by symmetry, and by both models."""
 
+import collections
 import unittest
 
 from run_folder import EmptyFolder, json_of, rows_of, run
@@ -66,6 +67,19 @@ class RestFace(EmptyFolder):
         for share in shares:  # four deviations: one of 3000 seeds fails
             self.assertLess(abs(share["count"] - 40), 4 * (240 * 5 / 36) ** 0.5)
             self.assertLess(share["low"], share["count"] / 240)
+        self.assertNotIn("rest_known", [row["quantity"] for row in told["rows"]])
+
+    def test_shares_are_of_all_drops_also_of_those_without_a_face(self):
+        sweep = ("sweep", self.block, "--set", "drop.angle_deg=0,50,75,90", "--set", "impact.restitution=0.2,1", *COLUMNS, "--model", "discrete")
+        rows, told = rows_of(*sweep), json_of(*sweep, "--summary")
+        for column in ("rest_face", "rest_known"):
+            with self.subTest(column):
+                expected = collections.Counter(row[column] or "none" for row in rows)
+                self.assertGreater(expected["none"], 0)
+                shares = told["shares"][column]
+                self.assertEqual({share["text"]: share["count"] for share in shares}, expected)
+                self.assertAlmostEqual(sum(share["share"] for share in shares), 1, delta=1e-12)
+                self.assertIn(f"none {100 * expected['none'] / 8:g}", run(*sweep, "--summary").stdout)
 
     def test_rods_name_their_side_and_what_does_not_lie_has_no_face(self):
         rod = ("sequence", "--angle", "30", "--gravity", "9.81", "--restitution", "0.5", "--friction", "0.3")

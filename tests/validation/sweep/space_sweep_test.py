@@ -4,6 +4,7 @@
 import csv
 import itertools
 import math
+import re
 
 from space_folder import MASS, SIZE, SpaceFolder
 
@@ -39,6 +40,14 @@ class Sweep(SpaceFolder):
                     self.assertEqual({row[name] for name in ("corners", "place_x", "attitude_q0", "touches")}, {""})
             seen.add((tilt, friction))
         self.assertEqual(len(seen), 6)
+
+    def test_its_table_of_impacts_has_the_columns_of_sequences(self):
+        swept = self.run_program("sweep", "box.toml", "--model", "discrete", "--set", "drop.tilt_deg=10", "--rows", "impact", "--format", "table").stdout
+        own = self.run_program("sequence", "box.toml", "--tilt", "10").stdout
+        (headings,) = (line.split() for line in own.splitlines() if " corner " in line)
+        self.assertIn("ω_x", headings)
+        for heading in headings:
+            self.assertRegex(swept, rf"(?m)^.*index.* {re.escape(heading)}\b")
 
     def test_a_scene_that_the_model_cannot_do_is_a_row_with_its_reason_beside_the_others(self):
         rows = self.swept("--set", "drop.tilt_deg=10:30:20", "--set", "drop.velocity=0,0.1,-1", "--set", "impact.impulse_ratio=-9:0:9",

@@ -247,6 +247,19 @@ class Scenes(Folder):
                                   "--set", "run.digits=3"))
         self.assertEqual(len(rows), 2)
 
+    def test_a_limit_that_nobody_gave_is_said_where_it_cuts(self):
+        scene = self.write("free.toml", "[drop]\nangle_deg = 10\n[body]\nradius = 0\n")
+        cuts = {}
+        for options in ((), ("--rows", "impact"), ("--output", self.path("rows.csv")), ("--set", "run.impacts=6")):
+            done = run("sweep", scene, "--set", "drop.angle_deg=1:89:1", "--set", "impact.restitution=0.05", *options)
+            rows = records(self.read("rows.csv") if "--output" in options else done.stdout)
+            cuts[options] = len({row["index"] for row in rows if row["outcome"] == "impact-limit"})
+            self.assertEqual((done.returncode, {row["reason"] for row in rows}), (0, {""}))
+            words = f"clatter: {cuts[options]} of 89 scenes end at 6 impacts, where more may follow: run.impacts is not given\n"
+            self.assertEqual(done.stderr, "" if "run.impacts=6" in options else words)
+        self.assertEqual(len(set(cuts.values())), 1)
+        self.assertTrue(0 < cuts[()] < 89)
+
     def test_the_file_does_not_depend_on_the_number_of_threads(self):
         for arguments in ([self.scene, "--set", "drop.angle_deg=0.1:60:0.1", "--rows", "impact"],
                           [self.scene, "--set", "drop.angle_deg=1:60", "--set", "body.length=0.1:3:log", "--random", "3000"],
@@ -267,13 +280,36 @@ class Scenes(Folder):
                     break
                 self.assertEqual(status, -number if number == signal.SIGKILL else 130)
                 if status == 130:
-                    self.assertRegex(words, r"^clatter: interrupted after \d+ of \d+ scenes; the same command goes on\n$")
+                    self.assertRegex(words, r"\A(clatter: goes on at .*\n)?clatter: interrupted after \d+ of \d+ scenes; the same command goes on\n$")
                 self.assertTrue(os.path.exists(self.path("out.csv.part")))
             if not os.path.exists(self.path("out.csv")):
-                self.sweep(*arguments, "--output", self.path("out.csv"))
+                done = run("sweep", *arguments, "--output", self.path("out.csv"))
+                self.assertRegex(done.stderr, rf"\Aclatter: goes on at {'scene' if 'impact' in arguments else 'row'} \d+ of \d+\n\Z")
+                self.assertEqual(done.returncode, 0)
             self.assertEqual(self.read("out.csv"), self.sweep(*arguments))
             self.assertFalse(os.path.exists(self.path("out.csv.part")))
             os.remove(self.path("out.csv"))
+
+    def test_a_complete_file_of_the_same_sweep_is_left_as_it_is(self):
+        for name in ["out.csv"] + ["out.h5"] * bool(HDF5):
+            command = ["sweep", self.scene, "--set", "drop.angle_deg=1:40:0.01", "--rows", "impact", "--output", self.path(name)]
+            self.sweep(*command[1:])
+            whole, inode = self.bytes(name), os.stat(self.path(name)).st_ino
+            again = run(*command)
+            self.assertEqual((again.returncode, again.stderr), (0, f"clatter: {self.path(name)} is complete, nothing is left to do; --restart computes it anew\n"))
+            self.assertEqual((os.stat(self.path(name)).st_ino, self.bytes(name)), (inode, whole))
+            self.assertFalse(os.path.exists(self.path(name + ".part")))
+            self.sweep(*command[1:], "--restart")
+            self.assertNotEqual(os.stat(self.path(name)).st_ino, inode)
+            for other in (["--set", "drop.speed=2"], ["--set", "run.errors=false"], ["--columns", "hardest", "--rows", "scene"]):
+                self.sweep(*command[1:-4], *command[-2:], *(other if "--rows" in other else ["--rows", "impact", *other]))
+                self.assertNotEqual(self.bytes(name), whole, other)
+                self.sweep(*command[1:])
+                self.assertEqual(self.bytes(name), whole, other)
+        for damaged in (self.read("out.csv")[:-1], self.read("out.csv").rsplit("\n", 9)[0] + "\n"):
+            self.write("out.csv", damaged)
+            self.sweep(self.scene, "--set", "drop.angle_deg=1:40:0.01", "--rows", "impact", "--output", self.path("out.csv"))
+            self.assertNotEqual(self.read("out.csv"), damaged)
 
     def test_a_sweep_does_not_go_on_with_another_mesh_of_the_same_name(self):
         self.write("body.stl", box_stl(0.1))
@@ -342,8 +378,8 @@ class RowsTogether(Folder):
         rows = self.sweep(*arguments)
         summary = self.summary(*arguments)
         self.assertEqual([row["quantity"] for row in summary["rows"]],
-                         ["impacts", "total_normal_impulse", "energy_loss", "last_start", "predictable"])
-        for row in summary["rows"][:-1]:
+                         ["impacts", "total_normal_impulse", "energy_loss", "last_start"])
+        for row in summary["rows"]:
             values = sorted(self.numbers(rows, row["quantity"]))
             self.assertEqual((row["count"], row["least"], row["largest"]), (len(values), values[0], values[-1]))
             for percent in (1, 5, 25, 50, 75, 95, 99):
@@ -357,6 +393,9 @@ class RowsTogether(Folder):
         for row in records(rows):
             outcomes[row["outcome"]] = outcomes.get(row["outcome"], 0) + 1
         self.assertEqual(summary["texts"]["outcome"], outcomes)
+        self.assertEqual(summary["counts"], {"impacts": collections.Counter(row["impacts"] for row in records(rows))})
+        truths = collections.Counter(row["predictable"] for row in records(rows))
+        self.assertEqual({share["text"]: share["count"] for share in summary["shares"]["predictable"]}, truths)
 
     def test_a_summary_of_attitudes_names_the_worst_of_them_and_its_blow(self):
         arguments = ["phone-corner", "--model", "discrete", "--set", "drop.attitude=26", "--random", "104", "--scatter", "4"]
@@ -376,6 +415,7 @@ class RowsTogether(Folder):
         for row in rows:
             corners[row["hardest_corners"]] = corners.get(row["hardest_corners"], 0) + 1
         self.assertEqual(summary["texts"]["hardest_corners"], corners)
+        self.assertEqual(summary["counts"]["hardest"], collections.Counter(row["hardest"] for row in rows))
         worst = [row for row in summary["rows"] if row["quantity"] == "hardest_impulse_normal"][0]
         again = self.numbers(self.sweep(*shlex.split(worst["largest_command"])[2:]), "impulse_normal")
         self.assertEqual(max(again), worst["largest"])
@@ -428,6 +468,7 @@ class RowsTogether(Folder):
         import h5py  # pylint: disable=import-outside-toplevel
         for arguments in ([self.scene, "--set", "drop.angle_deg=0.5:89:0.5", "--columns", "hardest,end_1"],
                           [self.scene, "--set", "drop.angle_deg=0.5:89:0.5", "--rows", "impact"],
+                          ["phone-corner", "--model", "discrete", "--set", "drop.attitude=26", "--columns", "corners,hardest_corners,hardest_mode"],
                           [self.scene, "--set", "drop.angle_deg=0.0005:60:0.0005"]):
             rows = records(self.sweep(*arguments))
             self.assertEqual(self.sweep(*arguments, "--output", self.path("rows.h5")), "")
@@ -443,6 +484,9 @@ class RowsTogether(Folder):
                         values = [{"true": 1.0, "false": 0.0, "": math.nan}.get(row[name]) for row in rows]
                         values = [float(row[name]) if value is None else value for row, value in zip(rows, values)]
                         self.assertEqual(struct.pack(f"{len(values)}d", *column), struct.pack(f"{len(values)}d", *values), name)
+                for column in file.values():
+                    if column.name != "/words":  # a chunk is stored whole: they hold the rows and hardly more
+                        self.assertLess(-(-len(rows) // column.chunks[0]) * column.chunks[0], len(rows) + 9)
                 self.assertEqual(file["last_start" if "last_start" in file else "start"].attrs["unit"], "s")
 
     @unittest.skipUnless(HDF5, "a build without HDF5")
@@ -450,6 +494,6 @@ class RowsTogether(Folder):
         arguments = [self.scene, "--set", "drop.angle_deg=0.0004:60:0.0004"]
         self.assertEqual(self.stopped(signal.SIGKILL, "rows.h5", "sweep", *arguments)[0], -signal.SIGKILL, "too short a sweep to interrupt")
         self.assertFalse(os.path.exists(self.path("rows.h5")))
-        for name in ("rows.h5", "whole.h5"):
-            self.sweep(*arguments, "--output", self.path(name))
+        self.assertRegex(run("sweep", *arguments, "--output", self.path("rows.h5")).stderr, r"\A(clatter: goes on at row \d+ of 150000\n)?\Z")
+        self.sweep(*arguments, "--output", self.path("whole.h5"))
         self.assertEqual(self.bytes("rows.h5"), self.bytes("whole.h5"))
