@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A phone that falls on its corner from 1 m, through both models; the contact force over time as CSV.
 #include <clatter/analytic.hpp>
 #include <clatter/numeric.hpp>
