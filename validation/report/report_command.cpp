@@ -193,6 +193,11 @@ struct ReportInput : ShockInput {
   std::optional<int> drops, threads;
   std::optional<double> scatter;  ///< [°]
   std::string rank_by;            ///< column of the sweep
+
+  /// The part that ranks: the first.
+  [[nodiscard]] std::optional<FragilePart> part() const {
+    return parts.empty() ? std::nullopt : std::optional(parts.front());
+  }
 };
 
 /// The drops of the sweep over attitudes.
@@ -216,7 +221,7 @@ std::string scene_words(const ReportInput& input, const std::vector<double>& att
 std::string probe_words(const ReportInput& input) {
   std::string words;
   for (const std::string& probe : input.probes) words += " --probe " + shell_word(probe);
-  if (input.part) words += " --part " + shell_word(part_text(*input.part));
+  for (const FragilePart& part : input.parts) words += " --part " + shell_word(part_text(part));
   return words;
 }
 
@@ -236,7 +241,7 @@ SweepRequest sweep_of(const ReportInput& input, const Attitudes& attitudes, cons
                        .columns = {},
                        .no_errors = true,
                        .summary = true,
-                       .part = input.part,
+                       .part = input.part(),
                        .rank_by = rank_by};
   if (request.file.empty()) request.text = "";
   for (const SceneOverride& given : overrides_of(input.scene)) {
@@ -307,13 +312,13 @@ std::string name_of_drop(const Scene& scene, int number, const Vector3& down) {
 
 /// What the ranking of a sweep's column says of blows: of the probe that the column names, else of the first.
 Ranking ranking_of(std::string_view column, const std::vector<Probe>& probes, const ReportInput& input) {
-  Ranking ranking{.part = input.part, .has_peaks = model_of(input) == Model::continuous};
+  Ranking ranking{.part = input.part(), .has_peaks = model_of(input) == Model::continuous};
   ranking.landing_alone = column.starts_with(of_landing);
   if (ranking.landing_alone) column.remove_prefix(of_landing.size());
   const bool is_velocity = column.starts_with(shock_column) || !ranking.has_peaks;
   ranking.by = column.starts_with(peak_column)    ? Ranking::By::peak
                : column.starts_with(shock_column) ? Ranking::By::velocity
-               : input.part                       ? Ranking::By::margin
+               : ranking.part                     ? Ranking::By::margin
                : is_velocity                      ? Ranking::By::velocity
                                                   : Ranking::By::peak;
   for (std::size_t i = 0; i < probes.size(); ++i) {
@@ -334,8 +339,9 @@ std::optional<Blow> blow_of(const SweepPlan& plan, const SweepBody& body, long l
     return worst_blow(run.discrete, *run.discrete_run, scene, ranking);
   }
   if (!probes.empty()) {
-    const ContinuousShock shock = continuous_shock(
-        scene, *body.solid, places_from(body_properties(scene, Model::continuous).centre, probes), false);
+    const ContinuousShock shock =
+        continuous_shock(scene, *body.solid, places_from(body_properties(scene, Model::continuous).centre, probes),
+                         {.parts = plan.layout.parts()});
     return worst_blow(shock.rows, run_of(shock.planned.run), scene, ranking);
   }
   const Run run = run_of(run_to_digits(scene, *body.solid).run);
@@ -589,9 +595,11 @@ std::string shock_html(const ShockRun& run, ShockView view, int impact) {
   Picture picture = shock_picture(run, view);
   picture.scene.clear();  // which the page has
   if (picture.panels.empty()) return html;
-  return html + handout_picture(picture, view.part ? "Response spectra with and without the second blow, and all blows "
-                                                     "beside the damage boundary of the part."
-                                                   : "Response spectra with and without the second blow.");
+  return html +
+         handout_picture(picture, view.parts.empty()
+                                      ? "Response spectra with and without the second blow."
+                                      : "Response spectra with and without the second blow, and all blows beside the "
+                                        "damage boundary of the part.");
 }
 
 std::vector<std::string> assumptions(const Scene& scene, Model model, const KeyNames& unsettled) {
@@ -752,7 +760,7 @@ Answer answer_of(const ShockRun& run, const Ranking& ranking) {
   if (!blow.margin) return answer;
   answer.fields["verdict"] = blow.margin->value > 1 ? "survives" : "fails";
   answer.fields["margin"] = blow.margin->value;
-  answer.fields["decided_by"] = blow.margin->by_velocity ? "delta_v" : "peak";
+  answer.fields["decided_by"] = std::array{"delta_v", "peak", "history"}[static_cast<std::size_t>(blow.margin->by)];
   if (ranking.part->kind == FragilePart::Kind::oscillator)
     answer.fields["response_g"] = ranking.part->fragility / standard_gravity / blow.margin->value;
   return answer;
@@ -887,12 +895,13 @@ std::optional<Findings> findings_of(ReportInput& input, const Attitudes& attitud
   const Scene given = shock_scene(input);
   const std::vector<Probe> probes = probes_of(input);
   require_worst_attitudes(input, given);
-  if (view.part && probes.empty()) throw BadInput("--part: needs --probe NAME:X,Y,Z, or [[probe]], where the part is");
+  if (!view.parts.empty() && probes.empty())
+    throw BadInput("--part: needs --probe NAME:X,Y,Z, or [[probe]], where the part is");
   const Model model = model_of(input);
   const std::string rank_by =
       !input.rank_by.empty() || probes.empty()
           ? input.rank_by
-          : ranking_column({.model = model, .part = input.part}, probes.front(), is_lossless(given, model));
+          : ranking_column({.model = model, .part = input.part()}, probes.front(), is_lossless(given, model));
   const Ranking ranking = ranking_of(rank_by, probes, input);
   Findings found;
   if (looks_at_all) found.all = all_attitudes(input, given, attitudes, rank_by, interrupt);

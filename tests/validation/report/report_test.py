@@ -77,6 +77,8 @@ class Report(EmptyFolder):
             peak = math.inf if is_discrete else mine["peak_g"]
             self.assertEqual(answer["delta_v"], velocity)
             low, high = margins_of(part, velocity, peak)
+            if answer["decided_by"] == "history":  # humps, which ASTM D3332 does not have
+                low = next(blow["margin_history"] for blow in again["pulses"]["blows"] if blow["n"] == answer["impact"])
             self.assertGreaterEqual(answer["margin"], 0.99 * low)
             self.assertLessEqual(answer["margin"], 1.01 * high)
             self.run_program("report", *scene, "--part", part, *drops, "--output", "page.html")
