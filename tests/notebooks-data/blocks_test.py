@@ -65,7 +65,7 @@ class Blocks(unittest.TestCase):
         """The files of a user, as a page names them."""
         (self.folder / "part.obj").write_text(BOX, encoding="utf-8")
         (self.folder / "part.stl").write_text(run_folder.TETRAHEDRON.replace(" 1", " 50"), encoding="utf-8")
-        for name in ("phone.toml", "handset.toml"):
+        for name in ("phone.toml", "handset.toml", "concrete.toml", "pad.toml"):
             scene = Path(run_folder.case("phone-damped")).read_text(encoding="utf-8")
             (self.folder / name).write_text(scene + "[[probe]]\nname = 'camera'\nplace = [0.04, 0.01, 0]\n", encoding="utf-8")
         pulse = (100 * math.sin(math.pi * (n - 100) / 20) * (100 <= n <= 120) for n in range(300))  # g, 2 ms long

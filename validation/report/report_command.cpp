@@ -4,10 +4,14 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <chrono>
 #include <cmath>
+#include <cstdio>
+#include <limits>
 #include <numbers>
 #include <numeric>
 #include <optional>
+#include <set>
 #include <stdexcept>
 #include <string>
 #include <thread>
@@ -21,6 +25,7 @@
 #include "validation/output/number.hpp"
 #include "validation/output/picture.hpp"
 #include "validation/output/report.hpp"
+#include "validation/output/version.hpp"
 #include "validation/report/report_pictures.hpp"
 #include "validation/report/verdict.hpp"
 #include "validation/run/discrete_scene.hpp"
@@ -36,6 +41,7 @@
 #include "validation/shock/shock_run.hpp"
 #include "validation/simulate/simulation_picture.hpp"
 #include "validation/simulate/simulation_report.hpp"
+#include "validation/sweep/points.hpp"
 #include "validation/sweep/rows.hpp"
 #include "validation/sweep/summary.hpp"
 #include "validation/sweep/sweep_run.hpp"
@@ -51,6 +57,7 @@ Vector3 down_of(const Eigen::Quaterniond& attitude) { return -(attitude.conjugat
 struct HandoutPart {
   std::string title;
   std::string html;
+  bool is_floor = false;  ///< whether a floor's parts begin here
 };
 
 // Pieces of parts.
@@ -61,7 +68,9 @@ constexpr const char* page_style =
     "--body:#8ecae6}figure.plot svg{background:#fff;border-radius:4px}}"
     "body{font:16px/1.5 system-ui,sans-serif;color:var(--ink);background:var(--paper);max-width:60rem;margin:0 auto;"
     "padding:1rem}"
-    "h1{font-size:1.2rem;font-weight:normal;color:var(--soft);margin:0}h2{font-size:1.2rem;margin-top:1.5rem;"
+    "h1{font-size:1.2rem;font-weight:normal;color:var(--soft);margin:0}h1.given{font-size:1.6rem;color:var(--ink)}"
+    "h2.floor{font-size:1.5rem;margin-top:2.5rem;border-bottom:3px solid "
+    "var(--body)}h2{font-size:1.2rem;margin-top:1.5rem;"
     "border-bottom:1px solid var(--line)}.answer{font-size:1.35rem;line-height:1.3;margin:.4rem 0;max-width:none}"
     ".notes ul{margin:.4rem 0;padding-left:1.2rem}.notes li{font-size:.9rem;line-height:1.35;max-width:none}"
     ".lines{font-size:.9rem;line-height:1.35;max-width:none;color:var(--soft);margin-top:.3rem}.wide{overflow-x:auto}"
@@ -80,7 +89,8 @@ constexpr const char* page_style =
     "--body:#2a6f97}*{print-color-adjust:exact;-webkit-print-color-adjust:exact}body{font-size:9.5pt;max-width:none;"
     "padding:0}h2{break-after:avoid;margin-top:.8rem}figure,tr,pre{break-inside:avoid}.wide{overflow:visible}"
     "table{font-size:7.5pt}th,td{padding:.05rem .25rem;white-space:normal}figure.plot svg{max-height:9.6cm}"
-    "p,ul,pre,figure{margin:.25rem 0}ul{padding-left:1.2rem}p,li{max-width:none;line-height:1.3}"
+    "h2.floor{break-before:page;margin-top:0}p,ul,pre,figure{margin:.25rem "
+    "0}ul{padding-left:1.2rem}p,li{max-width:none;line-height:1.3}"
     ".lines,.wide p,figcaption,pre{font-size:7.5pt;line-height:1.25}.beside figure{flex-basis:16rem}"
     ".answer{font-size:13pt}}@page{margin:14mm}";
 
@@ -116,17 +126,21 @@ PicturePanel history_panel(const ShockRun& run, double origin, const auto& wante
 }
 
 /// A page with all that it shows in itself: it asks for nothing from anywhere, and prints.
-std::string handout_page(const std::string& title, const std::vector<std::string>& lines,
+/// @param given  whether somebody gave the title, which stands out then
+std::string handout_page(const std::string& title, bool given, const std::vector<std::string>& lines,
                          const std::vector<HandoutPart>& parts) {
   std::string html = fmt::format(
       "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" "
       "content=\"width=device-width, initial-scale=1\"><title>{0}</title><link rel=\"icon\" "
-      "href=\"data:,\"><style>{1}</style></head><body>\n<h1>{0}</h1>\n<p class=\"lines\">",
-      html_escaped(title), page_style);
+      "href=\"data:,\"><style>{1}</style></head><body>\n<h1{2}>{0}</h1>\n<p class=\"lines\">",
+      html_escaped(title), page_style, given ? " class=\"given\"" : "");
   for (const std::string& line : lines) html += html_escaped(line) + "<br>\n";
   html += "</p>\n";
   for (const HandoutPart& part : parts)
-    html += "<section>\n" + (part.title.empty() ? "" : fmt::format("<h2>{}</h2>\n", html_escaped(part.title))) +
+    html += "<section>\n" +
+            (part.title.empty()
+                 ? ""
+                 : fmt::format("<h2{}>{}</h2>\n", part.is_floor ? " class=\"floor\"" : "", html_escaped(part.title))) +
             part.html + "</section>\n";
   return html + "</body></html>\n";
 }
@@ -191,8 +205,15 @@ struct ReportInput : ShockInput {
   std::string output;
   enum class Form { html, table, csv, json, markdown } form = Form::html;
   std::optional<int> drops, threads;
-  std::optional<double> scatter;  ///< [°]
-  std::string rank_by;            ///< column of the sweep
+  std::optional<double> scatter;    ///< [°]
+  std::string rank_by;              ///< column of the sweep
+  std::vector<std::string> scenes;  ///< SCENE, of which there may be several
+  std::string title, date;
+
+  /// The part of one case, which has no more than one.
+  [[nodiscard]] std::optional<FragilePart> part() const {
+    return parts.empty() ? std::nullopt : std::optional(parts.front());
+  }
 };
 
 /// The drops of the sweep over attitudes.
@@ -216,7 +237,7 @@ std::string scene_words(const ReportInput& input, const std::vector<double>& att
 std::string probe_words(const ReportInput& input) {
   std::string words;
   for (const std::string& probe : input.probes) words += " --probe " + shell_word(probe);
-  if (input.part) words += " --part " + shell_word(part_text(*input.part));
+  for (const FragilePart& part : input.parts) words += " --part " + shell_word(part_text(part));
   return words;
 }
 
@@ -236,7 +257,7 @@ SweepRequest sweep_of(const ReportInput& input, const Attitudes& attitudes, cons
                        .columns = {},
                        .no_errors = true,
                        .summary = true,
-                       .part = input.part,
+                       .part = input.part(),
                        .rank_by = rank_by};
   if (request.file.empty()) request.text = "";
   for (const SceneOverride& given : overrides_of(input.scene)) {
@@ -307,13 +328,13 @@ std::string name_of_drop(const Scene& scene, int number, const Vector3& down) {
 
 /// What the ranking of a sweep's column says of blows: of the probe that the column names, else of the first.
 Ranking ranking_of(std::string_view column, const std::vector<Probe>& probes, const ReportInput& input) {
-  Ranking ranking{.part = input.part, .has_peaks = model_of(input) == Model::continuous};
+  Ranking ranking{.part = input.part(), .has_peaks = model_of(input) == Model::continuous};
   ranking.landing_alone = column.starts_with(of_landing);
   if (ranking.landing_alone) column.remove_prefix(of_landing.size());
   const bool is_velocity = column.starts_with(shock_column) || !ranking.has_peaks;
   ranking.by = column.starts_with(peak_column)    ? Ranking::By::peak
                : column.starts_with(shock_column) ? Ranking::By::velocity
-               : input.part                       ? Ranking::By::margin
+               : ranking.part                     ? Ranking::By::margin
                : is_velocity                      ? Ranking::By::velocity
                                                   : Ranking::By::peak;
   for (std::size_t i = 0; i < probes.size(); ++i) {
@@ -334,8 +355,9 @@ std::optional<Blow> blow_of(const SweepPlan& plan, const SweepBody& body, long l
     return worst_blow(run.discrete, *run.discrete_run, scene, ranking);
   }
   if (!probes.empty()) {
-    const ContinuousShock shock = continuous_shock(
-        scene, *body.solid, places_from(body_properties(scene, Model::continuous).centre, probes), false);
+    const ContinuousShock shock =
+        continuous_shock(scene, *body.solid, places_from(body_properties(scene, Model::continuous).centre, probes),
+                         {.parts = plan.layout.parts()});
     return worst_blow(shock.rows, run_of(shock.planned.run), scene, ranking);
   }
   const Run run = run_of(run_to_digits(scene, *body.solid).run);
@@ -474,6 +496,22 @@ std::vector<Column> attitude_columns() {
           {"drops", "drops", "", "of this attitude"}};
 }
 
+/// The columns of a table of several cases.
+std::vector<Column> case_columns() {
+  return {word_column("floor", "scene", "file whose drop it is"),
+          {"restitution", "e", "", "that was given"},
+          word_column("part", "part", "what bears it, as --part takes it"),
+          {"margin", "margin", "", "the least of all drops: at 1 and below the part fails"},
+          word_column("attitude", "down", "how the body is turned in that drop"),
+          word_column("probe", "probe", "name of the point"),
+          {"impact", "impact", "", "whose blow has it"},
+          {"peak_g", "peak", "g", "largest specific force at the probe in that blow"},
+          {"delta_v", "|ΔV|", "m/s", "change of the probe's velocity in it"},
+          word_column("decided_by", "by", "what decides the margin: change of velocity, peak, or the blow's history"),
+          {"failing", "failing", "", "drops that the part does not survive"},
+          {"drops", "drops", "", "of the case"}};
+}
+
 /// Each face, edge and corner by the worst blow of its worst drop, the worst kind first and in it the worst attitude.
 Grid attitudes_grid(const AllAttitudes& all) {
   const bool has_peaks = std::ranges::any_of(all.blows, [](const auto& blow) { return blow && blow->peak_g > 0; });
@@ -589,9 +627,11 @@ std::string shock_html(const ShockRun& run, ShockView view, int impact) {
   Picture picture = shock_picture(run, view);
   picture.scene.clear();  // which the page has
   if (picture.panels.empty()) return html;
-  return html + handout_picture(picture, view.part ? "Response spectra with and without the second blow, and all blows "
-                                                     "beside the damage boundary of the part."
-                                                   : "Response spectra with and without the second blow.");
+  return html +
+         handout_picture(picture, view.parts.empty()
+                                      ? "Response spectra with and without the second blow."
+                                      : "Response spectra with and without the second blow, and all blows beside the "
+                                        "damage boundary of the part.");
 }
 
 std::vector<std::string> assumptions(const Scene& scene, Model model, const KeyNames& unsettled) {
@@ -752,7 +792,7 @@ Answer answer_of(const ShockRun& run, const Ranking& ranking) {
   if (!blow.margin) return answer;
   answer.fields["verdict"] = blow.margin->value > 1 ? "survives" : "fails";
   answer.fields["margin"] = blow.margin->value;
-  answer.fields["decided_by"] = blow.margin->by_velocity ? "delta_v" : "peak";
+  answer.fields["decided_by"] = std::array{"delta_v", "peak", "history"}[static_cast<std::size_t>(blow.margin->by)];
   if (ranking.part->kind == FragilePart::Kind::oscillator)
     answer.fields["response_g"] = ranking.part->fragility / standard_gravity / blow.margin->value;
   return answer;
@@ -763,6 +803,7 @@ struct Findings {
   std::optional<AllAttitudes> all;  ///< none: of the drop as given alone
   Scene scene;                      ///< of the worst drop of all, or as given
   ShockRun run;
+  Ranking ranking;
   Answer answer;
   std::string lead;                ///< the answer in a sentence
   std::vector<std::string> notes;  ///< what it depends on
@@ -879,23 +920,25 @@ void add_fields(const ReportInput& input, const ShockView& view, Findings& found
   found.report.notes.insert(found.report.notes.end(), found.notes.begin(), found.notes.end());
 }
 
+/// Whether the drops are those of all attitudes.
+bool looks_at_all(const ReportInput& input) { return is_of_box(input) && input.drops != 0; }
+
 /// Nothing where it was interrupted.
-std::optional<Findings> findings_of(ReportInput& input, const Attitudes& attitudes, const ShockView& view,
+/// @param given  the scene
+/// @param is_turned  whether the input says how the body is turned
+std::optional<Findings> findings_of(const ReportInput& input, const Scene& given, bool is_turned,
+                                    const Attitudes& attitudes, const ShockView& view,
                                     const CooperativeInterrupt& interrupt) {
-  const bool is_turned = gives_attitude(input), looks_at_all = is_of_box(input) && input.drops != 0;
-  if (!is_turned && looks_at_all) input.scene.texts["--orientation"] = "1";  // some one: the sweep has its own
-  const Scene given = shock_scene(input);
   const std::vector<Probe> probes = probes_of(input);
-  require_worst_attitudes(input, given);
-  if (view.part && probes.empty()) throw BadInput("--part: needs --probe NAME:X,Y,Z, or [[probe]], where the part is");
   const Model model = model_of(input);
   const std::string rank_by =
       !input.rank_by.empty() || probes.empty()
           ? input.rank_by
-          : ranking_column({.model = model, .part = input.part}, probes.front(), is_lossless(given, model));
-  const Ranking ranking = ranking_of(rank_by, probes, input);
+          : ranking_column({.model = model, .part = input.part()}, probes.front(), is_lossless(given, model));
   Findings found;
-  if (looks_at_all) found.all = all_attitudes(input, given, attitudes, rank_by, interrupt);
+  found.ranking = ranking_of(rank_by, probes, input);
+  const Ranking& ranking = found.ranking;
+  if (looks_at_all(input)) found.all = all_attitudes(input, given, attitudes, rank_by, interrupt);
   if (interrupt.requested()) return {};
   found.scene = found.all ? found.all->scene : given;
   const Scene& scene = found.scene;
@@ -903,7 +946,11 @@ std::optional<Findings> findings_of(ReportInput& input, const Attitudes& attitud
   found.run = run_shock(scene, probes, request_of(input), {.progress = watch});
   if (interrupt.requested()) return {};
 
-  found.report = begun_report("report", input.scene.source.empty() ? "a drop" : input.scene.source);
+  found.report = begun_report("report", fmt::format("{}{}{}",
+                                                    !input.title.empty()         ? input.title
+                                                    : input.scene.source.empty() ? "a drop"
+                                                                                 : input.scene.source,
+                                                    input.date.empty() ? "" : ", ", input.date));
   Value& fields = found.report.fields;
   fields["model"] = name_of(model);
   fields["scene"] = scene_value(scene, model);
@@ -954,6 +1001,16 @@ std::optional<Findings> findings_of(ReportInput& input, const Attitudes& attitud
   return found;
 }
 
+/// @throws BadInput for what is no date
+void require_date(const std::string& text) {
+  int year = 0, month = 0, day = 0, length = 0;
+  const bool is_read = std::sscanf(text.c_str(), "%4d-%2d-%2d%n", &year, &month, &day, &length) == 3;
+  const std::chrono::year_month_day date{std::chrono::year{year}, std::chrono::month{static_cast<unsigned>(month)},
+                                         std::chrono::day{static_cast<unsigned>(day)}};
+  if (!text.empty() && !(is_read && text.size() == 10 && length == 10 && date.ok()))
+    throw BadInput(fmt::format("--date '{}': must be a date, YYYY-MM-DD", text));
+}
+
 /// How the body touches in an impact.
 Eigen::Quaterniond attitude_in(const ShockRun& run, int impact) {
   const Run impacts = run.continuous ? run_of(run.continuous->planned.run) : *run.discrete_run;
@@ -972,8 +1029,9 @@ std::vector<RankedDrop> dots_of(const AllAttitudes& all) {
   return dots;
 }
 
-std::string page_of(const ReportInput& input, const Findings& found, const Attitudes& attitudes,
-                    const ShockView& view) {
+/// @param floor  that the parts are of, where a page has several; empty: it has one
+std::vector<HandoutPart> parts_of(const ReportInput& input, const Findings& found, const Attitudes& attitudes,
+                                  const ShockView& view, const std::string& floor) {
   const Scene& scene = found.scene;
   const Model model = model_of(input);
   const auto& all = found.all;
@@ -993,7 +1051,13 @@ std::string page_of(const ReportInput& input, const Findings& found, const Attit
   }
   std::string answer = fmt::format("<p class=\"answer\">{}.</p>\n", html_escaped(found.lead));
   if (!found.notes.empty()) answer += "<div class=\"notes\">" + handout_list(found.notes) + "</div>\n";
-  std::vector<HandoutPart> parts{{"", answer + pictures + "</div>\n"}};
+  const KeyNames unsettled = all ? attitude_keys : KeyNames{};
+  if (!floor.empty()) {
+    answer += "<p class=\"lines\">";
+    for (const std::string& line : scene.summary(model, unsettled)) answer += html_escaped(line) + "<br>\n";
+    answer += "</p>\n";
+  }
+  std::vector<HandoutPart> parts{{floor, answer + pictures + "</div>\n", !floor.empty()}};
   if (all) parts.push_back({"Attitudes", attitudes_html(*all, attitudes)});
   parts.push_back({"Shock at points of the body",
                    found.run.probes.empty() ? "<p>No probe was named: give --probe NAME:X,Y,Z, or [[probe]] in the "
@@ -1002,22 +1066,185 @@ std::string page_of(const ReportInput& input, const Findings& found, const Attit
   parts.push_back({fmt::format("The impacts, {} model", name_of(model)),
                    handout_table(found.impacts) + legend_html(found.impacts.table()) +
                        (found.run.continuous ? "" : sequence_picture_html(scene))});
-  const KeyNames unsettled = all ? attitude_keys : KeyNames{};
   parts.push_back({"Accuracy", accuracy_html(scene, found.run)});
   parts.push_back({"Assumptions", handout_list(assumptions(scene, model, unsettled))});
   parts.push_back({"What the model leaves out", handout_list(left_out(scene))});
   parts.push_back({"Commands that give these numbers again", handout_commands(found.commands)});
-  return handout_page(found.report.title, scene.summary(model, unsettled), parts);
+  return parts;
 }
 
-int run_report(const ReportInput& given) {
-  ReportInput input = given;
+// A page of several floors, restitutions and parts: a case for each, and the worst of each floor in full.
+
+struct ReportCase {
+  ReportInput input;
+  std::string restitution;  ///< empty: not ranged over
+  ShockView view;
+  bool is_turned = false;  ///< whether the input says how the body is turned
+  Scene given{};
+  Findings found{};
+
+  [[nodiscard]] std::string floor() const {
+    const std::string& source = input.scene.source;
+    return source.empty() ? "the drop" : source.substr(0, source.size() - (source.ends_with(".toml") ? 5 : 0));
+  }
+  /// "pad, e = 0.3, 500:300".
+  [[nodiscard]] std::string name() const {
+    const auto part = input.part();
+    return floor() + (restitution.empty() ? "" : ", e = " + restitution) + (part ? ", " + part_text(*part) : "");
+  }
+  [[nodiscard]] double value() const {
+    return found.answer.blow ? found.answer.blow->value : std::numeric_limits<double>::quiet_NaN();
+  }
+};
+
+/// The flags whose texts may be several values of e, as those of a sweep: 0.3:0.7:0.1, or 0.3,0.5.
+constexpr const char* ranged_flags[] = {"--restitution", "--floor-restitution"};
+
+std::vector<ReportCase> cases_of(const ReportInput& given) {
+  std::vector<ReportInput> inputs{given};
+  const auto multiply = [&](std::size_t count, auto&& set) {
+    std::vector<ReportInput> more;
+    for (const ReportInput& input : inputs) {
+      for (std::size_t i = 0; i < count; ++i) set(i, more.emplace_back(input));
+    }
+    if (count > 0) inputs = std::move(more);
+  };
+  multiply(given.scenes.size(), [&](std::size_t i, ReportInput& input) { input.scene.source = given.scenes[i]; });
+  const char* ranged = nullptr;
+  for (const char* const flag : ranged_flags) {
+    const std::string& text = given.scene.texts.at(flag);
+    if (text.find_first_of(":,") == std::string::npos) continue;
+    if (ranged) throw BadInput(fmt::format("{} {}: {} has several values already", flag, text, ranged));
+    ranged = flag;
+    const SweepAxis axis = read_grid_axis(flag, text, false);
+    if (axis.count > 100) throw BadInput(fmt::format("{} {}: more than 100 values", flag, text));
+    multiply(static_cast<std::size_t>(axis.count), [&](std::size_t i, ReportInput& input) {
+      input.scene.texts[flag] = shortest(axis.at(static_cast<long long>(i)));
+    });
+  }
+  multiply(given.parts.size(), [&](std::size_t i, ReportInput& input) { input.parts = {given.parts[i]}; });
+  std::vector<ReportCase> cases;
+  for (ReportInput& input : inputs) {
+    const bool is_turned = gives_attitude(input);
+    if (!is_turned && looks_at_all(input)) input.scene.texts["--orientation"] = "1";  // some one: the sweep has its own
+    const Scene scene = shock_scene(input);
+    require_worst_attitudes(input, scene);
+    if (!input.parts.empty() && probes_of(input).empty())
+      throw BadInput("--part: needs --probe NAME:X,Y,Z, or [[probe]], where the part is");
+    cases.push_back({input, ranged ? input.scene.texts.at(ranged) : "", view_of(input), is_turned, scene});
+  }
+  return cases;
+}
+
+/// A row for each case, the worst first: by the least margin, or what else all are ranked by.
+Grid cases_grid(const std::vector<const ReportCase*>& cases) {
+  const auto differ = [&](auto&& value) {
+    return std::ranges::any_of(cases, [&](const ReportCase* one) { return value(*one) != value(*cases.front()); });
+  };
+  Grid grid{case_columns(), {}, 3};
+  for (Column& column : grid.columns) {
+    if (column.name == "floor") column.shown = differ([](const ReportCase& one) { return one.floor(); });
+    if (column.name == "restitution") column.shown = !cases.front()->restitution.empty();
+    if (column.name == "probe") column.shown = cases.front()->found.run.probes.size() > 1;
+    if (column.name == "part") column.shown = !cases.front()->input.parts.empty();
+  }
+  for (const ReportCase* one : cases) {
+    const Value& answer = *one->found.report.fields.find("answer");
+    const auto of = [&](const char* name) {
+      const Value* const value = answer.find(name);
+      const double* const number = value ? value->number() : nullptr;
+      return !value ? Cell() : number ? Cell(*number, 3) : Cell(*value);
+    };
+    const auto part = one->input.part();
+    double e = 0;
+    grid.rows.push_back({Cell(one->floor()), read_number(one->restitution, e) ? Cell(e, one->restitution) : Cell(),
+                         part ? Cell(part_text(*part)) : Cell(), of("margin"), of("attitude"), of("probe"),
+                         of("impact"), of("peak_g"), of("delta_v"), of("decided_by"), of("failing"), of("drops")});
+  }
+  return grid;
+}
+
+/// The cases by how hard they are, the worst first, where one thing ranks all of them.
+std::vector<const ReportCase*> ranked(const std::vector<ReportCase>& cases) {
+  std::vector<const ReportCase*> order;
+  for (const ReportCase& one : cases) order.push_back(&one);
+  const auto is_worse = [](const ReportCase* one, const ReportCase* other) {
+    return one->found.ranking.is_worse(one->value(), other->value());
+  };
+  if (std::ranges::all_of(cases, [&](const ReportCase& one) {
+        return one.found.ranking.by == cases.front().found.ranking.by && std::isfinite(one.value());
+      }))
+    std::ranges::stable_sort(order, is_worse);
+  return order;
+}
+
+/// The worst case of each floor, in the order of the cases.
+std::vector<const ReportCase*> worst_of_floors(const std::vector<const ReportCase*>& order) {
+  std::vector<const ReportCase*> worst;
+  for (const ReportCase* one : order) {
+    if (std::ranges::none_of(worst, [&](const ReportCase* other) { return other->floor() == one->floor(); }))
+      worst.push_back(one);
+  }
+  return worst;
+}
+
+/// One report of several cases: the fields of the worst, and all in a table.
+Report joined_report(const std::vector<const ReportCase*>& order) {
+  const Findings& worst = order.front()->found;
+  Report report = worst.report;
+  report.grid = cases_grid(order);
+  std::string words;
+  for (const ReportCase* one : worst_of_floors(order)) {
+    words += fmt::format("{}{}: ", words.empty() ? "" : "; ", one->name());
+    if (!one->found.answer.blow) words += one->found.answer.words;
+    else if (one->input.parts.empty()) words += one->found.lead;
+    else words += "least margin " + said(one->value());
+  }
+  report.notes = {fmt::format("Worst of {} cases: {}", order.size(), words), worst.lead};
+  report.fields["message"] = report.notes.front();
+  report.fields["cases"] = row_objects(report.grid);
+  return report;
+}
+
+std::string page_of(const std::vector<ReportCase>& cases, const Attitudes& attitudes) {
+  const ReportCase& first = cases.front();
+  const ReportInput& input = first.input;
+  std::vector<std::string> lines;
+  if (!input.title.empty()) {
+    lines.push_back(std::string("clatter ") + version);
+    if (!input.date.empty()) lines.front().insert(0, input.date + ", ");
+  }
+  std::vector<HandoutPart> parts;
+  if (cases.size() == 1) {
+    for (const std::string& line :
+         first.found.scene.summary(model_of(input), first.found.all ? attitude_keys : KeyNames{}))
+      lines.push_back(line);
+    parts = parts_of(input, first.found, attitudes, first.view, "");
+  } else {
+    const std::vector<const ReportCase*> order = ranked(cases);
+    const Report joined = joined_report(order);
+    Report table;
+    table.grid = joined.grid;
+    parts = {{"", fmt::format("<p class=\"answer\">{}.</p>\n", html_escaped(joined.notes.front())) +
+                      handout_table(table) + legend_html(table.grid)}};
+    std::set<std::string> said;  // what is said of one floor is left out of the next
+    for (const ReportCase* one : worst_of_floors(order)) {
+      for (HandoutPart& part : parts_of(one->input, one->found, attitudes, one->view, one->name())) {
+        if (said.insert(part.title + part.html).second) parts.push_back(std::move(part));
+      }
+    }
+  }
+  return handout_page(input.title.empty() ? first.found.report.title : input.title, !input.title.empty(), lines, parts);
+}
+
+int run_report(const ReportInput& input) {
   const bool is_page = input.form == ReportInput::Form::html;
   if (is_page) {
     if (input.output.empty()) throw BadInput("--output: required, the page's file");
     if (!input.output.ends_with(".html")) throw BadInput(fmt::format("--output '{}': must end in .html", input.output));
     require_gnuplot("report");
   }
+  require_date(input.date);
   constexpr Format formats[]{Format::json, Format::table, Format::csv, Format::json, Format::markdown};
   const OutputChoice choice{.style = {.format = formats[static_cast<std::size_t>(input.form)]}, .path = input.output};
   if (!is_page) check_files(choice);
@@ -1027,16 +1254,21 @@ int run_report(const ReportInput& given) {
   Attitudes attitudes;
   attitudes.drops = input.drops.value_or(attitudes.drops);
   attitudes.scatter = input.scatter.value_or(attitudes.scatter);
-  const ShockView view = view_of(input);
-  const auto found = findings_of(input, attitudes, view, interrupt);
-  if (!found) return interrupted_status;
+  std::vector<ReportCase> cases = cases_of(input);
+  int status = 0;
+  for (ReportCase& one : cases) {
+    auto found = findings_of(one.input, one.given, one.is_turned, attitudes, one.view, interrupt);
+    if (!found) return interrupted_status;
+    one.found = std::move(*found);
+    status = std::max(status, status_of(one.found.scene, one.found.run));
+  }
   if (!is_page) {
-    write_report(choice, found->report);
+    write_report(choice, cases.size() == 1 ? cases.front().found.report : joined_report(ranked(cases)));
   } else {
-    sink->write(page_of(input, *found, attitudes, view));
+    sink->write(page_of(cases, attitudes));
     sink->commit();
   }
-  return status_of(found->scene, found->run);
+  return status;
 }
 
 }  // namespace
@@ -1044,6 +1276,9 @@ int run_report(const ReportInput& given) {
 Command report_command() {
   return command_of<ReportInput>(run_report, [](Command& command, ReportInput& input) {
     add_shock_options(command, input);
+    Argument& scenes = *std::ranges::find(command.arguments, "SCENE", &Argument::name);
+    scenes.target = &input.scenes;
+    scenes.help += "; of several, floors say, a part for each";
     constexpr const char* group = "Worst attitudes";
     command.add(whole_argument("--drops", input.drops, 0, 1'000'000, "N",
                                "of a box, over its faces, edges and corners (260); 0: none", group));
@@ -1055,6 +1290,8 @@ Command report_command() {
         "without loss that of the first landing)",
         group);
     command.add(threads_argument(input.threads, "for them (all cores)", group));
+    command.add_text("--title", input.title, "TEXT", "of the page", "Output");
+    command.add_text("--date", input.date, "YYYY-MM-DD", "that it bears (none)", "Output");
     command.add({.name = "--output",
                  .target = &input.output,
                  .type = "FILE",
@@ -1063,7 +1300,7 @@ Command report_command() {
     command.add(choice_argument("--format", input.form, {"html", "table", "csv", "json", "markdown"},
                                 "the page (html), its table of faces, edges and corners, or all of it as JSON",
                                 "Output"));
-    command.columns = {{"report", attitude_columns}};
+    command.columns = {{"report", attitude_columns}, {"report-cases", case_columns}};
     command.footer =
         "Example: clatter report phone-damped --impacts 2 --probe camera:0.048,0.016,0.0095 --part 300:500 --output "
         "phone.html\n"

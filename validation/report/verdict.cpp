@@ -39,11 +39,7 @@ std::optional<Blow> worst_blow(const std::vector<ShockRow>& rows, const Run& run
             .velocity = worst->value.delta_v_size,
             .width = worst->value.width,
             .value = ranking.value_of(*worst)};
-  if (ranking.part) {
-    blow.margin = ranking.has_peaks
-                      ? blow_margin(*ranking.part, blow.velocity, worst->value.peak_size)
-                      : BlowMargin{.value = velocity_margin(*ranking.part, blow.velocity), .by_velocity = true};
-  }
+  if (ranking.part) blow.margin = blow_margin(*worst, *ranking.part, ranking.has_peaks);
   if (ranking.has_peaks) blow.depth = run.impacts.at(static_cast<std::size_t>(blow.impact) - 1).value.indentation;
   return blow;
 }
@@ -55,6 +51,19 @@ double three_digits(double value) {
 
 std::string said(double value) { return shortest(three_digits(value)); }
 
+namespace {
+
+std::string deciding_words(const BlowMargin& margin) {
+  switch (margin.by) {
+    case BlowMargin::By::velocity: return "the change of velocity decides";
+    case BlowMargin::By::peak: return "the peak decides";
+    case BlowMargin::By::history: return "its humps decide, which ring it more than one pulse does";
+  }
+  return "";
+}
+
+}  // namespace
+
 std::string blow_words(const Blow& blow, const std::string& probe, const Ranking& ranking) {
   const auto half_sine = [&] { return equivalent_pulse(blow.velocity, blow.peak_g * standard_gravity); };
   std::string words =
@@ -65,14 +74,14 @@ std::string blow_words(const Blow& blow, const std::string& probe, const Ranking
   if (!blow.margin) return words;
   const FragilePart& part = *ranking.part;
   const double bears = part.fragility / standard_gravity;
-  const char* const decides = blow.margin->by_velocity ? "the change of velocity" : "the peak";
+  const std::string decides = deciding_words(*blow.margin);
   switch (part.kind) {
     case FragilePart::Kind::oscillator:
-      return words + fmt::format("; the part of {} Hz answers with {} g and bears {} g: {} decides",
-                                 said(part.frequency), said(bears / blow.margin->value), said(bears), decides);
+      return words + fmt::format("; the part of {} Hz answers with {} g and bears {} g: {}", said(part.frequency),
+                                 said(bears / blow.margin->value), said(bears), decides);
     case FragilePart::Kind::at_place: return words + fmt::format("; the part bears {} g there", said(bears));
     case FragilePart::Kind::tested:
-      return words + fmt::format("; the part bore a half sine of {} g and {} ms, {} m/s: {} decides", said(bears),
+      return words + fmt::format("; the part bore a half sine of {} g and {} ms, {} m/s: {}", said(bears),
                                  said(1e3 * part.duration),
                                  said(damage_boundary(part, PulseShape::half_sine).critical_velocity), decides);
   }

@@ -42,6 +42,12 @@ double pulse_response(PulseShape shape, double turns) {
   return turns > quasi_static ? 1 : half_sine_response(turns);
 }
 
+std::optional<FragilePart> FragilePart::oscillator() const {
+  if (kind == Kind::at_place) return std::nullopt;
+  if (kind == Kind::oscillator) return *this;
+  return FragilePart{.frequency = 1 / (2 * duration), .fragility = 2 * fragility};
+}
+
 DamageBoundary damage_boundary(const FragilePart& part, PulseShape shape) {
   if (part.kind != FragilePart::Kind::oscillator) {
     const double velocity =
@@ -64,14 +70,19 @@ double margin(const FragilePart& part, PulseShape shape, double velocity, double
   return part.fragility / (acceleration * pulse_response(shape, part.frequency * duration));
 }
 
-BlowMargin blow_margin(const FragilePart& part, double velocity, double acceleration) {
+BlowMargin blow_margin(const FragilePart& part, double velocity, double acceleration, double response) {
   const double rectangle = margin(part, PulseShape::rectangle, velocity, acceleration),
                half_sine = margin(part, PulseShape::half_sine, velocity, acceleration);
   const PulseShape shape = half_sine < rectangle ? PulseShape::half_sine : PulseShape::rectangle;
   const DamageBoundary boundary = damage_boundary(part, shape);
   // Left of the boundary's corner, on the ray of pulses of one duration, a part answers to the change of velocity.
   const bool by_velocity = velocity / acceleration < boundary.corner_velocity / boundary.critical_acceleration;
-  return {std::fmin(rectangle, half_sine), by_velocity};
+  const BlowMargin pulse{std::fmin(rectangle, half_sine),
+                         by_velocity ? BlowMargin::By::velocity : BlowMargin::By::peak};
+  const auto oscillator = part.oscillator();
+  const BlowMargin itself{oscillator && response > 0 ? oscillator->fragility / response : pulse.value,
+                          BlowMargin::By::history};
+  return itself.value < pulse.value ? itself : pulse;
 }
 
 double velocity_margin(const FragilePart& part, double velocity) {
@@ -84,6 +95,13 @@ std::string words_of(const FragilePart& part) {
   if (part.kind == FragilePart::Kind::tested)
     return fmt::format("a part that bore a half sine of {} g and {:.6g} ms", peak, 1e3 * part.duration);
   return fmt::format("a part of {:.6g} Hz that bears {} g", part.frequency, peak);
+}
+
+std::string part_text(const FragilePart& part) {
+  const std::string peak = fmt::format("{:.9g}", part.fragility / standard_gravity);
+  if (part.kind == FragilePart::Kind::at_place) return peak + "g";
+  if (part.kind == FragilePart::Kind::tested) return fmt::format("{}g:{:.9g}ms", peak, 1e3 * part.duration);
+  return fmt::format("{:.9g}:{}", part.frequency, peak);
 }
 
 double TestPulse::velocity() const { return pulse_area(PulseShape::half_sine) * acceleration * duration; }

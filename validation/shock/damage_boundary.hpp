@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string>
 
 namespace clatter::validation {
@@ -29,6 +30,11 @@ struct FragilePart {
   double fragility = 0;  ///< A_s [m/s²], > 0
   double duration = 0;   ///< of the tested half sine [s], > 0
   Kind kind = Kind::oscillator;
+
+  /// The undamped oscillator that the part is, or that has the damage boundary of the half sine which it bore: by two
+  /// tests V_c = A_s/ω and A_c = A_s/2 of a rectangle, so that 2AT/π and A give f = 1/(2T) and A_s = 2A.  None of a
+  /// part at its place, which has its peak as response.
+  [[nodiscard]] std::optional<FragilePart> oscillator() const;
 };
 
 /// The damage boundary of ASTM D3332 in the plane of a pulse's change of velocity V and its peak A: a part fails to
@@ -46,17 +52,22 @@ struct DamageBoundary {
 /// without a natural frequency the larger of V_c/V and A_c/A.
 [[nodiscard]] double margin(const FragilePart& part, PulseShape shape, double velocity, double acceleration);
 
-/// The margin of a blow whose shape is not known: the smaller of rectangle and half sine.
+/// The least margin of a blow: under rectangle, half sine and, where it is known, its own history.
 struct BlowMargin {
+  enum class By { velocity, peak, history };
   double value = 0;
-  bool by_velocity = false;  ///< whether the change of velocity decides it, else the peak
+  By by = By::peak;  ///< what decides it
 };
-[[nodiscard]] BlowMargin blow_margin(const FragilePart& part, double velocity, double acceleration);
+/// @param response  largest acceleration of the part's oscillator under the blow itself [m/s²]; 0: not known
+[[nodiscard]] BlowMargin blow_margin(const FragilePart& part, double velocity, double acceleration,
+                                     double response = 0);
 /// V_c/V, the margin whatever the peak is, which is less than any other.  Domain: no part at its place.
 [[nodiscard]] double velocity_margin(const FragilePart& part, double velocity);
 
 /// "a part of 500 Hz that bears 300 g".
 [[nodiscard]] std::string words_of(const FragilePart& part);
+/// What to type for it: "500:300".
+[[nodiscard]] std::string part_text(const FragilePart& part);
 
 /// A half sine of a shock machine.
 struct TestPulse {

@@ -639,13 +639,15 @@ Report measured_shock_report(const MeasuredShock& shock, const ShockRequest& req
                                     significant(record.times.back(), 4), fmt::join(record.remarks, "; ")));
   const std::vector<NamedSpectrum> spectra = named_spectra(shock, simulated);
   const std::vector<Pulse> pulses = pulses_of(shock);
-  const Grid blows = blows_of(shock, simulated), pulse_rows = pulse_grid(pulses, shown_digits, view.part);
+  const Grid blows = blows_of(shock, simulated), pulse_rows = pulse_grid(pulses, shown_digits, view.parts);
   report.grid = view.rows == ShockRows::pulses ? pulse_rows : blows;
   if (view.rows == ShockRows::spectra) {
     report.grid = spectrum_grid(spectra, shown_digits);
     report.digest = spectrum_digest({spectra}, shown_digits);
   }
-  if (view.rows == ShockRows::pulses || view.part) report.notes = pulse_notes(view.part);
+  if (view.rows == ShockRows::pulses || !view.parts.empty()) report.notes = pulse_notes(view.parts);
+  if (const std::string least = least_margin_words(pulse_rows, view.parts); !least.empty())
+    report.notes.push_back(least);
   report.notes.insert(report.notes.end(), shock.findings.begin(), shock.findings.end());
   report.notes.emplace_back(
       "ΔV is the integral of the reading along the sensor's axes; gravity and turning while the blow lasts are in it");
@@ -653,7 +655,7 @@ Report measured_shock_report(const MeasuredShock& shock, const ShockRequest& req
   report.fields["record"] = record_value(shock);
   report.fields["impacts"] = row_objects(blows);
   report.fields["spectra"] = spectrum_values(spectra, request.quality);
-  report.fields["pulses"] = pulse_fields(pulse_rows, view.part);
+  report.fields["pulses"] = pulse_fields(pulse_rows, view.parts);
   report.fields["simulated"] = simulated ? shock_report(*simulated, view).fields : Value();
   return report;
 }
@@ -665,8 +667,8 @@ Picture measured_shock_picture(const MeasuredShock& shock, const ShockRequest& r
                   .panels = {record_panel(shock)}};
   for (PicturePanel& panel : spectrum_panels(named_spectra(shock, simulated), view.severity))
     picture.panels.push_back(std::move(panel));
-  if (view.part) {
-    if (auto panel = boundary_panel(pulses_of(shock), *view.part)) picture.panels.push_back(std::move(*panel));
+  for (const FragilePart& part : view.parts) {
+    if (auto panel = boundary_panel(pulses_of(shock), part)) picture.panels.push_back(std::move(*panel));
   }
   return picture;
 }

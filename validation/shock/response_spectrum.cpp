@@ -326,9 +326,10 @@ ResponseExtremes ResponsePoint::whole() const {
   return both;
 }
 
-std::vector<BasePiece> base_pieces(const MotionRecorder& motion, const Vector3& r, double mass, const Vector3& axis) {
+std::vector<BasePiece> base_pieces(std::span<const MotionPiece> motion, const Vector3& r, double mass,
+                                   const Vector3& axis) {
   std::vector<BasePiece> pieces;
-  for (const MotionPiece& piece : motion.pieces()) {
+  for (const MotionPiece& piece : motion) {
     Samples samples{};
     for (std::size_t j = 0; j < sample_count; ++j) samples[j] = axis.dot(specific_force(piece.samples[j], r, mass));
     pieces.push_back(
@@ -356,6 +357,16 @@ ResponsePoint response(std::span<const BasePiece> pieces, double frequency, doub
   }
   end(oscillator, left_open, quality, point);
   return point;
+}
+
+Estimated undamped_response(std::span<const MotionPiece> motion, const Vector3& r, double mass, double frequency) {
+  Vector3 size, error;
+  for (int i = 0; i < 3; ++i) {
+    const ResponsePoint along = response(base_pieces(motion, r, mass, Vector3::Unit(i)), frequency, infinite_time);
+    size[i] = along.whole().acceleration.maximax();
+    error[i] = along.acceleration_error;
+  }
+  return {size.norm(), error.norm()};
 }
 
 ResponsePoint response(std::span<const BaseSample> samples, double frequency, double quality) {

@@ -7,8 +7,8 @@
 #include <span>
 #include <vector>
 
+#include "validation/output/estimated.hpp"
 #include "validation/shock/point_motion.hpp"
-#include "validation/shock/shock_rows.hpp"
 
 namespace clatter::validation {
 
@@ -102,9 +102,9 @@ struct BasePiece {
   double begin = 0, length = 0;      ///< [s]
   ChebyshevPolynomial acceleration;  ///< [m/s²]
 };
-/// Acceleration of the point r along a unit vector of the body, from the first touch-down to the end of the last
-/// impact; before and after it the base counts as unaccelerated.
-[[nodiscard]] std::vector<BasePiece> base_pieces(const MotionRecorder& motion, const Vector3& r, double mass,
+/// Acceleration of the point r along a unit vector of the body over the pieces; before and after them the base counts
+/// as unaccelerated.
+[[nodiscard]] std::vector<BasePiece> base_pieces(std::span<const MotionPiece> motion, const Vector3& r, double mass,
                                                  const Vector3& axis);
 /// The pulses of impact 1 alone, or to the end of impact `last`.
 [[nodiscard]] std::vector<BasePiece> first_pieces(const std::vector<BasePiece>& pieces, int last);
@@ -129,6 +129,12 @@ struct ResponsePoint {
 /// By the exact solution on the polynomials.  The error is that of the polynomials: |δz| ω_d <= ∫|δs| dt, δs up to
 /// their tails.
 [[nodiscard]] ResponsePoint response(std::span<const BasePiece> pieces, double frequency, double quality);
+/// Largest absolute acceleration of an undamped oscillator at the point r, whichever axis of the body it has, while the
+/// pieces last and after them [m/s²]:
+///     R = √(R_x² + R_y² + R_z²),   R_i the exact response along axis i.
+/// No axis has more; that of a force which keeps its direction in the body has as much.  The error is that of R_i.
+[[nodiscard]] Estimated undamped_response(std::span<const MotionPiece> motion, const Vector3& r, double mass,
+                                          double frequency);
 /// Acceleration along an axis at an instant.
 struct BaseSample {
   double time = 0;          ///< [s]

@@ -80,19 +80,15 @@ FragilePart read_part(const std::string& option, const std::string& text) {
   throw BadInput(fmt::format("{} {}: {}", option, text, part_forms));
 }
 
-std::string part_text(const FragilePart& part) {
-  const std::string peak = fmt::format("{:.9g}", part.fragility / standard_gravity);
-  if (part.kind == FragilePart::Kind::at_place) return peak + "g";
-  if (part.kind == FragilePart::Kind::tested) return fmt::format("{}g:{:.9g}ms", peak, 1e3 * part.duration);
-  return fmt::format("{:.9g}:{}", part.frequency, peak);
-}
-
-Argument part_argument(std::optional<FragilePart>& part, const std::string& help, const std::string& group) {
-  return read_argument("--part", part, read_part, "HZ:G|G|G:MS",
-                       "what the part at the probe bears: natural frequency and fragility (500:300, 500Hz:300g), its "
-                       "place's peak alone (300g), or a half sine that it bore (40g:11ms): " +
-                           help,
-                       group);
+Argument part_argument(Argument::Reader read, const std::string& help, const std::string& group) {
+  return {.name = "--part",
+          .target = std::move(read),
+          .type = "HZ:G|G|G:MS",
+          .help =
+              "what the part at the probe bears: natural frequency and fragility (500:300, 500Hz:300g), its place's "
+              "peak alone (300g), or a half sine that it bore (40g:11ms): " +
+              help,
+          .group = group};
 }
 
 Model model_of(const ShockInput& input) {
@@ -122,13 +118,14 @@ ShockRequest request_of(const ShockInput& input) {
   ShockRequest request = input.request;
   request.continuous = model_of(input) == Model::continuous;
   request.sensitivity = !input.no_sensitivity;
+  request.parts = input.parts;
   return request;
 }
 
 ShockView shown_of(const ShockInput& input) {
   ShockView view = input.view;
   view.rows = input.rows.value_or(view.rows);
-  view.part = input.part;
+  view.parts = input.parts;
   return view;
 }
 
@@ -139,7 +136,8 @@ ShockView view_of(const ShockInput& input) {
     if (model_of(input) == Model::discrete)
       throw BadInput("--rate: needs forces, which the continuous model has: a scene with a ground");
   }
-  if (view.part && view.part->kind == FragilePart::Kind::at_place && model_of(input) == Model::discrete)
+  const auto is_at_place = [](const FragilePart& part) { return part.kind == FragilePart::Kind::at_place; };
+  if (std::ranges::any_of(view.parts, is_at_place) && model_of(input) == Model::discrete)
     throw BadInput("--part G: needs peaks, which the continuous model has: a scene with a ground");
   if (view.rows == ShockRows::pulses && model_of(input) == Model::discrete)
     throw BadInput("--rows pulse: needs peaks, which the continuous model has: a scene with a ground");
@@ -169,7 +167,16 @@ void add_shock_options(Command& command, ShockInput& input) {
       whole_argument("--first", request.first, 1, 1'000'000, "N", "so many impacts are the first ones (2)", "Shock"));
   command.add(number_argument("--severity", input.view.severity, positive_number, "M/S",
                               "a pseudo-velocity to compare with", "Shock"));
-  command.add(part_argument(input.part, "its damage boundary, ASTM D3332", "Shock"));
+  command.add(part_argument(
+      [&](const std::string& option, const std::string& text) {
+        const FragilePart part = read_part(option, text);
+        for (const FragilePart& other : input.parts) {
+          if (part_text(other) == part_text(part)) throw BadInput(fmt::format("{} {}: given twice", option, text));
+        }
+        input.parts.push_back(part);
+      },
+      "its damage boundary, ASTM D3332; again for more of them", "Shock"));
+  command.arguments.back().repeats = true;
   command.add_flag("--no-sensitivity", input.no_sensitivity, "leave out the four runs that it takes", "Shock");
 }
 

@@ -20,7 +20,7 @@ struct ShockInput {
   std::vector<std::string> probes;
   std::optional<Model> model;  ///< else the continuous one where the scene has a ground
   std::optional<ShockRows> rows;
-  std::optional<FragilePart> part;
+  std::vector<FragilePart> parts;
   ShockRequest request;  ///< what of it does not follow from the model
   ShockView view;        ///< severity and rate
   bool no_sensitivity = false;
@@ -41,11 +41,9 @@ void add_shock_options(Command& command, ShockInput& input);
 [[nodiscard]] ShockView view_of(const ShockInput& input);
 /// "HZ:G", "G" or "G:MS", the last with its units, the others with them or not.  @throws BadInput for anything else
 [[nodiscard]] FragilePart read_part(const std::string& option, const std::string& text);
-/// What to type for it.
-[[nodiscard]] std::string part_text(const FragilePart& part);
-/// --part.  @param help  what it is for
-[[nodiscard]] Argument part_argument(std::optional<FragilePart>& part, const std::string& help,
-                                     const std::string& group);
+/// --part.  @param read  takes name and text, as read_part()
+/// @param help  what it is for
+[[nodiscard]] Argument part_argument(Argument::Reader read, const std::string& help, const std::string& group);
 /// Exit status of a run, as that of simulate or of sequence; says why it is not 0.
 [[nodiscard]] int status_of(const Scene& scene, const ShockRun& run);
 

@@ -67,12 +67,17 @@ std::vector<Column> pulse_columns() {
        "fragility over the part's acceleration under a rectangle of this |ΔV| and "
        "peak: at most 1, it fails"},
       {"margin_half_sine", "half sine", "", "the same under the half sine"},
+      {"margin_history", "itself", "",
+       "the same under the blow's own history, which may have several humps; of a part known by a test the oscillator "
+       "with its damage boundary"},
+      word_column("part", "part", "whose margins these are, as --part takes it"),
       {"restitution", "e", "", "of the impact, by the continuous model", false}};
-  for (const std::size_t of : {2U, 3U, 4U, 5U, 6U, 8U, 9U}) columns.push_back(error_column(columns[of]));
+  for (const std::size_t of : {2U, 3U, 4U, 5U, 6U, 8U, 9U, 10U}) columns.push_back(error_column(columns[of]));
   return columns;
 }
 
-Row pulse_row(const Pulse& pulse, int digits, const std::optional<FragilePart>& part) {
+/// @param part  null: none
+Row pulse_row(const Pulse& pulse, int digits, const FragilePart* part) {
   const Estimated &velocity = pulse.velocity, &peak = pulse.peak;
   const double of_v = relative(velocity.error, velocity.value), of_a = relative(peak.error, peak.value);
   const TestPulse half_sine = equivalent_pulse(velocity.value, peak.value);
@@ -92,19 +97,50 @@ Row pulse_row(const Pulse& pulse, int digits, const std::optional<FragilePart>& 
   // ln of a response changes by no more than ln of f T does.
   for (const PulseShape shape : shapes)
     add(part ? margin(*part, shape, velocity.value, peak.value) : std::nan(""), of_v + 2 * of_a);
+  const auto response = part && pulse.row ? pulse.row->response_of(*part) : std::nullopt;
+  add(response ? part->oscillator()->fragility / response->value : std::nan(""),
+      response ? relative(response->error, response->value) : 0);
+  row.push_back(part ? Cell(part_text(*part)) : Cell());
   row.emplace_back(pulse.restitution, 4);
   if (!std::isfinite(pulse.restitution)) row.back() = Cell();
   row.insert(row.end(), errors.begin(), errors.end());
   return row;
 }
 
-Grid pulse_grid(const std::vector<Pulse>& pulses, int digits, const std::optional<FragilePart>& part) {
+Grid pulse_grid(const std::vector<Pulse>& pulses, int digits, const std::vector<FragilePart>& parts) {
   Grid grid{pulse_columns(), {}, 2};
+  const bool has_history = std::ranges::any_of(pulses, [&](const Pulse& pulse) {
+    return pulse.row &&
+           std::ranges::any_of(parts, [&](const auto& part) { return pulse.row->response_of(part).has_value(); });
+  });
   for (Column& column : grid.columns) {
-    if (!part && column.name.starts_with("margin")) column.shown = false;
+    if (column.name == "part") column.shown = parts.size() > 1;
+    else if (column.name == "margin_history") column.shown = has_history;
+    else if (column.name.starts_with("margin") && parts.empty()) column.shown = false;
   }
-  for (const Pulse& pulse : pulses) grid.rows.push_back(pulse_row(pulse, digits, part));
+  for (const Pulse& pulse : pulses) {
+    if (parts.empty()) grid.rows.push_back(pulse_row(pulse, digits, nullptr));
+    for (const FragilePart& part : parts) grid.rows.push_back(pulse_row(pulse, digits, &part));
+  }
   return grid;
+}
+
+std::string least_margin_words(const Grid& grid, const std::vector<FragilePart>& parts) {
+  constexpr std::size_t first = 8, count = 3;  // columns of margins
+  const Row* worst = nullptr;
+  const auto margin_of = [&](const Row& row) {
+    double least = std::nan("");
+    for (std::size_t i = first; i < first + count; ++i)
+      if (const double* const number = row[i].value.number()) least = std::fmin(least, *number);
+    return least;
+  };
+  for (const Row& row : grid.rows) {
+    if (std::isfinite(margin_of(row)) && (!worst || margin_of(row) < margin_of(*worst))) worst = &row;
+  }
+  if (parts.size() < 2 || !worst) return "";
+  return fmt::format("least margin of {} parts: {} of {} at {} in impact {}", parts.size(),
+                     significant(margin_of(*worst), 4), (*worst)[first + count].value.text(), (*worst)[0].value.text(),
+                     (*worst)[1].value.text());
 }
 
 std::vector<Pulse> pulses_of(const ShockRun& run) {
@@ -118,35 +154,47 @@ std::vector<Pulse> pulses_of(const ShockRun& run) {
                         {blow.value.delta_v_size, blow.error.delta_v_size},
                         {blow.value.peak_size, blow.error.peak_size},
                         restitution_of(run, blow.impact),
-                        blow.predictable});
+                        blow.predictable,
+                        &blow});
     }
   }
   return pulses;
 }
 
-std::vector<std::string> pulse_notes(const std::optional<FragilePart>& part) {
-  std::vector<std::string> notes;
-  if (part && part->kind == FragilePart::Kind::at_place) {
-    notes.push_back(fmt::format("{}: its margin is that over the peak; what rings in it is left out", words_of(*part)));
-  } else if (part && part->kind == FragilePart::Kind::tested) {
-    const DamageBoundary boundary = damage_boundary(*part, shapes[0]);
-    notes.push_back(fmt::format(
+namespace {
+
+std::string boundary_words(const FragilePart& part) {
+  if (part.kind == FragilePart::Kind::at_place) {
+    return fmt::format("{}: its margin is that over the peak; what rings in it is left out", words_of(part));
+  }
+  if (part.kind == FragilePart::Kind::tested) {
+    const DamageBoundary boundary = damage_boundary(part, shapes[0]);
+    return fmt::format(
         "damage boundary (ASTM D3332) of {}: V_c = 2AT/π = {} m/s, A_c = A = {} g, in place of its two tests; one "
         "pulse "
-        "does not tell the part's frequency: V_c is that of a part up to {:.3g} Hz, 1/(4 T), A_c that of one far above",
-        words_of(*part), significant(boundary.critical_velocity, 6),
-        significant(boundary.critical_acceleration / standard_gravity, 6), 1 / (4 * part->duration)));
-  } else if (part) {
-    std::string words = fmt::format("damage boundary (ASTM D3332) of {}, undamped: V_c = {} m/s", words_of(*part),
-                                    significant(damage_boundary(*part, shapes[0]).critical_velocity, 6));
-    for (std::size_t i = 0; i < 2; ++i) {
-      const DamageBoundary boundary = damage_boundary(*part, shapes[i]);
-      words += fmt::format("; {}: A_c = {} g from {} m/s on", shape_words[i],
-                           significant(boundary.critical_acceleration / standard_gravity, 6),
-                           significant(boundary.corner_velocity, 6));
-    }
-    notes.push_back(words);
+        "does not tell the part's frequency: V_c is that of a part up to {:.3g} Hz, 1/(4 T), A_c that of one far "
+        "above; "
+        "humps are judged by the oscillator that has both, of {:.3g} Hz, which fails at {} g",
+        words_of(part), significant(boundary.critical_velocity, 6),
+        significant(boundary.critical_acceleration / standard_gravity, 6), 1 / (4 * part.duration),
+        part.oscillator()->frequency, significant(part.oscillator()->fragility / standard_gravity, 6));
   }
+  std::string words = fmt::format("damage boundary (ASTM D3332) of {}, undamped: V_c = {} m/s", words_of(part),
+                                  significant(damage_boundary(part, shapes[0]).critical_velocity, 6));
+  for (std::size_t i = 0; i < 2; ++i) {
+    const DamageBoundary boundary = damage_boundary(part, shapes[i]);
+    words += fmt::format("; {}: A_c = {} g from {} m/s on", shape_words[i],
+                         significant(boundary.critical_acceleration / standard_gravity, 6),
+                         significant(boundary.corner_velocity, 6));
+  }
+  return words;
+}
+
+}  // namespace
+
+std::vector<std::string> pulse_notes(const std::vector<FragilePart>& parts) {
+  std::vector<std::string> notes;
+  for (const FragilePart& part : parts) notes.push_back(boundary_words(part));
   std::string ladder = "JESD22-B110B, half sines, 2AT/π, height without rebound:";
   for (const ServiceCondition& one : service_conditions()) {
     ladder += fmt::format("{} {} {} g {} ms {:.3f} m/s {:.3f} m", one.name == 'H' ? "" : ";", one.name,
@@ -158,7 +206,24 @@ std::vector<std::string> pulse_notes(const std::optional<FragilePart>& part) {
   return notes;
 }
 
-Value pulse_fields(const Grid& grid, const std::optional<FragilePart>& part) {
+namespace {
+
+Value boundary_value(const FragilePart& part) {
+  Value boundary(Value::Fields{{"frequency", part.frequency > 0 ? Value(part.frequency) : Value()},
+                               {"fragility", part.fragility},
+                               {"tested_duration", part.duration > 0 ? Value(part.duration) : Value()}});
+  for (std::size_t i = 0; i < 2; ++i) {
+    const DamageBoundary of_shape = damage_boundary(part, shapes[i]);
+    boundary[pulse_names[i]] = Value::Fields{{"critical_velocity", of_shape.critical_velocity},
+                                             {"critical_acceleration", of_shape.critical_acceleration},
+                                             {"corner_velocity", of_shape.corner_velocity}};
+  }
+  return boundary;
+}
+
+}  // namespace
+
+Value pulse_fields(const Grid& grid, const std::vector<FragilePart>& parts) {
   Value::List conditions;
   for (const ServiceCondition& one : service_conditions()) {
     conditions.emplace_back(Value::Fields{{"name", std::string(1, one.name)},
@@ -168,17 +233,14 @@ Value pulse_fields(const Grid& grid, const std::optional<FragilePart>& part) {
                                           {"height_without_rebound", one.pulse.height(0)}});
   }
   Value fields(Value::Fields{{"blows", row_objects(grid)}, {"service_conditions", conditions}});
-  if (!part) return fields;
-  Value boundary(Value::Fields{{"frequency", part->frequency > 0 ? Value(part->frequency) : Value()},
-                               {"fragility", part->fragility},
-                               {"tested_duration", part->duration > 0 ? Value(part->duration) : Value()}});
-  for (std::size_t i = 0; i < 2; ++i) {
-    const DamageBoundary of_shape = damage_boundary(*part, shapes[i]);
-    boundary[pulse_names[i]] = Value::Fields{{"critical_velocity", of_shape.critical_velocity},
-                                             {"critical_acceleration", of_shape.critical_acceleration},
-                                             {"corner_velocity", of_shape.corner_velocity}};
+  if (parts.size() == 1) fields["damage_boundary"] = boundary_value(parts.front());
+  if (parts.size() < 2) return fields;
+  for (const FragilePart& part : parts) {
+    Value boundary = boundary_value(part);
+    boundary["part"] = part_text(part);
+    fields["damage_boundaries"].push_back(boundary);
   }
-  fields["damage_boundary"] = boundary;
+  fields["message"] = least_margin_words(grid, parts);
   return fields;
 }
 

@@ -20,18 +20,21 @@ struct Pulse {
   Estimated velocity, peak;  ///< |ΔV| [m/s] and largest specific force [m/s²]
   double restitution = 0;    ///< of the impact; not finite where it is not known
   bool predictable = true;
+  const ShockRow* row = nullptr;  ///< that it is of; null: of a record
 };
 /// By the continuous model, in the order of probes.
 [[nodiscard]] std::vector<Pulse> pulses_of(const ShockRun& run);
 
-/// A row for each pulse.
+/// A row for each pulse and part.
 [[nodiscard]] std::vector<Column> pulse_columns();
 /// The margins are empty without a part.
-[[nodiscard]] Grid pulse_grid(const std::vector<Pulse>& pulses, int digits, const std::optional<FragilePart>& part);
-/// The service conditions and, with a part, its damage boundary.
-[[nodiscard]] std::vector<std::string> pulse_notes(const std::optional<FragilePart>& part);
-/// `rows` of the grid, service conditions, damage boundary.
-[[nodiscard]] Value pulse_fields(const Grid& grid, const std::optional<FragilePart>& part);
+[[nodiscard]] Grid pulse_grid(const std::vector<Pulse>& pulses, int digits, const std::vector<FragilePart>& parts);
+/// The service conditions and the damage boundary of each part.
+[[nodiscard]] std::vector<std::string> pulse_notes(const std::vector<FragilePart>& parts);
+/// Which of several parts has the least margin, and in which row of the grid; empty for one.
+[[nodiscard]] std::string least_margin_words(const Grid& grid, const std::vector<FragilePart>& parts);
+/// `rows` of the grid, service conditions, damage boundary: of several parts a list of them.
+[[nodiscard]] Value pulse_fields(const Grid& grid, const std::vector<FragilePart>& parts);
 /// The damage boundary of a part, for both pulses, and where the blows lie; none without a blow.
 [[nodiscard]] std::optional<PicturePanel> boundary_panel(const std::vector<Pulse>& pulses, const FragilePart& part);
 

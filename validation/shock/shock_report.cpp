@@ -327,7 +327,7 @@ std::string severity_words(const ShockRun& run, std::size_t probe, double severi
 
 std::vector<std::string> notes_of(const ShockRun& run, const ShockView& view) {
   std::vector<std::string> notes;
-  if (view.rows == ShockRows::pulses || view.part) notes = pulse_notes(view.part);
+  if (view.rows == ShockRows::pulses || !view.parts.empty()) notes = pulse_notes(view.parts);
   if (run.continuous && view.rows == ShockRows::impacts) {
     const numeric::Ground& ground = run.scene.world.ground;
     notes.push_back(
@@ -559,7 +559,8 @@ Report shock_report(const ShockRun& run, const ShockView& view) {
     report.head.insert(report.head.begin(), far);
   report.notes = notes_of(run, view);
   const Grid impacts = impacts_of(run);
-  const Grid pulses = pulse_grid(pulses_of(run), run.scene.accuracy.digits, view.part);
+  const Grid pulses = pulse_grid(pulses_of(run), run.scene.accuracy.digits, view.parts);
+  if (const std::string least = least_margin_words(pulses, view.parts); !least.empty()) report.notes.push_back(least);
   report.grid = view.rows == ShockRows::pulses ? pulses : impacts;
   if (view.rows == ShockRows::spectra) {
     report.grid = spectrum_grid(named_spectra(run), run.scene.accuracy.digits);
@@ -577,7 +578,7 @@ Report shock_report(const ShockRun& run, const ShockView& view) {
   report.fields["impacts"] = row_objects(impacts);
   report.fields["spectra"] = spectrum_values(named_spectra(run), run.request.quality);
   report.fields["envelopes"] = envelopes_value(run);
-  report.fields["pulses"] = pulse_fields(pulses, view.part);
+  report.fields["pulses"] = pulse_fields(pulses, view.parts);
   add_outcome(run, report);
   report.fields["discrete_reason"] = text_or_nothing(run.discrete_reason);
   if (run.parted.from > 0)
@@ -595,8 +596,8 @@ Picture shock_picture(const ShockRun& run, const ShockView& view) {
       shown.push_back(named(run, *discrete));
     for (PicturePanel& panel : spectrum_panels(shown, view.severity)) picture.panels.push_back(std::move(panel));
   }
-  if (view.part) {
-    if (auto panel = boundary_panel(pulses_of(run), *view.part)) picture.panels.push_back(std::move(*panel));
+  for (const FragilePart& part : view.parts) {
+    if (auto panel = boundary_panel(pulses_of(run), part)) picture.panels.push_back(std::move(*panel));
   }
   return picture;
 }

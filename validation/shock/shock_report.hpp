@@ -40,7 +40,7 @@ enum class ShockRows { impacts, spectra, pulses };
 struct ShockView {
   ShockRows rows = ShockRows::impacts;  ///< of the table; JSON has all
   std::optional<double> severity{};     ///< pseudo-velocity with which those of the spectra are compared [m/s]
-  std::optional<FragilePart> part{};    ///< of which the damage boundary is shown
+  std::vector<FragilePart> parts{};     ///< of which the damage boundaries are shown
   std::optional<double> rate{};         ///< the table is the history at this rate instead [Hz]
 };
 [[nodiscard]] Report shock_report(const ShockRun& run, const ShockView& view);

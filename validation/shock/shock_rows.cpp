@@ -10,6 +10,7 @@
 #include <span>
 
 #include "validation/scene/body_properties.hpp"
+#include "validation/shock/response_spectrum.hpp"
 
 namespace clatter::validation {
 namespace {
@@ -112,7 +113,8 @@ double tail_of(const VectorPolynomial& vector) {
   return std::hypot(vector[0].tail(), vector[1].tail(), vector[2].tail());
 }
 
-ShockRow row_of(std::span<const MotionPiece> contact, const Vector3& r, double mass, double gravity) {
+ShockRow row_of(std::span<const MotionPiece> contact, const Vector3& r, const RecordedShock& asked) {
+  const double mass = asked.mass;
   const numeric::PieceSample &first = contact.front().samples.front(), &last = contact.back().samples.back();
   const auto felt = [&](const numeric::PieceSample& at) { return specific_force(at, r, mass); };
   const auto turning = [&](const numeric::PieceSample& at) { return at.angular_acceleration; };
@@ -137,7 +139,11 @@ ShockRow row_of(std::span<const MotionPiece> contact, const Vector3& r, double m
   n.peak_alpha = turn.size;
   row.error.peak_size = tail_of(about);
   row.error.peak_alpha = tail_of(polynomial_of(contact[turn.piece], turning));
-  row.closure = (integral_of_acceleration(contact, r, mass, gravity) - n.delta_v).norm() / n.delta_v_size;
+  row.closure = (integral_of_acceleration(contact, r, mass, asked.gravity) - n.delta_v).norm() / n.delta_v_size;
+  for (const FragilePart& part : asked.parts) {
+    if (const auto mass_on_spring = part.oscillator())
+      row.responses[mass_on_spring->frequency] = undamped_response(contact, r, mass, mass_on_spring->frequency);
+  }
   return row;
 }
 
@@ -164,6 +170,8 @@ void add_errors(const ShockRow& other, double error_per_distance, double trust, 
   add(row.error.peak_time, std::fabs(row.value.peak_time - other.value.peak_time), row.duration);
   row.error.peak_time += slack;
   row.error.width += row.value.width * row.error.peak_size / row.value.peak_size;
+  for (auto& [frequency, response] : row.responses)
+    add(response.error, std::fabs(response.value - other.responses.at(frequency).value), response.value);
 }
 
 /// The runs of pieces that belong to one contact.
@@ -226,7 +234,7 @@ std::vector<double> shifted_peaks(const Scene& scene, const numeric::Body& body,
   const numeric::Simulation run =
       record(other, body, static_cast<int>(impacts.size()), settled(scene, shock.planned.run), motion, observer);
   std::vector<double> peaks;
-  for (const ShockRow& row : shock_rows(motion, places, body.mass(), 0)) {
+  for (const ShockRow& row : shock_rows(motion, {.places = places, .mass = body.mass()})) {
     const auto i = static_cast<std::size_t>(row.impact - 1);
     if (i >= run.impacts.size() || run.impacts[i].end != impacts[i].end || run.impacts[i].touches != impacts[i].touches)
       break;
@@ -266,24 +274,36 @@ double landing_end(const Scene& scene, double approach_speed) {
   return body_properties(scene, Model::continuous).extents.maxCoeff() / approach_speed;
 }
 
-Estimated margin_of(const ShockRow& row, const FragilePart& part, bool has_peaks) {
-  const ShockNumbers &value = row.value, &error = row.error;
-  const double of_v = error.delta_v_size / value.delta_v_size;
-  if (!has_peaks) {
-    const double margin = velocity_margin(part, value.delta_v_size);
-    return {margin, margin * of_v};
-  }
-  const double margin = blow_margin(part, value.delta_v_size, value.peak_size).value;
-  // ln of a response changes by no more than ln of f T does.
-  return {margin, margin * (of_v + 2 * error.peak_size / value.peak_size)};
+std::optional<Estimated> ShockRow::response_of(const FragilePart& part) const {
+  const auto oscillator = part.oscillator();
+  const auto found = oscillator ? responses.find(oscillator->frequency) : responses.end();
+  return found == responses.end() ? std::nullopt : std::optional(found->second);
 }
 
-std::vector<ShockRow> shock_rows(const MotionRecorder& motion, const std::vector<Vector3>& places, double mass,
-                                 double gravity) {
+BlowMargin blow_margin(const ShockRow& row, const FragilePart& part, bool has_peaks) {
+  const ShockNumbers& value = row.value;
+  if (!has_peaks) return {velocity_margin(part, value.delta_v_size), BlowMargin::By::velocity};
+  const auto response = row.response_of(part);
+  return blow_margin(part, value.delta_v_size, value.peak_size, response ? response->value : 0);
+}
+
+Estimated margin_of(const ShockRow& row, const FragilePart& part, bool has_peaks) {
+  const ShockNumbers &value = row.value, &error = row.error;
+  const BlowMargin margin = blow_margin(row, part, has_peaks);
+  const auto response = row.response_of(part);
+  // ln of a response to a pulse changes by no more than ln of f T does.
+  const double of_v = error.delta_v_size / value.delta_v_size,
+               of_pulse = has_peaks ? of_v + 2 * error.peak_size / value.peak_size : of_v,
+               of_history = response ? response->error / response->value : 0;
+  // The least of several is known no better than each: where one is close to the other, that one may be less.
+  return {margin.value, margin.value * std::fmax(of_pulse, of_history)};
+}
+
+std::vector<ShockRow> shock_rows(const MotionRecorder& motion, const RecordedShock& asked) {
   std::vector<ShockRow> rows;
   for (const std::span<const MotionPiece> contact : contacts_of(motion)) {
-    for (std::size_t i = 0; i < places.size(); ++i) {
-      rows.push_back(row_of(contact, places[i], mass, gravity));
+    for (std::size_t i = 0; i < asked.places.size(); ++i) {
+      rows.push_back(row_of(contact, asked.places[i], asked));
       rows.back().probe = i;
     }
   }
@@ -291,7 +311,8 @@ std::vector<ShockRow> shock_rows(const MotionRecorder& motion, const std::vector
 }
 
 ContinuousShock continuous_shock(const Scene& scene, const numeric::Body& body, const std::vector<Vector3>& places,
-                                 bool with_sensitivity, const numeric::Observer& observer) {
+                                 const ContinuousRequest& request) {
+  const numeric::Observer& observer = request.observer;
   ContinuousShock shock;
   shock.planned = run_to_digits(scene, body, {.progress = observer.progress});
   const numeric::Simulation& run = shock.planned.run;
@@ -305,8 +326,9 @@ ContinuousShock continuous_shock(const Scene& scene, const numeric::Body& body, 
   const double gravity = scene.world.gravity_in_contact ? scene.world.gravity : 0;
   record(scene, body, impacts, accuracy, shock.motion, observer);
   if (scene.request.error_estimates) record(scene, body, impacts, other, shock.other, observer);
-  shock.rows = shock_rows(shock.motion, places, body.mass(), gravity);
-  const std::vector<ShockRow> others = shock_rows(shock.other, places, body.mass(), gravity);
+  const RecordedShock asked{.places = places, .mass = body.mass(), .gravity = gravity, .parts = request.parts};
+  shock.rows = shock_rows(shock.motion, asked);
+  const std::vector<ShockRow> others = shock_rows(shock.other, asked);
   shock.trust = trust_of(run);
   for (std::size_t i = 0; i < shock.rows.size(); ++i) {
     ShockRow& row = shock.rows[i];
@@ -317,9 +339,12 @@ ContinuousShock continuous_shock(const Scene& scene, const numeric::Body& body, 
     const double rounding = 4 * std::numeric_limits<double>::epsilon() * (1 + growth);
     row.start_error = is_known ? run.impacts[n].error.start : unknown_error;
     if (is_known) add_errors(others[i], shock.error_per_distance, shock.trust[n], rounding, row);
-    else row.error = ShockNumbers::unknown();
+    else {
+      row.error = ShockNumbers::unknown();
+      for (auto& [frequency, response] : row.responses) response.error = unknown_error;
+    }
   }
-  if (with_sensitivity) add_sensitivities(scene, body, places, observer, shock);
+  if (request.sensitivity) add_sensitivities(scene, body, places, observer, shock);
   return shock;
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <map>
 #include <optional>
 #include <vector>
 
@@ -44,6 +45,11 @@ struct ShockRow {
   double closure = 0;
   /// ∂ ln(peak)/∂ ln k_G with c_G/k_G held, which keeps the restitution.
   std::optional<Estimated> sensitivity;
+  /// undamped_response() to the impact alone, by natural frequency [Hz]: of each part's oscillator.
+  std::map<double, Estimated> responses{};
+
+  /// What a part's oscillator responds with, its error not finite where it is not known; none without a history.
+  [[nodiscard]] std::optional<Estimated> response_of(const FragilePart& part) const;
 };
 
 /// When the first landing ends: the time in which the body goes its own length at the speed of its first approach,
@@ -51,13 +57,20 @@ struct ShockRow {
 /// @param approach_speed  of the first impact [m/s]
 [[nodiscard]] double landing_end(const Scene& scene, double approach_speed);
 /// The part's least margin under a row; without peaks, of the discrete model, that by its change of velocity.
+[[nodiscard]] BlowMargin blow_margin(const ShockRow& row, const FragilePart& part, bool has_peaks);
+/// The same with its error.
 [[nodiscard]] Estimated margin_of(const ShockRow& row, const FragilePart& part, bool has_peaks);
 
-/// The rows of a recorded drop, an impact after the other, and in each a probe after the other, without errors.
-/// @param places  of the probes, from the centre of mass, body frame [m]
-/// @param gravity  that acts in contacts [m/s²]
-[[nodiscard]] std::vector<ShockRow> shock_rows(const MotionRecorder& motion, const std::vector<Vector3>& places,
-                                               double mass, double gravity);
+/// What of a recorded drop is asked for.
+struct RecordedShock {
+  const std::vector<Vector3>& places;  ///< of the probes, from the centre of mass, body frame [m]
+  double mass = 0;                     ///< [kg]
+  double gravity = 0;                  ///< that acts in contacts [m/s²]
+  std::vector<FragilePart> parts{};    ///< to whose oscillators rows have responses
+};
+/// The rows of a recorded drop, an impact after the other, and in each a probe after the other, without errors but
+/// those of polynomials.
+[[nodiscard]] std::vector<ShockRow> shock_rows(const MotionRecorder& motion, const RecordedShock& asked);
 
 /// The continuous model's shock at the scene's probes.
 struct ContinuousShock {
@@ -68,13 +81,19 @@ struct ContinuousShock {
   double error_per_distance = 0;  ///< how many times the distance of the two an error may be
   std::vector<double> trust;      ///< relative error of each impact's impulse, infinite from where the runs part
 };
+/// What of it is asked for beside rows.
+struct ContinuousRequest {
+  std::vector<FragilePart> parts{};  ///< to whose oscillators rows have responses
+  bool sensitivity = false;
+  numeric::Observer observer{};
+};
 /// Runs the scene to its digits, then again twice, recorded, where no errors are asked for once, and with the
 /// sensitivity four times more at neighbouring stiffness.
 /// @param places  of the probes, from the centre of mass, body frame [m]
 /// @throws as run_to_digits.
 [[nodiscard]] ContinuousShock continuous_shock(const Scene& scene, const numeric::Body& body,
-                                               const std::vector<Vector3>& places, bool with_sensitivity,
-                                               const numeric::Observer& observer = {});
+                                               const std::vector<Vector3>& places,
+                                               const ContinuousRequest& request = {});
 
 // What each impact of the discrete model does to points of the body.
 

@@ -61,8 +61,8 @@ void add_distance(const std::vector<BasePiece>& other, double quality, double er
 void add_continuous(const ContinuousShock& shock, double mass, const Vector3& place, const ShockRequest& request,
                     const Spectrum& begun, std::vector<Spectrum>& spectra) {
   const Vector3 axis = Vector3::Unit(begun.axis);
-  const std::vector<BasePiece> pieces = base_pieces(shock.motion, place, mass, axis);
-  const std::vector<BasePiece> others = base_pieces(shock.other, place, mass, axis);
+  const std::vector<BasePiece> pieces = base_pieces(shock.motion.pieces(), place, mass, axis);
+  const std::vector<BasePiece> others = base_pieces(shock.other.pieces(), place, mass, axis);
   for (const auto& [blows, impacts] : parts_of(known_impacts(shock.rows), request.first)) {
     Spectrum spectrum = begun;
     spectrum.blows = begun.blows == Blows::flat ? Blows::flat : blows;
@@ -142,7 +142,7 @@ void add_flat(const numeric::Body* body, const numeric::Observer& observer, Shoc
   std::optional<ContinuousShock> shock;
   const std::vector<Vector3> places = places_of(flat, run.probes, body ? Model::continuous : Model::discrete);
   if (body)
-    static_cast<void>(failure_of_scene([&] { shock = continuous_shock(flat, *body, places, false, observer); }));
+    static_cast<void>(failure_of_scene([&] { shock = continuous_shock(flat, *body, places, {.observer = observer}); }));
   for (std::size_t i = 0; i < places.size(); ++i) {
     Spectrum begun{.probe = i, .blows = Blows::flat, .points = {}};
     const std::vector<ShockRow>& first = shock ? shock->rows : rows;
@@ -185,7 +185,8 @@ ShockRun run_shock(const Scene& scene, const std::vector<Probe>& probes, const S
   if (request.continuous) {
     body.emplace(scene.make_body());
     run.continuous =
-        continuous_shock(scene, *body, places_of(scene, probes, Model::continuous), request.sensitivity, observer);
+        continuous_shock(scene, *body, places_of(scene, probes, Model::continuous),
+                         {.parts = request.parts, .sensitivity = request.sensitivity, .observer = observer});
     run.discrete_reason = run_discrete_side(scene, probes, run.discrete, &run.discrete_run);
     if (run.continuous->planned.run.outcome == numeric::Outcome::interrupted) return run;
     if (!run.discrete.empty()) {

@@ -15,9 +15,10 @@ namespace clatter::validation {
 
 /// What of a shock is asked for.
 struct ShockRequest {
-  bool continuous = true;       ///< the continuous model, too
-  bool sensitivity = true;      ///< of peaks, four more runs
-  double low = 10, high = 1e4;  ///< natural frequencies [Hz]
+  bool continuous = true;            ///< the continuous model, too
+  bool sensitivity = true;           ///< of peaks, four more runs
+  std::vector<FragilePart> parts{};  ///< whose margins are asked for, each at every probe
+  double low = 10, high = 1e4;       ///< natural frequencies [Hz]
   int count = 61;
   double quality = 10;        ///< Q; infinite: undamped
   int first = 2;              ///< so many impacts are the "first" ones

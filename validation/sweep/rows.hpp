@@ -43,6 +43,10 @@ struct RowLayout {
   bool has_curve = false;             ///< whether the ground is a pad, with a column of how far its curve is used
   std::string rank_by{};              ///< column by which a summary ranks attitudes; empty: as ranking_column() has it
 
+  /// The part, or none.
+  [[nodiscard]] std::vector<FragilePart> parts() const {
+    return part ? std::vector{*part} : std::vector<FragilePart>{};
+  }
   /// Whether rows have this number of impacts.
   [[nodiscard]] bool has(std::string_view quantity) const;
 };

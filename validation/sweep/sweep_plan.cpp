@@ -453,6 +453,9 @@ void name_own_attitude(const SweepRequest& request, const SceneValues& values, s
 }  // namespace
 
 Arguments sweep_arguments(SweepRequest& request) {
+  const Argument::Reader take_part = [&part = request.part](const std::string& option, const std::string& text) {
+    part = read_part(option, text);
+  };
   return {
       whole_argument("--random", request.random, 1, static_cast<int>(most_scenes), "N",
                      "N scenes with random values, --set KEY=LOW:HIGH or LOW:HIGH:log"),
@@ -468,7 +471,7 @@ Arguments sweep_arguments(SweepRequest& request) {
        .type = "NAME,...",
        .help = "more columns of rows of scenes: QUANTITY_N of impact N, QUANTITY of each, hardest, "
                "hardest_QUANTITY"},
-      part_argument(request.part, "columns margin_NAME, the least over the impacts, by which attitudes are ranked", ""),
+      part_argument(take_part, "columns margin_NAME, the least over the impacts, by which attitudes are ranked", ""),
       {.name = "--rank-by",
        .target = &request.rank_by,
        .type = "COLUMN",

@@ -240,7 +240,7 @@ PlannedRun SceneRunner::planned(std::vector<LargestShock>& shocks) {
   const std::vector<Probe>& probes = plan_.layout.probes;
   if (probes.empty()) return run_to_digits(scene_, body, observer);
   const std::vector<numeric::Vector3> places = places_from(body_properties(scene_, Model::continuous).centre, probes);
-  ContinuousShock shock = continuous_shock(scene_, body, places, false, observer);
+  ContinuousShock shock = continuous_shock(scene_, body, places, {.parts = plan_.layout.parts(), .observer = observer});
   shocks = LargestShock::of(shock.rows, terms_of(run_of(shock.planned.run), true));
   return std::move(shock.planned);
 }

@@ -79,6 +79,10 @@ def _probes(probe: str | Iterable[str] | Probes | None) -> list[str]:
     return [f"--probe={text}" for text in probe_texts(probe)]
 
 
+def _parts(part: str | Iterable[str] | None) -> list[str]:
+    return [f"--part={text}" for text in ([part] if isinstance(part, str) else part or [])]
+
+
 def _table(report: Report | None) -> Table:
     assert report is not None
     return Table(report)
@@ -95,7 +99,7 @@ def shock(
     frequencies: str | None = None,
     first: int | None = None,
     severity: float | None = None,
-    part: str | None = None,
+    part: str | Iterable[str] | None = None,
     sensitivity: bool = True,
     rows: str = "impact",
     rate: float | None = None,
@@ -109,17 +113,17 @@ def shock(
 
     scene and keys as for simulate().  probe: {"camera": (x, y, z)} in m from the geometric centre, or texts NAME:X,Y,Z.
     model: "discrete" or "continuous".  rows: "impact", "spectrum" or "pulse"; to_dict() has all.  rate [Hz]: rows are the
-    history.  part: "HZ:G", "G" or "G:MS", what the part at the probe bears.  first: so many impacts are the first ones.
+    history.  part: "HZ:G", "G" or "G:MS", what the part at the probe bears, or several.  first: so many impacts are the first ones.
     measured: accelerations of a logger (CSV) in place of a drop; its column and unit; against: a scene beside it.
     Raises BadInput, OutsideModel, NotComputed; warns of a run that ended early.
 
     >>> clatter.shock("phone-damped", probe={"camera": (0.048, 0.016, 0.0095)}, impacts=1)["peak"]
     """
     options = {"model": model, "axis": axis, "quality": quality, "frequencies": frequencies, "first": first,
-               "severity": severity, "part": part, "no_sensitivity": not sensitivity, "rows": rows, "rate": rate,
+               "severity": severity, "no_sensitivity": not sensitivity, "rows": rows, "rate": rate,
                "measured": measured and os.fspath(measured), "column": column, "unit": unit,
                "against": against and os.fspath(against)}
-    return _table(_run("shock", scene, changes, _probes(probe) + _options(options)))
+    return _table(_run("shock", scene, changes, _probes(probe) + _parts(part) + _options(options)))
 
 
 @checked
@@ -161,7 +165,7 @@ def report(
     frequencies: str | None = None,
     first: int | None = None,
     severity: float | None = None,
-    part: str | None = None,
+    part: str | Iterable[str] | None = None,
     sensitivity: bool = True,
     drops: int | None = None,
     scatter: float | None = None,
@@ -175,9 +179,9 @@ def report(
     Raises BadInput, OutsideModel, NotComputed; warns of a run that ended early.
     """
     options = {"model": model, "axis": axis, "quality": quality, "frequencies": frequencies, "first": first,
-               "severity": severity, "part": part, "no_sensitivity": not sensitivity, "drops": drops, "scatter": scatter,
+               "severity": severity, "no_sensitivity": not sensitivity, "drops": drops, "scatter": scatter,
                "rank_by": rank_by, "output": output and os.fspath(output), "format": None if output else "json"}
-    made = _run("report", scene, changes, _probes(probe) + _options(options))
+    made = _run("report", scene, changes, _probes(probe) + _parts(part) + _options(options))
     return None if made is None else Ranking(made)
 
 

@@ -59,6 +59,9 @@ BOOST_AUTO_TEST_CASE(an_elastic_flat_landing_is_a_half_sine_of_known_height_widt
   Scene scene = box({{"drop.angle_deg", "--angle", "0"}, {"ground.area", "--area", "projected"}});
   const double omega = std::sqrt(1e9 * 0.1 * 0.06 / 0.2), time = pi / omega, peak = 2 * omega;
   ShockRequest request{.low = 0.809936786 / time, .high = 2 / time, .count = 2, .quality = clatter::test::infinite};
+  const FragilePart part{.frequency = 0.3 / time, .fragility = peak},
+      tested{.fragility = peak, .duration = time, .kind = FragilePart::Kind::tested};
+  request.parts = {part, tested};
   const ShockRun run = run_shock(scene, box_probes, request);
   for (const ShockRow& row : run.continuous->rows) {
     BOOST_TEST(std::fabs(row.value.delta_v_size - 4) < 1e-8);
@@ -66,6 +69,13 @@ BOOST_AUTO_TEST_CASE(an_elastic_flat_landing_is_a_half_sine_of_known_height_widt
     BOOST_TEST(std::fabs(row.value.width / (time * (1 - 2 * std::asin(0.1) / pi)) - 1) < 1e-7);
     BOOST_TEST(std::fabs(row.value.peak_time / (time / 2) - 1) < 1e-3);
     BOOST_TEST(std::fabs(row.sensitivity->value - 0.5) < 1e-5);
+    // The blow is the pulse of which a part's response is known in closed form; the one that a tested part bore.
+    for (const FragilePart& one : request.parts) {
+      const double expected = peak * pulse_response(PulseShape::half_sine, one.oscillator()->frequency * time);
+      BOOST_TEST(std::fabs(row.response_of(one)->value / expected - 1) < 1e-7);
+      BOOST_TEST(row.response_of(one)->error >= std::fabs(row.response_of(one)->value - expected));
+    }
+    BOOST_TEST(std::fabs(margin_of(row, tested, true).value - 1) < 1e-7);
   }
   const Spectrum* spectrum = run.spectrum(0, true, Blows::impact_1);
   BOOST_TEST_REQUIRE(spectrum != nullptr);

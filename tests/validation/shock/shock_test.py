@@ -2,7 +2,10 @@
 """`clatter shock` and `clatter shock --ground` as their users meet them: probes, tables, JSON, bad input."""
 
 import math
+import random
 import unittest
+
+import numpy as np
 
 from run_folder import EmptyFolder, json_of, printed, rows_of, run
 
@@ -18,7 +21,7 @@ BAD = {
     **{f"phone-damped --probe a:0,0,0 {options}": words for options, words in {
         "--quality 0.5": "--quality", "--frequencies 10:5:3": "--frequencies", "--frequencies 10:20:1": "--frequencies", "--axis w": "--axis",
         "--severity 0": "--severity", "--rows spectra": "did you mean spectrum", "--history x.csv": "--history", "--part 200:": "--part", "--part 40ms:11g": "must be HZ:G", "--part x": "must be HZ:G",
-        "--part 0:100": "--part", "--part 200:nan": "--part", "--model discrete --rows pulse": "--rows pulse", "--model discrete --rate 1e5": "--rate",
+        "--part 0:100": "--part", "--part 200:300 --part 200:300g": "given twice", "--part 200:300 --part x": "must be HZ:G", "--part 200:nan": "--part", "--model discrete --rows pulse": "--rows pulse", "--model discrete --rate 1e5": "--rate",
         "--rate 1e5 --rows pulse": "--rate", "--rate 0": "--rate"}.items()}}
 BAD_FILES = (  # text, place, words
     ("[probe]\nname = 'a'\n", "1:", "[[probe]]"), ("[[probe]]\nname = 'a'\nplce = [1, 2, 3]\n", "3:1", "probe.place"),
@@ -118,6 +121,66 @@ class Shock(EmptyFolder):
             with self.subTest(text):
                 self.write("scene.toml", text)
                 self.assertIn(f"scene.toml:{place}" if place else "scene.toml", self.refused(words, "shock", "scene.toml", "--angle", "10"))
+
+
+def largest_response(times, accelerations, omega):
+    """Largest |ω² z| of z̈ + ω² z = −s over all axes, by Duhamel's integral with trapezoids and, after the blow, in closed form."""
+    steps = np.diff(times)[:, None]
+
+    def integral(values):
+        return np.vstack([np.zeros((1, 3)), np.cumsum((values[1:] + values[:-1]) / 2 * steps, axis=0)])
+
+    cosine, sine = np.cos(omega * times)[:, None], np.sin(omega * times)[:, None]
+    a, b = integral(cosine * accelerations), integral(sine * accelerations)
+    during = np.linalg.norm(sine * a - cosine * b, axis=1).max()
+    a, b = a[-1], b[-1]  # rings on along an ellipse, whose longer axis counts
+    return omega * max(during, math.sqrt((a @ a + b @ b) / 2 + math.hypot((a @ a - b @ b) / 2, a @ b)))
+
+
+class Parts(unittest.TestCase):
+    PAD = ("--body", "box", "--size", "0.1x0.05x0.01", "--mass", "0.1", "--clearance", "1", "--curve", "[[0, 0], [0.1, 2e4], [0.6, 2.5e4], [0.8, 2e5]]",
+           "--thickness", "0.03", "--probe", "camera:0.048,0.016,0.0045", "--no-sensitivity", "--frequencies", "100:3000:2")
+
+    def test_no_margin_is_better_than_that_of_the_exact_oscillator(self):
+        """Undamped drops on a pad, whose first impact has often several humps: of a part with a frequency, and of one known
+        by a test, whose oscillator has V_c = A_s/ω and A_c = A_s/2."""
+        trapezoids, axes = 2e-3, 3**0.5  # (ω/rate)²/12 and the first instants; peaks of the axes that are not at one time
+        draw, rings_more = random.Random(7), 0
+        for _ in range(24):
+            turned = ("--angle", repr(draw.uniform(0, 90)), "--tilt", repr(draw.uniform(0, 20)))
+            found = shock(*self.PAD, *turned, "--impacts", "1", "--part", "100:100", "--part", "40g:2.5ms", "--rate", "1e5")
+            impact, history = found["impacts"][0], found["history"]
+            inside = [row for row in history if not row["mark"] and row["time"] <= impact["duration"]]
+            times = np.array([row["time"] for row in inside])
+            felt = np.array([[row[f"camera_{axis}"] for axis in "xyz"] for row in inside])
+            for blow, frequency, bears in zip(found["pulses"]["blows"], (100, 200), (100, 80), strict=True):
+                exact = bears * 9.80665 / largest_response(times, felt, 2 * math.pi * frequency)
+                self.assertLessEqual(blow["margin_history"] - blow["error_estimate"]["margin_history"], exact * (1 + trapezoids))
+                self.assertGreaterEqual(blow["margin_history"], exact / axes)
+                rings_more += exact < 0.98 * min(blow["margin_rectangle"], blow["margin_half_sine"])
+        self.assertGreater(rings_more, 10, "some ring more than by one pulse")
+
+    def test_the_least_margin_of_a_sweep_and_of_a_report_is_the_exact_oscillator_s_where_that_is_less(self):
+        drop = (*self.PAD, "--angle", "65", "--tilt", "14", "--impacts", "1", "--part", "100:100")
+        blow = shock(*drop)["pulses"]["blows"][0]
+        self.assertLess(blow["margin_history"], 0.6 * min(blow["margin_rectangle"], blow["margin_half_sine"]))
+        answer = json_of("report", *drop, "--drops", "0")["answer"]
+        self.assertEqual((answer["margin"], answer["decided_by"]), (blow["margin_history"], "history"))
+
+    def test_several_parts_have_a_row_each_and_one_prints_what_it_prints_alone(self):
+        drop = ("phone-damped", *PROBE, *FEW)
+        parts = ("300:500", "300g", "900g:0.7ms")
+        together = shock(*drop, *(word for part in parts for word in ("--part", part)))["pulses"]
+        self.assertEqual([boundary["part"] for boundary in together["damage_boundaries"]], list(parts))
+        margins = {}
+        for part in parts:
+            alone = shock(*drop, "--part", part)["pulses"]
+            self.assertEqual(alone["blows"], [blow for blow in together["blows"] if blow["part"] == part])
+            margins[part] = min(blow[name] for blow in alone["blows"] for name in blow if name.startswith("margin") and blow[name] is not None)
+        self.assertIn(f"of {min(margins, key=margins.get)} at camera in impact 2", together["message"])
+        rows = rows_of("shock", *drop, "--rows", "pulse", "--part", "300:500", "--part", "300g")
+        self.assertEqual([row["part"] for row in rows], ["300:500", "300g"] * 2)
+        self.assertNotIn("  part", printed("shock", *drop, "--rows", "pulse", "--part", "300:500"))
 
 
 class PulsesAndHistory(unittest.TestCase):
