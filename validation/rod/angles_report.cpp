@@ -439,7 +439,7 @@ Picture angles_picture(const AnglesRequest& request) {
     if (!alone) curve.legend = "";
     if (marked) panel.plot.curves.push_back(curve);
   };
-  add(angles, "beta_deg", "β, second impact", palette::beta);
+  add(angles, "beta_deg", second.empty() ? "β, second impact" : "β, second impact; windows", palette::beta);
   if (request.as_printed) {
     add(angles, "beta_printed_deg", "β as printed, g > 0", palette::ochre);
     add(angles, "beta_printed_negative_g_deg", "β as printed, g < 0", palette::sky);
@@ -447,7 +447,7 @@ Picture angles_picture(const AnglesRequest& request) {
     add(angles, "gamma_deg", third.empty() ? "γ, third impact" : "γ, third impact; windows", palette::gamma);
   }
   add(impulses, "P1", "P₁", palette::ink);
-  add(impulses, "P2", "P₂", palette::beta);
+  add(impulses, "P2", second.empty() ? "P₂" : "P₂; windows", palette::beta);
   if (!request.as_printed) add(impulses, "P3", third.empty() ? "P₃" : "P₃; windows", palette::gamma);
   std::vector<std::string> scene{request.rod_words};
   for (const std::string& windows : {second, third}) {
