@@ -52,7 +52,7 @@ struct Check {
   bool quick = true;                ///< belongs to --quick
   std::optional<int> figure;
   std::string command;  ///< that shows the number
-  /// Of an erratum: the equation or figure, what the paper prints there, the right form, and which number both give.
+  /// An erratum has its equation or figure, what the paper prints there, the right form, and which number both give.
   std::string place{}, printed{}, right{}, compared{}, compared_unit{};
 };
 
