@@ -3,8 +3,8 @@
 """Writes what the documents show of the program's output: blocks of README.md and of the reference's pages,
 verification.md, the figures' data, extremes.md with figures/extremes.svg.
 
-A block stands between "<!-- output: COMMAND -->", "<!-- table: COMMAND -->", "<!-- code: FILE -->", "<!-- measurement -->" or
-"<!-- costs -->" and "<!-- end -->".  The costs are those of tradeoff.csv, which tradeoff.py measures.  The paper's figures and other pictures
+A block stands between "<!-- output: COMMAND -->", "<!-- table: COMMAND -->", "<!-- code: FILE -->", "<!-- measurement -->",
+"<!-- errata -->" or "<!-- costs -->" and "<!-- end -->".  The costs are those of tradeoff.csv, which tradeoff.py measures.  The paper's figures and other pictures
 are drawn from the data by figures.py, to be run after this.
 """
 
@@ -26,7 +26,7 @@ FAULTS = ROOT / "tests" / "seeded_faults" / "faults.toml"
 VERIFICATION = ROOT / "notebooks-data" / "verification.md"
 TRADEOFF = ROOT / "notebooks-data" / "tradeoff.csv"
 PAGES = ROOT / "notebooks-data" / "reference"
-BLOCK = re.compile(r"(<!-- ((?P<kind>output|table|code|measurement|costs)(: (?P<what>[^\n]+?))?) -->\n).*?(?P<end><!-- end -->)", re.DOTALL)
+BLOCK = re.compile(r"(<!-- ((?P<kind>output|table|code|measurement|errata|costs)(: (?P<what>[^\n]+?))?) -->\n).*?(?P<end><!-- end -->)", re.DOTALL)
 LANGUAGES = {".txt": "cmake", ".cpp": "cpp", ".py": "python", ".toml": "toml"}
 EXTREMES = ROOT / "notebooks-data" / "extremes.md"
 FIGURES = ROOT / "notebooks-data" / "figures"
@@ -95,6 +95,25 @@ def measurement(program):
         cells = [", ".join(share(rows[quantity]) for quantity in quantities if quantity in rows) or "–"
                  for rows in sets.values()]
         lines.append(f"| {words} | {' | '.join(cells)} |")
+    return "\n".join(lines) + "\n"
+
+
+@functools.cache
+def errata(program):
+    """What the paper prints and what is right, with the number that each gives, by the paper's equations and then its figures."""
+    def order(check):
+        figure, number = "Fig" in check["place"], int(re.search(r"\d+", check["place"]).group())
+        return figure, number, "after" in check["place"], int(check["id"][1:])
+
+    def value(check, form):
+        given = check[form + "_value"]
+        return "–" if given is None else number({"number": given, "unit": check["compared_unit"]})
+
+    checks = json.loads(printed(program, ["verify", "--only", *(f"E{i}" for i in range(1, 12)), "--format", "json"]))["checks"]
+    lines = ["| | printed | right | number | printed gives | right gives | |", "|---|---|---|---|---|---|---|"]
+    for check in sorted(checks, key=order):
+        cells = [check["place"], check["printed"], check["right"], check["compared"], value(check, "printed"), value(check, "right"), check["id"]]
+        lines.append("| " + " | ".join(cell(text) for text in cells) + " |")
     return "\n".join(lines) + "\n"
 
 
@@ -204,7 +223,7 @@ def renewed(program, text):
         elif kind == "table":
             content = "\n" + table(program, what) + "\n"
         else:
-            content = code(what) if kind == "code" else measurement(program) if kind == "measurement" else costs()
+            content = code(what) if kind == "code" else costs() if kind == "costs" else {"measurement": measurement, "errata": errata}[kind](program)
         return found.group(1) + content + found.group("end")
     return BLOCK.sub(block, text)
 

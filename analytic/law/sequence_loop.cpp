@@ -5,12 +5,17 @@
 
 namespace clatter::analytic {
 
-std::string energy_warning(FrictionKind friction, const CreatedEnergy& created, double joules) {
+std::string law_warning(FrictionKind friction, const Unphysical& found, double joules) {
+  const bool is_ratio = friction == FrictionKind::impulse_ratio;
+  if (found.first_energy == 0 && found.first_along == 0) return "";
   std::ostringstream text;
   text.precision(6);
-  text << (friction != FrictionKind::impulse_ratio ? "the law of restitution, with friction," : "the impulse ratio")
-       << " creates energy: " << joules << " J in all, from impact " << created.first << " on"
-       << (friction != FrictionKind::impulse_ratio ? "; Stronge's law never does" : "");
+  text << (is_ratio ? "the impulse ratio" : "the law of restitution, with friction,");
+  if (found.first_energy > 0)
+    text << " creates energy: " << joules << " J in all, from impact " << found.first_energy << " on";
+  else text << " pushes the contact along its slip, as no friction does, from impact " << found.first_along << " on";
+  text << (is_ratio ? "; Eq. 8 takes it as given, --friction MU follows the slip"
+                    : "; Stronge's law (--restitution-law stronge) never does");
   return text.str();
 }
 

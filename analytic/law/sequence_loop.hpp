@@ -22,23 +22,24 @@ struct Resolution {
   double of_impulse = 0;  ///< what the ground gives in that time [N·s]
 };
 
-/// Energy that a law of restitution or friction has created [J, or in internal units].
-struct CreatedEnergy {
-  double sum = 0;
-  std::size_t first = 0;  ///< number of the first impact to do so, from 1; 0: none
+/// What a law of restitution or an impulse ratio does that no contact does.
+struct Unphysical {
+  double created = 0;            ///< energy that impacts created [J, or in internal units]
+  std::size_t first_energy = 0;  ///< number of the first impact to do so, from 1; 0: none
+  std::size_t first_along = 0;   ///< the same of an impulse ratio that pushes the contact the way it slips
 };
 
 /// "the impulse ratio creates energy: ... J in all, from impact ... on", of a law of restitution with the one that
-/// never does.
-/// @param joules  the sum
-[[nodiscard]] std::string energy_warning(FrictionKind friction, const CreatedEnergy& created, double joules);
+/// never does; else of a ratio that pushes along the slip; empty: neither happens.
+/// @param joules  the created energy
+[[nodiscard]] std::string law_warning(FrictionKind friction, const Unphysical& found, double joules);
 
 /// The rows, outcome and errors of one run, in internal units.  AnySequence has rows, outcome, message, tail, near_miss
 /// and total_normal_impulse; AnyGrowth follows errors and says predictable().
 template <class AnySequence, class AnyGrowth>
 class SequenceLoop {
  public:
-  [[nodiscard]] const CreatedEnergy& created() const { return created_; }
+  [[nodiscard]] const Unphysical& unphysical() const { return unphysical_; }
 
  protected:
   using AnyTail = typename decltype(AnySequence::tail)::value_type;
@@ -103,8 +104,16 @@ class SequenceLoop {
   void note_energy(double loss, double rounding) {
     const double start = result_.rows.empty() ? 1 : result_.rows.front().energy_before;
     if (!(loss < -rounding * start)) return;
-    created_.sum -= loss;
-    if (created_.first == 0) created_.first = result_.rows.size() + 1;
+    unphysical_.created -= loss;
+    if (unphysical_.first_energy == 0) unphysical_.first_energy = result_.rows.size() + 1;
+  }
+
+  /// Notes the next row where an impulse ratio pushes along the slip before or after its impact, as no friction does.
+  /// @param before, after  tangential impulse times slip, over the size of the impulse
+  void note_push(FrictionKind friction, double before, double after) {
+    constexpr double rounding = 1e-12;  // of the slip, beside the speed of the first impact
+    if (friction == FrictionKind::impulse_ratio && unphysical_.first_along == 0 && std::fmax(before, after) > rounding)
+      unphysical_.first_along = result_.rows.size() + 1;
   }
 
   /// The contact has come to rest; has the body?
@@ -157,7 +166,7 @@ class SequenceLoop {
     result_.message = error.what();
   }
 
-  CreatedEnergy created_;
+  Unphysical unphysical_;
 };
 
 }  // namespace clatter::analytic

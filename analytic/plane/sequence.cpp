@@ -114,6 +114,9 @@ class Run : public SequenceLoop<Sequence, ErrorGrowth> {
                          row.impact.tangential_impulse, damping_loss(law_, row.impact.approach_speed)});
     }
     note_energy(row.impact.energy_loss, 1e-14);
+    const double along = row.impact.tangential_impulse;
+    const double push = along == 0 ? 0 : std::copysign(1, along);
+    note_push(law_.friction, push * row.impact.slip_before, push * row.impact.slip_after);
     if (growth_) growth_->strike(motion_, law_, row);
     result_.rows.push_back(row);
     return strike;
@@ -251,9 +254,9 @@ Sequence run_sequence(const Drop& drop, const SequenceOptions& options, bool sum
   Sequence sequence = run.run();
   units.to_si(sequence);
   require_representable(sequence);
-  if (run.created().first > 0) {
-    sequence.warnings.push_back(energy_warning(drop.law.friction, run.created(), units.energy(run.created().sum)));
-  }
+  const Unphysical& found = run.unphysical();
+  std::string warning = law_warning(drop.law.friction, found, units.energy(found.created));
+  if (!warning.empty()) sequence.warnings.push_back(std::move(warning));
   return sequence;
 }
 

@@ -185,7 +185,7 @@ class TheSameBits(unittest.TestCase):
         mine = clatter.verify(["C1", "E2", "X1"])
         program = told("verify", "--only", "C1", "E2", "X1")
         self.assertEqual(without_time(mine.to_dict()), without_time(program))
-        self.assertEqual((mine.passed, mine.failed, mine["E2"].answer), (3, 0, "holds"))
+        self.assertEqual((mine.passed, mine.failed, mine["E2"].answer), (3, 0, "misprint"))
 
     def test_angles_are_the_programs(self):
         for given, flags in (({"step": 2.5}, ["--step", "2.5"]), ({"count": 7, "start": 1, "stop": 60}, ["--count", "7", "--from", "1", "--to", "60"]),

@@ -29,10 +29,10 @@ constexpr double loosest = 5;  // times the error seen
 }
 
 Finding answer_of(const std::string& id, const std::string& name) {
-  for (const Finding answer : {Finding::holds, Finding::refuted, Finding::ambiguous}) {
+  for (const Finding answer : {Finding::holds, Finding::refuted, Finding::ambiguous, Finding::misprint}) {
     if (name == answer_name(answer)) return answer;
   }
-  unsound(id, "answer must be holds, refuted or ambiguous");
+  unsound(id, "answer must be holds, refuted, ambiguous or misprint");
 }
 
 Check check_of(const toml::table& row) {
@@ -50,12 +50,20 @@ Check check_of(const toml::table& row) {
               .answer = Finding::holds,
               .quick = row["quick"].value_or(true),
               .figure = row["figure"].value<int>(),
-              .command = text("command")};
+              .command = text("command"),
+              .place = text("place"),
+              .printed = text("printed"),
+              .right = text("right"),
+              .compared = text("compared"),
+              .compared_unit = text("compared_unit")};
   check.answer = answer_of(check.id, row["answer"].value_or(std::string("holds")));
   for (const std::string* required :
        {&check.what, &check.claim, &check.number, &check.oracle, &check.error, &check.reason, &check.command}) {
     if (required->empty()) unsound(check.id, "what, claim, number, oracle, error, reason and command are required");
   }
+  if (check.id.starts_with('E') &&
+      (check.place.empty() || check.printed.empty() || check.right.empty() || check.compared.empty()))
+    unsound(check.id, "an erratum needs place, printed, right and compared");
   if (!(check.tolerance > 0 && check.tolerance <= loosest * check.seen * (1 + 1e-12)))
     unsound(check.id, "the tolerance must be positive and at most 5 times the error seen");
   return check;
@@ -137,6 +145,7 @@ const char* answer_name(Finding answer) {
     case Finding::holds: return "holds";
     case Finding::refuted: return "refuted";
     case Finding::ambiguous: return "ambiguous";
+    case Finding::misprint: return "misprint";
   }
   return "";
 }

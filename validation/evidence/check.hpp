@@ -23,6 +23,7 @@ enum class Finding {
   holds,
   refuted,    ///< the number is another one
   ambiguous,  ///< the text leaves open what it means; the number says what each reading gives
+  misprint,   ///< of an erratum: the printed form gives another number than the right one
 };
 [[nodiscard]] const char* answer_name(Finding answer);
 /// The answer to a claim in words, given whether the inequality that it states holds.
@@ -51,6 +52,8 @@ struct Check {
   bool quick = true;                ///< belongs to --quick
   std::optional<int> figure;
   std::string command;  ///< that shows the number
+  /// An erratum has its equation or figure, what the paper prints there, the right form, and which number both give.
+  std::string place{}, printed{}, right{}, compared{}, compared_unit{};
 };
 
 /// The table.  @throws std::runtime_error if it is not sound (an id twice, a tolerance above 5 × seen …).
@@ -61,7 +64,8 @@ struct Measured {
   double number = 0;
   double error = 0;  ///< against the oracle
   Finding answer = Finding::holds;
-  std::string found;  ///< in words, with further numbers
+  std::string found;                         ///< in words, with further numbers
+  std::optional<double> printed{}, right{};  ///< of an erratum: what each form gives; none: no number, a sign say
 };
 
 /// The largest of the errors taken.  It is no number if none was taken or one is no number, so that no check passes on

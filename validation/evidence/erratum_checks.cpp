@@ -23,6 +23,13 @@ using analytic::ContactAngles;
 using analytic::degrees_per_radian;
 using numeric::Vector3;
 
+/// The erratum shows where the printed form gives another number than the right one.
+Finding misprint_if(bool differs) { return differs ? Finding::misprint : Finding::holds; }
+Measured erratum(double number, double error, const std::string& found, double printed, double right) {
+  constexpr double rounding = 1e-3;  // of the numbers in the paper's text
+  return {number, error, misprint_if(std::fabs(printed - right) > rounding * std::fabs(right)), found, printed, right};
+}
+
 /// Fourth line of Eq. 8, V_n − Ω d_t = −e v_n, for θ = 30°, v_n = −1, μ_i = 0.2, end a: with Ω of the model, and with
 /// that of Eq. 9 as printed.
 Measured sign_of_omega(CaseRuns&) {
@@ -35,9 +42,10 @@ Measured sign_of_omega(CaseRuns&) {
           .after;
   const auto residual = [&](double omega) { return after.normal - omega * (-c / 2) + v; };
   const double error = worst_of({std::fabs(residual(after.angular)), std::fabs(after.angular + printed)});
-  return {
-      residual(printed), error, Finding::holds,
-      fmt::format("residual of Eq. 8 with Ω as printed; with the model's {}", significant(residual(after.angular), 1))};
+  return erratum(
+      residual(printed), error,
+      fmt::format("residual of Eq. 8 with Ω as printed; with the model's {}", significant(residual(after.angular), 1)),
+      printed, after.angular);
 }
 
 /// β at θ = 20°, v_n = −1, g = 9.81 by the brute-force simulation, in long double.
@@ -55,9 +63,10 @@ Measured gravity_term(CaseRuns&) {
   const auto printed = [&](double signed_g) {
     return contact_angle_as_printed(theta, signed_g).angle * degrees_per_radian;
   };
-  return {beta, std::fabs(beta - simulated) / simulated, Finding::holds,
-          fmt::format("β at 20°, v_n = −1, g = 9.81; printed {}° (g > 0) or {}° (g < 0)", significant(printed(g), 4),
-                      significant(printed(-g), 3))};
+  return erratum(beta, std::fabs(beta - simulated) / simulated,
+                 fmt::format("β at 20°, vₙ = −1, g = 9.81; printed {}° (g > 0) or {}° (g < 0)",
+                             significant(printed(g), 4), significant(printed(-g), 3)),
+                 printed(g), beta);
 }
 
 /// V_b after impact 2 for v_n = −2: the end leaves as fast as it came.
@@ -68,8 +77,8 @@ Measured factor_v(CaseRuns&) {
   const double came = speed * (at.velocity[0] - at.angular[0] * c / 2);
   const double right = speed * at.velocity[1] - speed * at.angular[1] * c / 2;
   const double printed = speed * at.velocity[1] + speed * at.angular[1] * c * v / 2;
-  return {printed / -came, std::fabs(right / -came - 1), Finding::holds,
-          "speed of end b after impact 2 over that before, as printed for v_n = −2; right 1"};
+  return erratum(printed / -came, std::fabs(right / -came - 1),
+                 "speed of end b after impact 2 over that before, as printed for vₙ = −2; right 1", printed, right);
 }
 
 Measured relative_velocity(CaseRuns&) {
@@ -79,33 +88,42 @@ Measured relative_velocity(CaseRuns&) {
   const double printed = (1 - 3 * c * c) / d * v - std::cos(at.beta.angle) * 6 * c / d * v;
   const double actual = at.velocity[0] - at.angular[0] * std::cos(at.beta.angle) / 2;
   const ContactAngles heavy = elastic_angles(20, 1);
-  return {printed / actual, std::fabs(printed / actual + 1), Finding::holds,
-          fmt::format("v_rn over the normal velocity of the contact point; with G = 1 also − gT = {}",
-                      significant(-heavy.beta.time, 3))};
+  return erratum(printed / actual, std::fabs(printed / actual + 1),
+                 fmt::format("v_rn over the normal velocity of the contact point; with G = 1 also − gT = {}",
+                             significant(-heavy.beta.time, 3)),
+                 printed, actual);
 }
 
 Measured second_fold(CaseRuns&) {
   const analytic::RegimeBoundary fold = regime_boundary(analytic::ImpactNumber::second, {});
   const double exact = second_impact_fold_beta();
-  return {fold.beta * degrees_per_radian, std::fabs(fold.beta - exact) / exact, Finding::holds,
-          fmt::format("β at the end of the second impact, θ = {}°; printed 90° at 58°",
-                      significant(fold.theta * degrees_per_radian, 14))};
+  const double beta = fold.beta * degrees_per_radian;
+  return erratum(beta, std::fabs(fold.beta - exact) / exact,
+                 fmt::format("β at the end of the second impact, θ = {}°; printed 90° at 58°",
+                             significant(fold.theta * degrees_per_radian, 14)),
+                 90, beta);
 }
 
 Measured third_fold(CaseRuns&) {
   const analytic::RegimeBoundary fold = regime_boundary(analytic::ImpactNumber::third, {});
-  return {fold.theta * degrees_per_radian, std::fabs(fold.theta * degrees_per_radian / third_impact_fold_deg - 1),
-          Finding::holds,
-          fmt::format("θ at the end of the third impact, β = {}°, γ = {}°; printed around 27°",
-                      significant(fold.beta * degrees_per_radian, 9), significant(fold.gamma * degrees_per_radian, 9))};
+  const double theta = fold.theta * degrees_per_radian;
+  return erratum(
+      theta, std::fabs(theta / third_impact_fold_deg - 1),
+      fmt::format("θ at the end of the third impact, β = {}°, γ = {}°; printed around 27°",
+                  significant(fold.beta * degrees_per_radian, 9), significant(fold.gamma * degrees_per_radian, 9)),
+      27, theta);
 }
 
 Measured centre_after_first(CaseRuns&) {
   const double at_45 = elastic_angles(45).velocity[0];
-  return {at_45, std::fabs(at_45 + 0.2), Finding::holds,
+  return {at_45,
+          std::fabs(at_45 + 0.2),
+          misprint_if(at_45 < 0),
           fmt::format("V₁ at 45°, downward; {} at 54.7356°, {} at 58°",
                       significant(elastic_angles(std::acos(1 / std::sqrt(3.0)) * degrees_per_radian).velocity[0], 1),
-                      significant(elastic_angles(58).velocity[0], 3))};
+                      significant(elastic_angles(58).velocity[0], 3)),
+          {},
+          at_45};
 }
 
 /// A body in a general state under a general load.
@@ -140,8 +158,12 @@ Measured singular_mass_matrix(CaseRuns&) {
   const Vector3& omega = general.state.angular_velocity;
   const Vector3 moment = general.state.attitude.conjugate() * general.wrench.moment;
   const Vector3 exact = general.body.inertia.inverse() * (moment - omega.cross(general.body.inertia * omega));
-  return {values[0] / values[6], (solved.angular - exact).norm() / exact.norm(), Finding::holds,
-          fmt::format("smallest over largest eigenvalue of M; the next is {}", significant(values[1] / values[6], 2))};
+  constexpr double rounding = 1e-12;  // of an eigenvalue that is 0, over the largest
+  const auto rank = std::count_if(values.begin(), values.end(), [&](double v) { return v > rounding * values[6]; });
+  return erratum(
+      values[0] / values[6], (solved.angular - exact).norm() / exact.norm(),
+      fmt::format("smallest over largest eigenvalue of M; the next is {}", significant(values[1] / values[6], 2)), 7,
+      static_cast<double>(rank));
 }
 
 /// ½ q̇ᵀ M q̇ with both rows of the block column, and with the printed one alone.
@@ -155,8 +177,9 @@ Measured block_column(CaseRuns&) {
       (general.body.mass * general.state.velocity.squaredNorm() + omega.dot(general.body.inertia * omega)) / 2;
   const double full = rate.dot(system.mass_matrix * rate) / 2;
   const double printed = rate.tail<4>().dot(system.mass_matrix.bottomRows<4>() * rate) / 2;
-  return {printed / exact, std::fabs(full / exact - 1), Finding::holds,
-          "share of the kinetic energy that the printed block gives; it has 4 rows for 7 unknowns"};
+  return erratum(printed / exact, std::fabs(full / exact - 1),
+                 "share of the kinetic energy that the printed block gives; it has 4 rows for 7 unknowns",
+                 printed / exact, full / exact);
 }
 
 /// Acceleration of a point of the phone in free flight: the simulator's path, differentiated, less the part of ω̇′.
@@ -173,8 +196,9 @@ Measured centripetal_term(CaseRuns&) {
   numeric::Matrix3 cross;
   cross << 0, -omega.z(), omega.y(), omega.z(), 0, -omega.x(), -omega.y(), omega.x(), 0;
   const Vector3 right = cross * cross * u, printed = cross * cross.transpose() * u;
-  return {printed.dot(exact) / exact.squaredNorm(), (right - exact).norm() / exact.norm(), Finding::holds,
-          "ω̃ω̃ᵀu over the acceleration in free flight; ω̃ω̃u gives 1"};
+  const auto share = [&](const Vector3& form) { return form.dot(exact) / exact.squaredNorm(); };
+  return erratum(share(printed), (right - exact).norm() / exact.norm(),
+                 "ω̃ω̃ᵀu over the acceleration in free flight; ω̃ω̃u gives 1", share(printed), share(right));
 }
 
 Measured two_versions_of_figure_17(CaseRuns& case_runs) {
@@ -187,12 +211,13 @@ Measured two_versions_of_figure_17(CaseRuns& case_runs) {
     return (impacts.at(2).value.start - impacts.at(1).value.start) /
            (impacts.at(1).value.start - impacts.at(0).value.start);
   };
-  return {
-      came, std::fabs(came / speed - 1), Finding::holds,
+  return erratum(
+      came, std::fabs(came / speed - 1),
       fmt::format(
           "m/s at the first touch from 2 m, text 1; the third impact is apart, as described, only in the caption's: "
           "its interval is {} times the first (text: {})",
-          significant(gaps(caption), 3), significant(gaps(text), 2))};
+          significant(gaps(caption), 3), significant(gaps(text), 2)),
+      1, came);
 }
 
 }  // namespace

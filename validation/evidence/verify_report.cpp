@@ -39,12 +39,26 @@ std::string oracle_letter(const std::string& oracle) {
 /// The answer with a mark that says whether the check passed.
 std::string marked_answer(const CheckResult& result) {
   if (!result.done) return "not run";
-  const bool is_erratum = result.check->id.starts_with('E') && result.measured.answer == Finding::holds;
-  return std::string(is_erratum ? "misprint" : answer_name(result.measured.answer)) + (result.passed() ? "✓" : "✗");
+  return answer_name(result.measured.answer) + std::string(result.passed() ? "✓" : "✗");
 }
 
 /// The number to four digits; a whole one has no zeros behind its point.
 Cell number_cell(double number) { return is_short_whole(number) ? Cell(number, shortest(number)) : Cell(number, 4); }
+
+Cell number_or_none(const std::optional<double>& number) { return number ? number_cell(*number) : Cell(); }
+
+/// What the paper prints and what is right, each with its number: "printed ...: −3.074 rad/s; right ...: 3.074 rad/s".
+std::string forms_of(const CheckResult& result) {
+  const Check& check = *result.check;
+  const auto form = [&](const std::string& text, const std::optional<double>& number) {
+    if (!number) return text;
+    const std::string value = is_short_whole(*number) ? shortest(*number) : significant(*number, 4);
+    return fmt::format("{}: {}{}{}", text, value, check.compared_unit.empty() || check.compared_unit == "°" ? "" : " ",
+                       check.compared_unit);
+  };
+  return fmt::format("{}; printed {}; right {}", check.compared, form(check.printed, result.measured.printed),
+                     form(check.right, result.measured.right));
+}
 
 Row check_row(const CheckResult& result) {
   const Check& check = *result.check;
@@ -69,7 +83,14 @@ Row check_row(const CheckResult& result) {
           Cell(text_or_nothing(result.failure)),
           Cell(m.found),
           Cell(check.figure ? Value(*check.figure) : Value()),
-          Cell(check.command)};
+          Cell(check.command),
+          Cell(text_or_nothing(check.place)),
+          Cell(text_or_nothing(check.printed)),
+          Cell(text_or_nothing(check.right)),
+          Cell(text_or_nothing(check.compared)),
+          number_or_none(m.printed),
+          number_or_none(m.right),
+          Cell(text_or_nothing(check.compared_unit))};
 }
 
 const char* const style = R"css(
@@ -81,7 +102,7 @@ p { max-width: 46rem; } .pale { color: var(--pale); }
 table { border-collapse: collapse; width: 100%; font-size: .88rem; }
 th, td { text-align: left; padding: .35rem .6rem; border-bottom: 1px solid var(--line); vertical-align: top; }
 th { position: sticky; top: 0; background: #fff; } td.number { text-align: right; font-variant-numeric: tabular-nums; white-space: nowrap; } td.number .pale { white-space: normal; } td:nth-child(2) { min-width: min(24rem, 60vw); }
-.passed, .holds { color: var(--good); } .failed { color: var(--bad); font-weight: 600; } .refuted, .ambiguous { color: var(--open); font-weight: 600; }
+.passed, .holds, .misprint { color: var(--good); } .failed { color: var(--bad); font-weight: 600; } .refuted, .ambiguous { color: var(--open); font-weight: 600; }
 code { font: .82rem ui-monospace, monospace; background: #f3f5f8; padding: .1rem .35rem; border-radius: 3px; overflow-wrap: anywhere; }
 .plots { display: grid; grid-template-columns: repeat(auto-fit, minmax(min(100%, 27rem), 1fr)); gap: .8rem; }
 .plots svg:only-child { max-width: 38rem; }
@@ -107,9 +128,7 @@ struct Group {
 constexpr Group groups[] = {
     {'C', "Claims of the paper",
      "Does each statement hold?  A refuted one is answered with the number that was measured."},
-    {'E', "Errata",
-     "The printed form and the right one, both evaluated; the number is what the printed form gives or the right "
-     "value, as the text beside it says."},
+    {'E', "Errata", "The printed form and the right one, both evaluated at one point."},
     {'F', "Figures", "Laws that the data of each figure must obey."},
     {'X', "Exact results", "Closed forms, 30-digit tables, conservation laws, orders of convergence."},
     {'M', "Both models over every scene", "The limit of ever stiffer grounds is the discrete model's value."},
@@ -122,6 +141,7 @@ std::string row_of(const CheckResult& result) {
   const Measured& m = result.measured;
   const std::string answer = result.done ? answer_name(m.answer) : "";
   const char* verdict = !result.done ? "not run" : result.passed() ? "passed" : "failed";
+  const std::string found = m.found + (check.printed.empty() ? "" : ". " + check.place + ", " + forms_of(result));
   const std::string number = (is_short_whole(m.number) ? shortest(m.number) : significant(m.number, 6)) +
                              (check.unit.empty() ? "" : " " + check.unit);
   return fmt::format(
@@ -130,7 +150,7 @@ std::string row_of(const CheckResult& result) {
       "<td class=\"number\"><span class=\"pale\">{}</span><br>{}</td><td>{}<br><span class=\"pale\">{}</span></td><td "
       "class=\"number\">{}</td>"
       "<td class=\"number\" title=\"{}\">{}</td><td class=\"{}\">{}{}</td><td class=\"number\">{:.2f}</td></tr>\n",
-      check.id, check.id, html_escaped(check.claim), html_escaped(m.found), html_escaped(check.command), answer, answer,
+      check.id, check.id, html_escaped(check.claim), html_escaped(found), html_escaped(check.command), answer, answer,
       html_escaped(check.number), html_escaped(number), html_escaped(check.oracle), html_escaped(check.error),
       significant(m.error, 2), html_escaped(check.reason), significant(check.tolerance, 2), verdict, verdict,
       result.failure.empty() ? "" : ": " + html_escaped(result.failure), result.seconds);
@@ -171,14 +191,15 @@ std::set<int> wanted_figures(const std::vector<CheckResult>& results) {
 }  // namespace
 
 std::vector<Column> verify_columns() {
-  std::vector<Column> columns{word_column("id", "id", "short name of the check"),
-                              word_column("what", "what", "the check in a few words"),
-                              word_column("answer", "answer", "whether the claim holds"),
-                              {"number", "number", "", "that was measured, in `unit`"},
-                              word_column("oracle", "by", "kind of the number's judge"),
-                              {"measured_error", "error", "", "of the number, in the sense of `metric`"},
-                              {"tolerance", "limit", "", "that the error must keep"},
-                              {"seconds", "cost", "s", "processor time"}};
+  std::vector<Column> columns{
+      word_column("id", "id", "short name of the check"),
+      word_column("what", "what", "the check in a few words"),
+      word_column("answer", "answer", "whether the claim holds: holds, refuted, ambiguous or misprint"),
+      {"number", "number", "", "that was measured, in `unit`"},
+      word_column("oracle", "by", "kind of the number's judge"),
+      {"measured_error", "error", "", "of the number, in the sense of `metric`"},
+      {"tolerance", "limit", "", "that the error must keep"},
+      {"seconds", "cost", "s", "processor time"}};
   for (const auto& [name, meaning] : {std::pair{"claim", "in full"},
                                       {"quantity", "what the number is"},
                                       {"unit", "of the number"},
@@ -190,7 +211,14 @@ std::vector<Column> verify_columns() {
                                       {"failure", "why it failed"},
                                       {"found", "what else was found"},
                                       {"figure", "of the paper that shows it"},
-                                      {"command", "that shows it"}}) {
+                                      {"command", "that shows it"},
+                                      {"place", "equation or figure of an erratum"},
+                                      {"printed", "what the paper prints there"},
+                                      {"right", "the right form"},
+                                      {"compared", "the number that both forms give"},
+                                      {"printed_value", "that number by the printed form"},
+                                      {"right_value", "the same by the right form"},
+                                      {"compared_unit", "of both"}}) {
     columns.push_back({.name = name, .heading = name, .unit = "", .meaning = meaning, .shown = false});
   }
   return columns;
@@ -225,6 +253,8 @@ Report verify_report(const std::vector<CheckResult>& results, const std::string&
   report.grid.columns = verify_columns();
   for (const CheckResult& result : results) {
     report.grid.rows.push_back(check_row(result));
+    if (result.done && !result.check->printed.empty() && selection.ends_with("by name"))
+      report.notes.push_back(fmt::format("{}, {}: {}", result.check->id, result.check->place, forms_of(result)));
     if (result.done && !result.passed())
       report.notes.push_back(fmt::format("{}: {}", result.check->id, result.failure));
   }
@@ -234,7 +264,8 @@ Report verify_report(const std::vector<CheckResult>& results, const std::string&
        "by: the oracle, c closed form, t 30-digit table, l conservation law, m other model, o convergence, v "
        "independent value; limit: of the error",
        "answer: what became of the claim, which --only ID --format json prints in full; a refuted one is an error of "
-       "the paper, a misprint one of its formulas, which holds as corrected.  ✓: the check passed, with the answer "
+       "the paper, a misprint a form that it prints wrong; --only E1 shows it beside the right one.  ✓: the check "
+       "passed, with the answer "
        "that was expected and an error within its limit"});
   report.fields["model"] = "verification";
   report.fields["selection"] = selection;

@@ -246,9 +246,15 @@ class PlanarImpact {
     }
     if (given_.moreau) friction_at_end(a, b, e);
     eq8(a, b, e, is_single || drop_.law.law == analytic::RestitutionLaw::newton);
+    const bool is_eq9 = drop_.body.uniform_thin_rod && given_.impulse_ratio && !last_ && row_.before.angular == 0 &&
+                        drop_.inclination.degrees > 0 && drop_.inclination.degrees <= 90 && e.value(0, 0) == 1;
+    if (is_eq9) eq9();
     const Expression work = *normal_ * (u_ + u_after_);
     energy(-((rubs ? work + *tangential_ * (*s_ + *s_after_) : work) / 2));
   }
+
+  /// "μ = 0.1"
+  [[nodiscard]] std::string mu_words() const { return "μ = " + shortest(given_.friction->value(0, 0)); }
 
   [[nodiscard]] bool sticks() const {
     return row_.impact.mode == ImpactMode::stick || row_.impact.mode == ImpactMode::slip_stick;
@@ -287,15 +293,14 @@ class PlanarImpact {
     const Expression along = s_->value(0, 0) == 0 ? -drift : Expression(*s_);
     if (mode == ImpactMode::stick) {
       ratio_ = writer_.found(number("μ_i", row_.impact.impulse_ratio(), "", row_.error.impulse_ratio, 1), drift / c,
-                             {"impulse ratio that keeps the contact from slipping, at most μ"});
+                             {"impulse ratio that keeps the contact from slipping, at most " + mu_words()});
       return;
     }
     const bool begins = s_->value(0, 0) == 0;
     if (begins) {
-      writer_.computed(
-          "r_0", "", absolute(drift) / c,
-          {"impulse ratio that would keep the contact from slipping: more than that of friction, so that it "
-           "slips, the other way than B"});
+      writer_.computed("r_0", "", absolute(drift) / c,
+                       {"impulse ratio that would keep the contact from slipping: more than " + mu_words() +
+                        ", so that it slips, the other way than B"});
     }
     const Quantity r1 =
         writer_.computed(is_single ? "μ_i" : "r_1", "", -(*given_.friction * function("sgn", along)),
@@ -308,8 +313,12 @@ class PlanarImpact {
     const Quantity stop =
         writer_.computed("p_s", "N·s", m * *s_ / (drift - c * r1), {"normal impulse that stops the slip"});
     const bool sticks = mode == ImpactMode::slip_stick;
-    const Quantity r2 = sticks ? writer_.computed("r_2", "", drift / c, {"ratio of impulses without slip, at most μ"})
-                               : writer_.computed("r_2", "", -r1, {"slip goes on the other way"});
+    writer_.computed("r_0", "", absolute(drift) / c,
+                     {"impulse ratio that holds the contact then: " +
+                      (sticks ? "at most " + mu_words() + ", so that it sticks"
+                              : "more than " + mu_words() + ", so that slip goes on the other way")});
+    const Quantity r2 = sticks ? writer_.computed("r_2", "", drift / c, {"ratio of impulses without slip"})
+                               : writer_.computed("r_2", "", -r1, {"against the slip, which has turned"});
     two_phases({.before = writer_.computed("a_1", "", a - b * r1, {"m du/dp before"}),
                 .after = writer_.computed("a_2", "", a - b * r2, {"and after slip stops"}),
                 .stop = stop},
@@ -412,6 +421,20 @@ class PlanarImpact {
     if (!is_newton)
       writer_.found(number("e_N", impact.restitution(), "", row_.error.restitution, 1), -(u_after_ / u_),
                     {"ratio of separation to approach speed"});
+  }
+
+  /// Eq. 9, which is Eq. 8 solved for the elastic rod that does not turn and strikes with end a, with m and L.
+  void eq9() {
+    writer_.open("Eq. 9: the same in closed form",
+                 {"Eq. 8 solved for the elastic rod; the paper has m = L = 1, and prints Ω without the minus."});
+    const Quantity theta = writer_.found(number("θ", row_.contact_angle * degrees, "°"), absolute(alpha_));
+    const Expression c = function("cos", theta), s = function("sin", theta), mu = *given_.impulse_ratio,
+                     m = given_.mass;
+    const Quantity d = writer_.computed("D", "", 1 + 3 * square(c) - 3 * mu * s * c);
+    writer_.computed("V_n", "m/s", -((1 - 3 * square(c) + 3 * mu * s * c) / d * vn_), {}, speed_);
+    writer_.computed("V_t", "m/s", vt_ - 2 * mu / d * vn_, {}, speed_);
+    writer_.computed("Ω", "rad/s", -(12 * (c - mu * s) / (d * *length_) * vn_));
+    writer_.computed("P_n", "N·s", -(2 * m * vn_ / d));
   }
 
   struct Unknowns {

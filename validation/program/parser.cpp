@@ -109,6 +109,11 @@ const Argument* find_option(const Command& command, const std::string& name) {
   require_scene_by_keys(command, name);
   if (command.name == "angles" && name == "--angle")
     throw BadInput("--angle: angles takes a range of them, --from, --to and --step");
+  if (command.name == "angles" && (name == "--height" || name == "--clearance"))
+    throw BadInput(name + ": angles takes the speed at the touch, --gravity G --speed V with V = sqrt(2 G (fall))");
+  if (name == "--gravity-number")
+    throw BadInput(fmt::format("--gravity-number: is of angles; {} takes --gravity in m/s^2, the number times v_n^2/L",
+                               command.name));
   if (name == "--probe" || name == "--part")
     throw BadInput(fmt::format("{}: is for shock, sweep and report; leave it out of {}", name, command.name));
   throw BadInput(fmt::format("option {}: unknown{}; did you mean {}?", name,

@@ -34,13 +34,20 @@ std::size_t column_count(const AnglesRequest& request) {
 bool has_error(std::size_t column) { return column != 0 && column != impacts_column; }
 
 std::vector<std::string> notes_of(const AnglesRequest& request) {
-  if (!request.as_printed)
-    return {
-        "θ, β, γ: contact angles of the first, second and third impact; impacts: how many of these three there are."
-        " An empty cell: that impact does not happen, comes with β, γ > 90°, or after another one."};
-  return {
-      "β: with the gravity term − (g/vₙ²)(…)²(θ+β)²; printed: with the paper's + (g/2vₙ²)(…)²(θ+β)²,"
-      " whose sign and factor are wrong, for g of either sign. An empty cell: no such impact."};
+  std::vector<std::string> notes;
+  if (request.as_printed)
+    notes.emplace_back(
+        "β: with the gravity term − (g/vₙ²)(…)²(θ+β)²; printed: with the paper's + (g/2vₙ²)(…)²(θ+β)²,"
+        " whose sign and factor are wrong, for g of either sign.");
+  else notes.emplace_back("θ, β, γ: contact angles of the first, second and third impact.");
+  notes.emplace_back(
+      "impacts: how many of the first three come with the ends in turn and at contact angles up to 90°. An empty cell: "
+      "none comes so, because nothing strikes, the rod has turned past upright, or the same end strikes again first.");
+  if (request.rod.gravity_number > 0 && request.rod.restitution > 0)
+    notes.emplace_back("With gravity a later impact always comes: clatter sequence shows it.");
+  if (const std::string warning = ratio_warning(request.rod); !warning.empty())
+    notes.push_back("!: warning: " + warning);
+  return notes;
 }
 
 }  // namespace
@@ -61,6 +68,7 @@ AnglesRequest angles_request(const AnglesOptions& options) {
   return {.theta = [sweep](long long i) { return sweep.value(i); },
           .count = sweep.count,
           .rod = rod_parameters(options.rod),
+          .rod_words = rod_summary(options.rod),
           .as_printed = options.as_printed,
           .digits = options.digits};
 }
@@ -72,20 +80,21 @@ std::vector<Column> angles_columns(const AnglesRequest& request) {
       {"theta_deg", "θ", "°", "contact angle of impact 1"},
       {"beta_deg", "β", "°", "contact angle of impact 2"},
       {"gamma_deg", "γ", "°", "contact angle of impact 3", !p},
-      {"P1", "P₁", "", "impulse 1 in units of m |v_n|", !p},
-      {"P2", "P₂", "", "impulse 2 likewise", !p},
-      {"P3", "P₃", "", "impulse 3 likewise", !p},
-      {"V1", "V₁", "", "normal velocity after impact 1 in units of |v_n|", false},
-      {"Omega1", "Ω₁", "", "angular velocity after impact 1 in units of |v_n|/L", false},
-      {"V2", "V₂", "", "normal velocity after impact 2", false},
-      {"Omega2", "Ω₂", "", "angular velocity after impact 2", false},
-      {"V3", "V₃", "", "normal velocity after impact 3", false},
-      {"Omega3", "Ω₃", "", "angular velocity after impact 3", false},
-      {"T1", "T₁", "", "from impact 1 to 2 in units of L/|v_n|", false},
-      {"T2", "T₂", "", "from impact 2 to 3 likewise", false},
+      {"P1", "P₁", "m|vₙ|", "impulse 1", !p},
+      {"P2", "P₂", "m|vₙ|", "impulse 2", !p},
+      {"P3", "P₃", "m|vₙ|", "impulse 3", !p},
+      {"V1", "V₁", "|vₙ|", "normal velocity after impact 1", false},
+      {"Omega1", "Ω₁", "|vₙ|/L", "angular velocity after impact 1", false},
+      {"V2", "V₂", "|vₙ|", "normal velocity after impact 2", false},
+      {"Omega2", "Ω₂", "|vₙ|/L", "angular velocity after impact 2", false},
+      {"V3", "V₃", "|vₙ|", "normal velocity after impact 3", false},
+      {"Omega3", "Ω₃", "|vₙ|/L", "angular velocity after impact 3", false},
+      {"T1", "T₁", "L/|vₙ|", "from impact 1 to 2", false},
+      {"T2", "T₂", "L/|vₙ|", "from impact 2 to 3", false},
       {"gamma_minus_theta_deg", "γ − θ", "°", "γ − θ", false},
-      {"impulse_deficit", "2 − ΣP", "", "2 less the sum of the impulses", !p && returns_all},
-      {"impacts", "impacts", "", "how many of the first three impacts there are"},
+      {"impulse_deficit", "2 − ΣP", "m|vₙ|", "2 less the sum of the impulses", !p && returns_all},
+      {"impacts", "impacts", "",
+       "how many of the first three come with the ends in turn and at contact angles up to 90°"},
       {"beta_printed_deg", "β printed, g > 0", "°", "β by the printed gravity term", p},
       {"beta_printed_negative_g_deg", "β printed, g < 0", "°", "the same for g of the other sign", p}};
   columns.resize(column_count(request));
@@ -217,11 +226,13 @@ void for_known_rows(const AnglesRequest& request, long long begin, long long end
 }  // namespace
 
 Report angles_frame(const AnglesRequest& request) {
-  const std::string range = request.count == 0 ? "no θ"
-                                               : fmt::format("θ from {}° to {}°, {} values", shortest(request.theta(0)),
-                                                             shortest(request.theta(request.count - 1)), request.count);
+  const std::string range =
+      request.count == 0
+          ? "no θ"
+          : fmt::format("θ from {}° to {}°, {} value{}", shortest(request.theta(0)),
+                        shortest(request.theta(request.count - 1)), request.count, request.count == 1 ? "" : "s");
   Report report = begun_report("angles", "contact angles of the first three impacts");
-  report.head = {rod_summary(request.rod) + "; " + range};
+  report.head = {request.rod_words + "; " + range};
   report.notes = notes_of(request);
   report.grid.columns = angles_columns(request);
   for (std::size_t k = 0; k < column_count(request); ++k) {
@@ -229,6 +240,8 @@ Report angles_frame(const AnglesRequest& request) {
   }
   report.fields["model"] = "discrete";
   report.fields["parameters"] = rod_fields(request.rod);
+  if (const std::string warning = ratio_warning(request.rod); !warning.empty())
+    report.fields["warnings"] = std::vector<std::string>{warning};
   return report;
 }
 
@@ -249,13 +262,6 @@ void add_rows(const AnglesRequest& request, long long begin, long long end, Grid
 }
 
 }  // namespace
-
-Report angles_report(const AnglesRequest& request) {
-  Report report = angles_frame(request);
-  add_rows(request, 0, request.count, report.grid);
-  report.fields["rows"] = row_objects(report.grid);
-  return report;
-}
 
 std::string angles_csv_rows(const AnglesRequest& request, long long begin, long long end) {
   constexpr std::size_t bytes_per_row = 360;
@@ -330,8 +336,8 @@ AnglesRequest finely(const AnglesRequest& request) {
   return fine;
 }
 
-/// The curves, and the rows of the table if they are so few that each is marked.
-std::vector<std::vector<double>> drawn_rows(const AnglesRequest& request) {
+/// Rows from the first angle to the last, close together and with the ends of each branch.
+std::vector<std::vector<double>> curve_rows(const AnglesRequest& request) {
   std::vector<std::vector<double>> rows;
   if (request.count > 1) {
     const AnglesRequest fine = finely(request);
@@ -341,9 +347,44 @@ std::vector<std::vector<double>> drawn_rows(const AnglesRequest& request) {
       rows.push_back(as_vector(angles_row(fine, i + fineness)));
     }
   }
+  return rows;
+}
+
+/// The curves, and the rows of the table if they are so few that each is marked.
+std::vector<std::vector<double>> with_marks(const AnglesRequest& request, std::vector<std::vector<double>> rows) {
   for (long long i = 0; request.count <= most_with_points && i < request.count; ++i)
     rows.push_back(as_vector(angles_row(request, i), true));
   return rows;
+}
+
+/// "γ, P₃ also in windows narrower than the step: …° to …°", of θ with such an impact between two rows of the table;
+/// empty: none, or the rows are not in order.
+/// @param rows  as curve_rows()
+std::string narrow_windows(const AnglesRequest& request, const std::vector<std::vector<double>>& rows, bool third) {
+  for (long long i = 1; i < request.count; ++i) {
+    if (request.theta(i) < request.theta(i - 1)) return "";
+  }
+  std::string words;
+  double begin = NAN, end = NAN;
+  long long next = 0;  // row of the table that is not below `begin`
+  const auto close = [&] {
+    if (std::isnan(begin)) return;
+    while (next < request.count && request.theta(next) < begin) ++next;
+    if (next == request.count || request.theta(next) > end)
+      words += fmt::format("{}{:.3f}° to {:.3f}°", words.empty() ? "" : ", ", begin, end);
+    begin = NAN;
+  };
+  for (const std::vector<double>& row : rows) {
+    if (std::isnan(row[third ? 2 : 1])) {
+      close();
+      continue;
+    }
+    if (std::isnan(begin)) begin = row[0];
+    end = row[0];
+  }
+  close();
+  if (words.empty()) return "";
+  return fmt::format("{} also in windows narrower than the step: {}", third ? "γ, P₃" : "β, P₂", words);
 }
 
 std::vector<FigureColumn> figure_columns(const AnglesRequest& request) {
@@ -362,11 +403,26 @@ Range2 range_of(const AnglesRequest& request) {
 
 }  // namespace
 
+Report angles_report(const AnglesRequest& request) {
+  Report report = angles_frame(request);
+  add_rows(request, 0, request.count, report.grid);
+  const std::vector<std::vector<double>> rows = curve_rows(request);
+  for (const bool third : {false, true}) {
+    const std::string windows = request.as_printed && third ? "" : narrow_windows(request, rows, third);
+    if (!windows.empty()) report.notes.push_back(windows);
+  }
+  report.fields["rows"] = row_objects(report.grid);
+  return report;
+}
+
 Picture angles_picture(const AnglesRequest& request) {
   const bool alone = request.count == 1, marked = request.count <= most_with_points;
   const Range2 range = range_of(request);
+  const std::vector<std::vector<double>> curves = curve_rows(request);
+  const std::string second = narrow_windows(request, curves, false),
+                    third = request.as_printed ? "" : narrow_windows(request, curves, true);
   PicturePanel angles{.columns = figure_columns(request),
-                      .rows = drawn_rows(request),
+                      .rows = with_marks(request, curves),
                       .plot = {.y_label = "contact angle [°]", .x = range, .y = {0, 90}}};
   PicturePanel impulses{.columns = angles.columns,
                         .rows = angles.rows,
@@ -383,19 +439,22 @@ Picture angles_picture(const AnglesRequest& request) {
     if (!alone) curve.legend = "";
     if (marked) panel.plot.curves.push_back(curve);
   };
-  add(angles, "beta_deg", "β, second impact", palette::beta);
+  add(angles, "beta_deg", second.empty() ? "β, second impact" : "β, second impact; windows", palette::beta);
   if (request.as_printed) {
     add(angles, "beta_printed_deg", "β as printed, g > 0", palette::ochre);
     add(angles, "beta_printed_negative_g_deg", "β as printed, g < 0", palette::sky);
   } else {
-    add(angles, "gamma_deg", "γ, third impact", palette::gamma);
+    add(angles, "gamma_deg", third.empty() ? "γ, third impact" : "γ, third impact; windows", palette::gamma);
   }
   add(impulses, "P1", "P₁", palette::ink);
-  add(impulses, "P2", "P₂", palette::beta);
-  add(impulses, "P3", "P₃", palette::gamma);
-  return {.what = "Contact angles and impulses of the first three impacts",
-          .scene = {rod_summary(request.rod)},
-          .panels = {angles, impulses}};
+  add(impulses, "P2", second.empty() ? "P₂" : "P₂; windows", palette::beta);
+  if (!request.as_printed) add(impulses, "P3", third.empty() ? "P₃" : "P₃; windows", palette::gamma);
+  std::vector<std::string> scene{request.rod_words};
+  for (const std::string& windows : {second, third}) {
+    if (!windows.empty()) scene.push_back(windows);
+  }
+  return {
+      .what = "Contact angles and impulses of the first three impacts", .scene = scene, .panels = {angles, impulses}};
 }
 
 }  // namespace clatter::validation

@@ -28,6 +28,7 @@ struct AnglesRequest {
   std::function<double(long long)> theta;  ///< of row i [°]
   long long count = 0;
   analytic::RodParameters rod;
+  std::string rod_words{};  ///< as rod_summary()
   bool as_printed = false;  ///< also β by the paper's printed gravity term
   int digits = 6;           ///< shown in tables
 };

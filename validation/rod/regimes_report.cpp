@@ -65,7 +65,8 @@ std::vector<double> values_of(const RegimesRequest& input, const VariedQuantity&
     throw BadInput(fmt::format("--{} {}: is what --from and --to vary; give one of them, not both", quantity.name,
                                shortest(given)));
   }
-  if (!range.from || !range.to || (!range.step && !range.count))
+  const bool is_point = range.from && range.to && *range.from == *range.to;
+  if (!range.from || !range.to || (!range.step && !range.count && !is_point))
     throw BadInput("--from, --to and --step or --count: a range needs all three");
   Sweep sweep = sweep_of(range, {0, 0, 1}, quantity.range);
   sweep.logarithmic = input.logarithmic;
@@ -128,9 +129,23 @@ Report report_of(const std::vector<Regimes>& all, const VariedQuantity& quantity
   Report report = begun_report("regimes", regimes_summary);
   report.grid.columns = columns_of(quantity);
   report.notes = {
-      "Of the first three impacts all happen below θ₃, at least two below θ₂, one always (β, γ ≤ 90°).",
-      "With gravity a rod that turns past upright may strike again in windows above, as clatter angles shows.",
-      "fold: the end grazes the ground; upright: it arrives at 90°; order: another contact comes first."};
+      "Counted are, of the first three impacts, those with the ends in turn and β, γ ≤ 90°: three below θ₃, at least "
+      "two below θ₂, from there on "
+      "one.",
+      "fold: the end grazes the ground; upright: it arrives at 90°; order: the end that struck last strikes again "
+      "first, an impact that is not counted. Past upright a later one may come, with gravity it does: clatter "
+      "sequence.",
+      "Above a fold or upright a window of θ may follow in which the impact comes again, as clatter angles shows; "
+      "where "
+      "the two join, the boundary leaps from one row to the next."};
+  if (quantity.member == &RodParameters::impulse_ratio)
+    report.notes.emplace_back(
+        "!: warning: an impulse ratio below 0 or above 3 sin θ cos θ/(1 + 3 sin²θ) pushes the contact along its slip "
+        "in "
+        "impact 1, and creates energy where e = 1; Eq. 8 takes it as given, clatter sequence --friction MU follows the "
+        "slip");
+  else if (const std::string warning = ratio_warning(rod); !warning.empty())
+    report.notes.push_back("!: warning: " + warning);
   for (const auto& [value, second, third] : all) {
     Row& row = report.grid.rows.emplace_back();
     row.emplace_back(value, 6);
@@ -201,9 +216,10 @@ FoundRegimes find_regimes(const RegimesRequest& input) {
   found.logarithmic =
       input.logarithmic || (quantity.member == &RodParameters::gravity_number && spans_decades(found.values));
   found.rod_words = rod_words(rod, quantity);
-  found.script_head = {headline("regimes", regimes_summary),
-                       fmt::format("{}; {} from {} to {}, {} values", found.rod_words, quantity.heading,
-                                   shortest(found.values.front()), shortest(found.values.back()), found.values.size())};
+  found.script_head = {
+      headline("regimes", regimes_summary),
+      fmt::format("{}; {} from {} to {}, {} value{}", found.rod_words, quantity.heading, shortest(found.values.front()),
+                  shortest(found.values.back()), found.values.size(), found.values.size() == 1 ? "" : "s")};
   const auto regimes_of = [rod, member = quantity.member](const std::vector<double>& values) {
     std::vector<Regimes> all;
     for (const double value : values) {
@@ -219,7 +235,7 @@ FoundRegimes find_regimes(const RegimesRequest& input) {
     return regimes_of(between(values, logarithmic));
   };
   found.report = report_of(found.all, quantity, rod, input.digits);
-  found.report.head = {rod_summary(rod) + ", but for the first column"};
+  found.report.head = {rod_words(rod, quantity)};
   return found;
 }
 

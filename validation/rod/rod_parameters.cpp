@@ -85,9 +85,29 @@ Value rod_fields(const analytic::RodParameters& p) {
       {"gravity_number", p.gravity_number}, {"restitution", p.restitution}, {"impulse_ratio", p.impulse_ratio}};
 }
 
-std::string rod_summary(const analytic::RodParameters& p) {
-  return fmt::format("thin rod, m = L = |v_n| = 1, G = {}, e = {}, μᵢ = {}", shortest(p.gravity_number),
-                     shortest(p.restitution), shortest(p.impulse_ratio));
+std::string rod_summary(const RodRequest& r) {
+  const std::string rod = r.gravity
+                              ? fmt::format("g = {} m/s², L = {} m, |vₙ| = {} m/s: G = {:.6g}", shortest(*r.gravity),
+                                            shortest(r.length), shortest(r.speed), rod_parameters(r).gravity_number)
+                              : fmt::format("m = L = |vₙ| = 1, G = {}", shortest(r.gravity_number.value_or(0)));
+  return fmt::format("thin rod, {}, e = {}, μᵢ = {}", rod, shortest(r.restitution), shortest(r.impulse_ratio));
+}
+
+std::string ratio_warning(const analytic::RodParameters& p) {
+  const double mu = p.impulse_ratio;
+  if (mu == 0) return "";
+  std::string where = "at every θ";
+  // A ratio above the one that sticks, 3sc/(1 + 3s²) = 3t/(1 + 4t²) with t = tan θ, pushes along the slip.
+  if (mu > 0 && mu < 0.75) {
+    const double root = std::sqrt(9 - 16 * mu * mu);
+    const auto degrees = [&](double over) { return std::atan(over / (8 * mu)) * analytic::degrees_per_radian; };
+    where = fmt::format("below θ = {}° and above {}°", significant(degrees(3 - root), 3),
+                        significant(degrees(3 + root), 3));
+  }
+  return fmt::format(
+      "the impulse ratio pushes the contact along its slip in impact 1 {}{}; Eq. 8 takes it as given, clatter sequence "
+      "--friction MU follows the slip",
+      where, p.restitution == 1 ? ", and creates energy there" : "");
 }
 
 }  // namespace clatter::validation

@@ -48,7 +48,9 @@ struct RodRequest {
 [[nodiscard]] analytic::RodParameters rod_parameters(const RodRequest& request);
 /// The parameters under their names in JSON.
 [[nodiscard]] Value rod_fields(const analytic::RodParameters& parameters);
-/// "thin rod, G = …, e = …, μᵢ = …".
-[[nodiscard]] std::string rod_summary(const analytic::RodParameters& parameters);
+/// "thin rod, m = L = |vₙ| = 1, G = …, e = …, μᵢ = …"; of a gravity in m/s² with what G comes from.
+[[nodiscard]] std::string rod_summary(const RodRequest& request);
+/// Where an impulse ratio pushes along the slip of impact 1, as no friction does; empty: no ratio.
+[[nodiscard]] std::string ratio_warning(const analytic::RodParameters& parameters);
 
 }  // namespace clatter::validation

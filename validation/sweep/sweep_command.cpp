@@ -557,6 +557,8 @@ int run_sweep(const SweepInput& input, const SweepPlan& plan, const SweepBody& b
   if (is_done) return 0;
   if (queue.is_complete()) {
     output.commit();
+    if (const auto& warning = plan.warning->found())
+      say(fmt::format("scene {}, the first of those that warn: {}", warning->first, warning->second));
     if (output.cut() > 0 && !plan.has_own_limit && !input.request.summary) {
       say(fmt::format("{} of {} scenes end at {} impacts, where more may follow: run.impacts is not given",
                       output.cut(), scenes, plan.scene.request.impacts));

@@ -3,9 +3,12 @@
 #pragma once
 
 #include <functional>
+#include <memory>
+#include <mutex>
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "validation/output/report.hpp"
@@ -40,6 +43,22 @@ struct SweepRequest {
 /// The options that fill it, but for values, points and flags.
 [[nodiscard]] Arguments sweep_arguments(SweepRequest& request);
 
+/// The first scene of a sweep whose run warns of something, from any thread.
+class FirstWarning {
+ public:
+  void note(long long index, const std::string& words) {
+    const std::lock_guard lock(mutex_);
+    if (first_ && first_->first <= index) return;
+    first_ = {index, words};
+  }
+  /// Index and words; none: no scene warned.
+  [[nodiscard]] const std::optional<std::pair<long long, std::string>>& found() const { return first_; }
+
+ private:
+  std::mutex mutex_;
+  std::optional<std::pair<long long, std::string>> first_;
+};
+
 struct SweepPlan {
   Scene scene;  ///< the swept keys have their first values
   RowLayout layout;
@@ -52,7 +71,8 @@ struct SweepPlan {
   std::vector<std::size_t> body_values;
   /// How it was asked for: the values set, and how many scenes there are.
   std::vector<std::string> words;
-  std::vector<RunFile> attitude_files;  ///< lists that it was read from
+  std::vector<RunFile> attitude_files;                                       ///< lists that it was read from
+  std::shared_ptr<FirstWarning> warning = std::make_shared<FirstWarning>();  ///< of its runs
   /// Keys of which a head says nothing: the swept ones and what follows from them.
   std::vector<std::string> unsettled;
 

@@ -190,12 +190,13 @@ std::optional<RestFace> SceneRunner::face_alone(bool with_errors) {
   return rest_face(followed, drop, sequence_to_face(followed, drop, with_errors));
 }
 
-bool SceneRunner::append_result(RowForm& form) {
+bool SceneRunner::append_result(long long index, RowForm& form) {
   body_.renew(scene_, values_);
   if (plan_.layout.model == Model::discrete) {
     const DiscreteDrop drop = body_->discrete->drop(scene_);
     const DiscreteSequence found = sequence(drop, form.errors);
     const Run run = named_run(scene_, found, body_->discrete->centre());
+    if (!run.warnings.empty()) plan_.warning->note(index, run.warnings.front());
     if (!plan_.layout.probes.empty()) {
       const auto places = places_from(body_->discrete->centre(), plan_.layout.probes);
       form.shocks = LargestShock::of(discrete_shock(drop, found, places), terms_of(run, false));
@@ -264,7 +265,7 @@ bool SceneRunner::append_scene(long long index, std::string& out) {
   bool is_whole = true;
   const std::optional<Failure> failure = failure_of_scene([&] {
     plan_.put_point(values_, scene_);
-    is_whole = append_result(form);
+    is_whole = append_result(index, form);
   });
   if (!failure) return is_whole;
   form.reason = failure->message;

@@ -154,7 +154,7 @@ class SceneRunner {
  private:
   /// False if it was stopped; then nothing is appended.
   bool append_scene(long long index, std::string& out);
-  bool append_result(RowForm& form);
+  bool append_result(long long index, RowForm& form);
   [[nodiscard]] DiscreteSequence sequence(const DiscreteDrop& drop, bool with_errors);
   /// The face that the body comes to lie on, by a sequence of its own.
   [[nodiscard]] std::optional<RestFace> face_alone(bool with_errors);

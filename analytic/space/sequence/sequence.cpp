@@ -509,6 +509,8 @@ class Run : public SequenceLoop<Sequence, ErrorGrowth> {
     find_departures(drop_, row, state_, touches_);
     result_.total_normal_impulse += row.impact.impulse.z();
     note_energy(row.impact.energy_loss, 1e-12);
+    const Vector3 push = Vector3(row.impact.impulse.x(), row.impact.impulse.y(), 0).normalized();
+    note_push(drop_.law.friction, push.dot(row.impact.contact_before), push.dot(row.impact.contact_after));
     if (growth_) {
       growth_->strike([&](const State& before) { return struck_again(body_, drop_.law, row, before); }, derivatives,
                       row);
@@ -840,9 +842,9 @@ Sequence impact_sequence(const Drop& drop, const SequenceOptions& options) {
   Sequence sequence = run.run();
   units.to_si(sequence);
   require_representable(sequence);
-  if (run.created().first > 0) {
-    sequence.warnings.push_back(energy_warning(drop.law.friction, run.created(), units.energy(run.created().sum)));
-  }
+  const Unphysical& found = run.unphysical();
+  std::string warning = law_warning(drop.law.friction, found, units.energy(found.created));
+  if (!warning.empty()) sequence.warnings.push_back(std::move(warning));
   return sequence;
 }
 

@@ -4,6 +4,7 @@
 import csv
 import io
 import json
+import math
 import os
 import re
 import tempfile
@@ -43,11 +44,35 @@ class Verify(EmptyFolder):
         self.assertEqual(result["failed"], 0)
         checks = {check["id"]: check for check in result["checks"]}
         for name in [f"C{i}" for i in range(1, 21)] + [f"E{i}" for i in range(1, 12)]:
-            self.assertIn(checks[name]["answer"], ("holds", "refuted", "ambiguous"))
+            self.assertIn(checks[name]["answer"], ("holds", "refuted", "ambiguous") if name[0] == "C" else ("misprint",))
             self.assertIsInstance(checks[name]["number"], (int, float))
         for check in checks.values():
             self.assertLessEqual(check["measured_error"], check["tolerance"])
             self.assertLessEqual(check["tolerance"], 5.000001 * check["seen"])
+
+    def test_every_erratum_shows_the_printed_form_and_the_right_one_with_the_number_of_each(self):
+        errata = {check["id"]: check for check in json.loads(self.quick.stdout)["checks"] if check["id"][0] == "E"}
+        c, s = math.sqrt(3) / 2, 0.5
+        omega = 12 * (c - 0.2 * s) / (1 + 3 * c * c - 0.6 * s * c)
+        # Closed forms, and values of an independent 60-digit computation, to the digits given there.
+        for name, right, delta in (("E1", omega, 1e-14), ("E2", 3.1820, 5e-5), ("E5", 86.701384197437, 1e-12), ("E6", 27.577809606636, 1e-12),
+                                   ("E7", -0.2, 1e-15), ("E8", 6, 0), ("E9", 1, 1e-14), ("E10", 1, 1e-9),
+                                   ("E11", math.sqrt(2 * 9.81 * (2 - 0.51 * math.sqrt(0.5))), 1e-9)):
+            self.assertAlmostEqual(errata[name]["right_value"], right, delta=delta, msg=name)
+        for name, printed, delta in (("E1", -omega, 1e-14), ("E2", 25.99, 5e-3), ("E5", 90, 0), ("E6", 27, 0), ("E8", 7, 0), ("E11", 1, 0)):
+            self.assertAlmostEqual(errata[name]["printed_value"], printed, delta=delta, msg=name)
+        # An elastic end leaves as fast as it came; v_rn has the other sign than the velocity.
+        self.assertAlmostEqual(errata["E4"]["printed_value"], -errata["E4"]["right_value"], delta=1e-14)
+        self.assertAlmostEqual(errata["E3"]["right_value"], 2 * errata["E4"]["printed_value"], delta=1e-14)  # at twice the speed
+        said = " ".join(run("verify", "--only", *errata).stdout.split())
+        for name, check in errata.items():
+            self.assertEqual(check["expected_answer"], "misprint")
+            for key in ("place", "printed", "right", "compared"):
+                self.assertIn(check[key], said, name)
+            self.assertEqual(check["printed_value"] is None, name == "E7")
+        self.assertIn("vₙ: -3.074 rad/s; right", said)
+        self.assertIn("vₙ: 3.074 rad/s", said)
+        self.assertIn("E1 sign of Ω in Eq. 9 misprint✓", said)
 
     @UNLESS_SLOW
     def test_every_command_in_the_table_runs(self):

@@ -40,6 +40,7 @@ REFUSED = {
     "regimes --from 1": "--from", "angles --regimes --gravity 1 --from 0 --to 1 --count 3": "--gravity-number 1: is what --from and --to vary", "sequence --angle 30 --spin 10": "does not approach", "help nothing": "nothing",
     **{f"explain '{text}' --angle 10": text for text in ("0", "-1", "1.5", "x", "nan", "")},
     # What to type in its place.
+    "sequence --angle 10 --gravity-number 0.1": "takes --gravity in m/s^2, the number times v_n^2/L", "angles --height 1": "--gravity G --speed V",
     "sweep --angle 10": "as in clatter sweep rod-10 --set drop.angle_deg=...", "map --speed 2": "as in clatter map rod-10 --set drop.speed=...",
     "sequence phone-elastic --planar": "is the simulator's", "compare --angle 10": "such as 1e11", "angles --angle 10": "--from, --to and --step",
 }

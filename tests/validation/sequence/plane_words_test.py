@@ -77,10 +77,78 @@ class Words(unittest.TestCase):
             self.assertRegex(done.stderr, said)
 
     def test_the_impacts_that_are_counted_are_the_first_three(self):
-        self.assertIn("how many of these three", " ".join(run("angles").stdout.split()))
+        self.assertIn("how many of the first three", " ".join(run("angles").stdout.split()))
         sequence = json_of("sequence", "--angle", "30", "--restitution", "0.2")
         self.assertGreater(len(sequence["impacts"]), 3)
-        self.assertIn("Of the first three impacts", run("angles", "--regimes", "--over", "restitution").stdout)
+        self.assertIn("of the first three impacts", " ".join(run("angles", "--regimes", "--over", "restitution").stdout.split()))
+
+    def test_where_a_later_impact_comes_the_table_says_that_it_counts_fewer(self):
+        # Turned past upright the rod strikes again: end b, which angles does not count.
+        drop = json_of("sequence", "--angle", "60", "--gravity", "0.1", "--impacts", "2")
+        self.assertEqual(drop["impacts"][1]["end"], "b")
+        self.assertGreater(drop["impacts"][1]["start"] * abs(drop["impacts"][0]["angular_velocity_after"][1]), math.radians(60 + 90))
+        for more in ((), ("--as-printed",)):
+            said = " ".join(run("angles", "--from", "60", "--to", "60", "--gravity-number", "0.1", *more).stdout.split())
+            for words in ("ends in turn and at contact angles up to 90°", "has turned past upright", "a later impact always comes", "1 value "):
+                self.assertIn(words, said)
+        self.assertNotIn("always comes", run("angles").stdout)
+        # Above an order line the same end strikes twice.
+        self.assertEqual(json_of("angles", "--regimes", "--gravity-number", "1.2")["rows"][0]["second"]["kind"], "order")
+        self.assertEqual([impact["end"] for impact in json_of("sequence", "--angle", "88", "--gravity", "1.2", "--impacts", "2")["impacts"]], ["a", "a"])
+        said = " ".join(run("angles", "--regimes").stdout.split())
+        self.assertIn("the end that struck last strikes again first, an impact that is not counted", said)
+        self.assertIn("the boundary leaps", said)
+
+    def test_windows_of_theta_between_two_rows_are_told(self):
+        asked = ("angles", "--step", "2.5", "--gravity-number", "0.2")
+        said = " ".join(run(*asked).stdout.split())
+        found = re.search(r"γ, P₃ also in windows narrower than the step: ([^βθ]*°)", said)
+        self.assertIsNotNone(found, said)
+        windows = [tuple(map(float, window)) for window in re.findall(r"([\d.]+)° to ([\d.]+)°", found[1])]
+        self.assertEqual([int(low) for low, _ in windows], [56, 88])
+        for low, high in windows:
+            inside, outside = ([row["gamma_deg"] is not None for row in json_of("angles", "--from", repr(a), "--to", repr(b), "--count", "9",
+                               "--gravity-number", "0.2")["rows"]] for a, b in ((low + 1e-3, high - 1e-3), (low - 0.1, low - 1e-3)))
+            self.assertTrue(all(inside) and not any(outside), (low, high))
+        self.assertNotIn("windows", run("angles", "--step", "0.05", "--gravity-number", "0.2").stdout)
+        self.assertNotIn("γ, P₃", run(*asked, "--as-printed").stdout)
+
+    def test_impulses_of_a_rod_with_gravity_say_what_they_are_measured_in(self):
+        said = run("angles", "--from", "0", "--to", "0", "--gravity", "9.81", "--speed", "4.43").stdout
+        self.assertIn("g = 9.81 m/s², L = 1 m, |vₙ| = 4.43 m/s: G = 0.499875, e = 1", " ".join(said.split()))
+        self.assertNotIn("|vₙ| = 1,", said)
+        self.assertRegex(said, r"\n +° +° +° +m\|vₙ\| +m\|vₙ\| +m\|vₙ\|")
+        for command in (["angles"], ["angles", "--regimes"]):
+            self.assertNotIn("|v_n|", run(*command).stdout)
+
+    def test_a_ratio_that_no_friction_gives_is_said_by_every_command(self):
+        # The ratio that holds the end of the rod at 10 degrees is 3sc/(1 + 3s²) = 0.4705.
+        for ratio, pushes in (("0.46", False), ("0.48", True), ("-0.1", True)):
+            drop = ("--angle", "10", f"--impulse-ratio={ratio}", "--impacts", "1")
+            for command in (["sequence"], ["explain", "1"]):
+                self.assertEqual("--friction MU follows the slip" in run(*command, *drop).stderr, pushes, (ratio, command))
+            said = run("sweep", "rod-10", "--model", "discrete", "--set", f"impact.impulse_ratio={ratio}", "--set", "run.impacts=1").stderr
+            self.assertEqual("scene 0, the first of those that warn: the impulse ratio creates energy" in said, pushes, said)
+        # With loss the energy still falls, but the impulse pushes along the slip.
+        lossy = run("sequence", "--angle", "10", "--impulse-ratio=-0.01", "--restitution", "0.5", "--impacts", "1").stderr
+        self.assertIn("pushes the contact along its slip", lossy)
+        self.assertEqual(run("sequence", "--angle", "10", "--friction", "0.9", "--impacts", "1").stderr, "")
+        said = " ".join(run("angles", "--impulse-ratio", "0.48").stdout.split())
+        found = re.search(r"below θ = ([\d.]+)° and above ([\d.]+)°, and creates energy there", said)
+        for angle in map(float, found.groups()):
+            s, c = math.sin(math.radians(angle)), math.cos(math.radians(angle))
+            self.assertAlmostEqual(3 * s * c / (1 + 3 * s * s), 0.48, delta=3e-3)
+        self.assertIn("creates energy where e = 1", " ".join(run("angles", "--regimes", "--over", "impulse-ratio").stdout.split()))
+        self.assertIn("Stronge's law (--restitution-law stronge)", run("sequence", "--angle", "10", "--friction", "0.9").stderr)
+
+    def test_equation_9_gives_what_equation_8_gives(self):
+        shown = {step["title"]: {e["name"]: e["value"] for e in step["equations"]}
+                 for step in json_of("explain", "1", "--angle", "30", "--impulse-ratio", "0.2", "--mass", "3", "--length", "0.4",
+                                     "--tangential-velocity", "0.3")["steps"]}
+        closed = shown["Eq. 9: the same in closed form"]
+        for name in ("P_n", "V_n", "V_t", "Ω"):
+            self.assertAlmostEqual(closed[name], shown["Eq. 8"][name], delta=1e-13, msg=name)
+        self.assertNotIn("Eq. 9: the same in closed form", run("explain", "1", "--angle", "30").stdout)
 
     def test_contact_angles_have_the_names_of_the_paper_and_then_numbers(self):
         self.assertLessEqual({"θ", "β"}, symbols("2", "--angle", "10"))
@@ -94,6 +162,12 @@ class Words(unittest.TestCase):
             said = run("explain", "1", "--angle", "10", "--friction", friction).stdout
             self.assertEqual("r₀ = |B|/C" in said, slips, said)
             self.assertIn("mode is " + ("slip" if slips else "stick"), said)
+            self.assertIn(f"μ = {friction}", said)
+        # Slip that stops: |B|/C decides whether it sticks then or goes on the other way.
+        for friction, mode, words in (("0.1", "reverse-slip", "more than μ = 0.1"), ("0.6", "slip-stick", "at most μ = 0.6")):
+            said = " ".join(run("explain", "1", "--angle", "10", "--friction", friction, "--tangential-velocity", "0.01").stdout.split())
+            self.assertIn("mode is " + mode, said)
+            self.assertIn(words, said)
 
     def test_why_they_differ_is_said_and_how_long_the_contact_is(self):
         said = " ".join(run("compare", "phone-damped", "--impacts", "2").stdout.split())
