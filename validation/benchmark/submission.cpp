@@ -258,7 +258,7 @@ Submission judge(const ReadFile& file, const SubmissionHead& head, const Referen
                                   : score_motion(Motion(file.table, reference), reference, head.law, answer.ending);
   score_gradients(answer, file.gradients, reference, submission.score);
   submission.verdict = verdict_of(submission.score, reference.tolerances);
-  if (!(submission.score.impacts_error() <= reference.tolerances[1]))
+  if (!(submission.score.impacts_error() <= reference.tolerances[1]) || submission.score.ends_early)
     submission.causes = causes_of(answer, reference, submission.score);
   return submission;
 }
