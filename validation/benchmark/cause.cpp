@@ -322,7 +322,7 @@ std::vector<Cause> causes_at_start(const Diagnosed& run) {
 std::vector<Cause> causes_of_scene(const Diagnosed& run, const Misses& misses) {
   std::vector<Cause> causes;
   add_margin(run.answer, run.reference, run.score, run.impacts, misses, causes);
-  // Of one impact nobody knows whether its depth is that of a step or always the same.
+  // After one impact alone nobody knows whether its depth is that of a step or always the same.
   if (!causes.empty() && run.asked().size() == 1 && *causes.front().value < 0)
     add_time_step(run.motion, run.reference, run.score, run.flight_left, run.impacts, causes);
   if (causes.size() > 1) {

@@ -204,7 +204,7 @@ class ImpactCauses {
                                    which(), misfit_words(left))});
   }
 
-  /// By how much the change of normal velocity is off that without friction, in the nearest booking; unknown where no
+  /// The change of normal velocity off that without friction, relative, in the nearest booking; unknown where no
   /// tangential impulse goes with it.
   [[nodiscard]] double normal_alone(const FoundImpact& impact) const {
     DeclaredLaw smooth = law_;

@@ -206,7 +206,7 @@ std::string short_reason(const Submission& one) {
   return cause.name + (share > 0 ? fmt::format(" ({:.0f} %)", 100 * share) : "");
 }
 
-/// Those of a group together, the longest step first.
+/// The files of a group stand together, the longest step first.
 std::vector<Submission> by_group(std::vector<Submission> submissions) {
   std::ranges::stable_sort(submissions, {}, [](const Submission& one) {
     return std::tuple(one.head.problem, one.head.engine, one.head.version, one.head.settings, one.head.law,
