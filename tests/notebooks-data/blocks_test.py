@@ -28,6 +28,7 @@ RUN_ELSEWHERE = {
     "./clatter sequence --angle 10\ntests/run": "tests/launcher_test.bash runs the first, this is the second",
     "python3 -m venv": "tests/install/packages_test.bash",
     "# problem: rod-10": "tests/validation/benchmark: the beginning of a file, which tells its form",
+    "# engine: Name": "the lines above the header of a file",
     "mpirun ": "tests/validation/sweep/sweep_test.py", "#!/bin/bash\n#SBATCH": "needs Slurm", "#SBATCH": "needs Slurm",
     "clatter verify --extremes --quick": "tests/validation/evidence/extremes_test.py, by its parts: a minute or more",
 }

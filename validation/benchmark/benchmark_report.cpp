@@ -11,6 +11,7 @@
 #include "validation/benchmark/reference.hpp"
 #include "validation/output/number.hpp"
 #include "validation/run/scene_value.hpp"
+#include "validation/scene/body_properties.hpp"
 
 namespace clatter::validation {
 namespace {
@@ -155,6 +156,23 @@ std::string equations_of(const Problem& problem) {
          flight;
 }
 
+/// Inertia about the centre of mass, body axes, row by row [kg·m²].
+std::vector<std::vector<double>> inertia_rows(const BodyProperties& body) {
+  std::vector<std::vector<double>> rows;
+  for (int i = 0; i < 3; ++i) rows.push_back(parts(body.mass * body.gyration_square.row(i).transpose()));
+  return rows;
+}
+
+std::string body_words(const Problem& problem) {
+  const BodyProperties body = body_properties(problem.scene, Model::discrete);
+  std::vector<std::string> rows;
+  for (const std::vector<double>& row : inertia_rows(body)) rows.push_back(fmt::format("({})", fmt::join(row, ", ")));
+  return fmt::format(
+      "body: mass {} kg, centre of mass at ({}) m in its axes, inertia about it {} kg m2; a body in the "
+      "plane turns about y",
+      shortest(body.mass), fmt::join(parts(body.centre), ", "), fmt::join(rows, ", "));
+}
+
 std::vector<std::string> data_lines(const Problem& problem) {
   std::vector<std::string> lines{
       "data: the scene below in the keys of scene files (clatter help keys); floor z = 0, x to the right, y into the "
@@ -166,6 +184,7 @@ std::vector<std::string> data_lines(const Problem& problem) {
     if (line.starts_with('[')) table = line.substr(1, line.find(']') - 1);
     else if (!line.empty()) lines.push_back("  " + table + "." + line);
   }
+  lines.push_back(body_words(problem));
   if (problem.ground_end)
     lines.push_back(
         fmt::format("ground: it ends at x = {} m, the centre of mass is at x = 0 at the first touch; what "
@@ -292,6 +311,10 @@ void add_statement_fields(const Problem& problem, Value& fields) {
   fields["acceptance"] = problem.acceptance;
   fields["scene"] = scene_value(problem.scene, Model::discrete);
   fields["scene_toml"] = problem.scene_text;
+  const BodyProperties body = body_properties(problem.scene, Model::discrete);
+  Value::List inertia;
+  for (const std::vector<double>& row : inertia_rows(body)) inertia.emplace_back(row);
+  fields["body"] = Value::Fields{{"mass", body.mass}, {"centre", parts(body.centre)}, {"inertia", inertia}};
   fields["starts"] = starts_value(problem);
   fields["until"] = problem.until ? Value(*problem.until) : Value();
   fields["at_rest"] = problem.at_rest;

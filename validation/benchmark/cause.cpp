@@ -33,24 +33,6 @@ Fitted slope_of(const std::vector<std::pair<double, double>>& points) {
   return fit;
 }
 
-/// A run that is right as far as it goes, and ends before the next impact.
-void add_cut_off(const Motion& motion, const ReferenceSequence& sequence, const Reference& reference,
-                 const Score& score, std::vector<Cause>& causes) {
-  if (!(score.found < score.expected)) return;
-  for (std::size_t i = 0; i < score.found; ++i) {
-    if (score.impacts[i].place != sequence.truth[i].place) return;
-  }
-  double left = worse(score.flight_error, score.start_error);
-  if (score.found > 0) left = worse(left, worse(score.law_error, score.motion_error()));
-  const std::size_t last = motion.size() - 1;
-  const double end = motion.time(last) - motion.first_touch(), next = sequence.truth[score.found].time;
-  if (!(left <= reference.tolerances[1]) || !(end <= next + motion.time(last) - motion.time(last - 1))) return;
-  causes.push_back({"cut-off", end, left,
-                    fmt::format("the run ends {} s after the first touch, before impact {} ({} s): what there is is "
-                                "right {}",
-                                significant(end, 3), score.found + 1, significant(next, 3), misfit_words(left))});
-}
-
 /// How high above the ground each impact is, and how late it is, if its point falls freely.
 struct Misses {
   std::vector<double> heights, delays;
@@ -93,9 +75,10 @@ void add_margin(const Answer& answer, const Reference& reference, const Score& s
   const std::string law = score.law == "any" ? "" : score.law;
   const double left = score_motion(Motion(lower, reference), reference, law, answer.ending).error();
   if (!(left <= explained * std::fmin(score.error(), 1))) return;
-  causes.push_back({"margin", height, left,
-                    fmt::format("the body strikes {} m {} the ground: less that height all is right {}",
-                                three_digits(std::fabs(height)), height > 0 ? "above" : "below", misfit_words(left))});
+  causes.push_back(
+      {"margin", height, left,
+       fmt::format("the body strikes {} m {}: less that height all is right {}", three_digits(std::fabs(height)),
+                   height > 0 ? "above the ground" : "deep in the ground", misfit_words(left))});
 }
 
 /// Whether the velocities change over several steps, from the touch on, and the middle is so late; half of the time
@@ -141,14 +124,16 @@ void add_time_step(const Motion& motion, const Reference& reference, const Score
                    const std::vector<FoundImpact>& impacts, std::vector<Cause>& causes) {
   const double left = worse(score.law_error, flight_left);
   const double most = std::fmin(explained * score.motion_error(), reference.tolerances[2]);
-  if (reference.is_compliant || !score.order_is_right || impacts.empty() || !(left <= most)) return;
-  double latest = 0, longest = 0;
+  if (reference.is_compliant || !(score.order_is_right || score.ends_early) || impacts.empty() || !(left <= most))
+    return;
+  double latest = 0, longest = 0, deepest = 0;
   for (const FoundImpact& impact : impacts) {
     const Vector3 arm = reference.arms(impact.before.attitude)[static_cast<std::size_t>(impact.points.front())];
     const double approach = -(impact.before.velocity + impact.before.angular_velocity.cross(arm)).z();
     const double step = motion.time(impact.last_row) - motion.time(impact.first_row);
-    const double delay = std::fabs((impact.before.position.z() + arm.z()) / approach);
+    const double height = impact.before.position.z() + arm.z(), delay = std::fabs(height / approach);
     if (!(delay <= 2 * step)) return;
+    deepest = std::fmax(deepest, -height);
     latest = std::fmax(latest, delay), longest = std::fmax(longest, step);
   }
   if (!(latest > 1e-3 * longest)) {
@@ -157,9 +142,11 @@ void add_time_step(const Motion& motion, const Reference& reference, const Score
   }
   causes.push_back(
       {"time-step", latest, left,
-       fmt::format("impacts follow the law {} at the steps' own poses, up to {} s from the touch, in steps "
+       fmt::format("impacts follow the law {} at the steps' own poses, up to {} s from the touch{}, in steps "
                    "of {} s: the step explains the rest",
-                   misfit_words(left), three_digits(latest), three_digits(longest))});
+                   misfit_words(left), three_digits(latest),
+                   deepest > 0 ? fmt::format(", {} m deep in the ground", three_digits(deepest)) : "",
+                   three_digits(longest))});
 }
 
 /// Rows beside a motion that is right without them.
@@ -225,13 +212,6 @@ bool resolves_instants(const std::vector<FoundImpact>& impacts) {
   return balance > 0;
 }
 
-/// Beside what is wrong; before the step, which then explains the rest.
-void add_first_order(const Cause& first_order, std::vector<Cause>& causes) {
-  const bool is_first = causes.empty() || causes.front().name == "time-step";
-  causes.insert(is_first ? causes.begin() : causes.end(), first_order);
-  if (causes.size() > 1) causes.back().is_more = true;
-}
-
 /// What the columns of a run mean in place of what they should.
 std::vector<Cause> readings_of(const Answer& answer, const Motion& motion, const Reference& reference,
                                const Score& score) {
@@ -291,6 +271,36 @@ struct Diagnosed {
     return is_exact ? 0 : motion.step() * reference.pull().norm();
   }
 
+  /// How the run goes on in time, by its impacts and flights; of the orders of a step's parts the one that comes
+  /// nearest to it.
+  [[nodiscard]] Stepping stepping() const {
+    Stepping best{.step = resolves_instants(impacts) ? 0 : motion.step()};
+    if (first_order) best.creep = *first_order->value / 2 * reference.pull();
+    if (reference.is_compliant) return best;
+    double least = distance_of(best);
+    for (Stepping other = best; const int order : {1, 2, 3}) {
+      other.gravity_first = order % 2 == 1;
+      other.as_listed = order > 1;
+      const double distance = distance_of(other);
+      if (distance < least) best = other, least = distance;
+    }
+    return best;
+  }
+  /// replay_distance() of the run's impacts from those of a code.
+  [[nodiscard]] double distance_of(const Stepping& stepping) const {
+    return replay_distance(reference, replayed(motion, reference, sequence.law, stepping, impacts.size()), impacts);
+  }
+  /// V, Ω and t of a code off the truth, as far as the run goes.
+  [[nodiscard]] double error_of(const Stepping& stepping) const {
+    const std::size_t count = std::min(score.found, score.expected);
+    const Score of = score_list(replayed(motion, reference, sequence.law, stepping, count), reference,
+                                score.law == "any" ? "" : score.law);
+    for (std::size_t i = 0; i < count; ++i) {
+      if (of.found != count || of.impacts[i].place != sequence.truth[i].place) return Score::unknown;
+    }
+    return of.motion_error();
+  }
+
   /// The largest law error that the step does not make.
   [[nodiscard]] double law_left() const {
     double left = 0;
@@ -312,31 +322,79 @@ std::vector<Cause> causes_at_start(const Diagnosed& run) {
 std::vector<Cause> causes_of_scene(const Diagnosed& run, const Misses& misses) {
   std::vector<Cause> causes;
   add_margin(run.answer, run.reference, run.score, run.impacts, misses, causes);
+  // After one impact alone nobody knows whether its depth is that of a step or always the same.
+  if (!causes.empty() && run.asked().size() == 1 && *causes.front().value < 0)
+    add_time_step(run.motion, run.reference, run.score, run.flight_left, run.impacts, causes);
+  if (causes.size() > 1) {
+    std::swap(causes.front(), causes.back());
+    return causes;
+  }
   if (causes.empty() && !run.impacts.empty())
     causes = size_causes_of(run.motion, run.reference, run.sequence.law, run.impacts.front(), run.law_left());
   if (!causes.empty()) return chosen(std::move(causes));
-  causes = causes_at_start(run);
-  if (causes.empty()) add_cut_off(run.motion, run.sequence, run.reference, run.score, causes);
+  return causes_at_start(run);
+}
+
+/// The steps of a code that follows the law and has the same impacts, however few or many.
+void add_replayed(const Diagnosed& run, double distance, std::vector<Cause>& causes) {
+  causes.push_back({"time-step", run.motion.step(), distance,
+                    fmt::format("a code that follows the law at the ends of steps of {} s has the same impacts {}: the "
+                                "step explains them",
+                                three_digits(run.motion.step()), misfit_words(distance))});
+}
+
+/// Causes of the impacts and the flights' step of first order, that one first without which the least would be left.
+std::vector<Cause> ranked(const Diagnosed& run, const Stepping& stepping, std::vector<Cause> causes,
+                          bool has_first_order) {
+  const auto tell = [&](Cause& cause, const Stepping& without) {
+    if (run.reference.is_compliant || cause.name == "delay" || cause.name == "contact-time") return;
+    cause.error_without = run.error_of(without);
+    const double all = run.score.motion_error();
+    if (std::isfinite(*cause.error_without) && std::isfinite(all) && has_first_order)
+      cause.words += fmt::format("; without this alone V, Ω and t would be off by {} and not {}",
+                                 significant(*cause.error_without, 2), significant(all, 2));
+  };
+  Stepping resolved = stepping, second_order = stepping;
+  resolved.step = 0;
+  resolved.gravity_first = false;
+  second_order.creep.setZero();
+  const bool by_step = !causes.empty() && causes.front().name == "time-step";
+  for (Cause& cause : causes) tell(cause, by_step ? resolved : stepping);
+  if (!has_first_order) return causes;
+  Cause first_order = *run.first_order;
+  first_order.value = std::fabs(*first_order.value);
+  // Without another law or body a code is not known, but what it leaves the flights may have made.
+  first_order.error_without = run.score.motion_error();
+  if (by_step) tell(first_order, second_order);
+  const bool is_first = causes.empty() || *first_order.error_without < causes.front().error_without.value_or(0);
+  causes.insert(is_first ? causes.begin() : causes.end(), first_order);
+  for (std::size_t i = 1; i < causes.size(); ++i) causes[i].is_more |= is_first || i + 1 == causes.size();
   return causes;
 }
 
 /// Another law, body or delay of the impacts, or the steps of the code.
 std::vector<Cause> causes_of_impacts(const Diagnosed& run, const Misses& misses) {
   constexpr double free_flight = 1e-2;  // beyond, states before impacts are not those of the run
+  constexpr double same = 1e-6, alike = 0.05;
   const auto& impacts = run.impacts;
   std::vector<Cause> causes;
-  if (run.flight_left <= free_flight)
+  const Stepping stepping = run.stepping();
+  const bool may_be_step =
+      stepping.step > 0 && !run.reference.is_compliant && run.flight_left <= run.reference.tolerances[1];
+  const double distance = may_be_step ? run.distance_of(stepping) : Score::unknown;
+  if (run.flight_left <= free_flight && !(distance <= same))
     causes = impact_causes_of(run.reference, run.sequence.law, impacts, run.gravity_of_step());
-  if (causes.empty() && !impacts.empty() && impacts.front().points.empty())
+  if (causes.empty() && !impacts.empty() && impacts.front().points.empty() && !(distance <= same))
     causes = far_body_causes_of(run.answer, run.reference, run.sequence.law, impacts);
-  if (causes.empty()) add_delay(run.motion, run.reference, run.asked(), misses, causes);
+  if (causes.empty() && !(distance <= same)) add_delay(run.motion, run.reference, run.asked(), misses, causes);
   if (causes.empty()) add_time_step(run.motion, run.reference, run.score, run.flight_left, impacts, causes);
   causes = chosen(std::move(causes));
+  if (causes.empty() && distance <= alike) add_replayed(run, distance, causes);
   const bool is_alone = causes.empty();  // then it must be able to be all that is wrong
   const double most = run.reference.tolerances[2];
-  if (run.first_order && (!is_alone || (run.law_left() <= most && run.score.start_error <= most)))
-    add_first_order(*run.first_order, causes);
-  return causes;
+  const bool has_first_order =
+      run.first_order && (!is_alone || (run.law_left() <= most && run.score.start_error <= most));
+  return ranked(run, stepping, std::move(causes), has_first_order);
 }
 
 }  // namespace
@@ -347,6 +405,8 @@ std::vector<Cause> causes_of(const Answer& answer, const Reference& reference, c
   if (sequence == reference.sequences.end()) return {};
   if (answer.is_list) return causes_of_list(answer, reference, *sequence, score);
   const Motion motion(answer.table, reference);
+  const Cause cut_off{"cut-off", motion.time(motion.size() - 1) - motion.first_touch(), 0, score.left_out};
+  if (score.ends_early && score.impacts_error() <= reference.tolerances[1]) return {cut_off};
   std::vector<Cause> causes = stray_rows_of(answer, motion, reference, score);
   if (!causes.empty()) {
     // About a single impact a row with the velocities of the one before is beside the flights, too.
@@ -363,12 +423,18 @@ std::vector<Cause> causes_of(const Answer& answer, const Reference& reference, c
     }
     return causes;
   }
+  if (score.ends_early) causes.push_back(cut_off);
   // After one impact alone a wrong start and a wrong impact look alike.
-  if (motion.begins_after_touch() && sequence->truth.size() == 1) return {};
+  if (motion.begins_after_touch() && sequence->truth.size() == 1) return causes;
   const Misses misses(reference, run.asked());
-  causes = causes_of_scene(run, misses);
-  if (causes.empty()) causes = chosen(flight_causes_of(motion, reference));
-  return !causes.empty() ? causes : causes_of_impacts(run, misses);
+  std::vector<Cause> others = causes_of_scene(run, misses);
+  if (others.empty()) others = chosen(flight_causes_of(motion, reference));
+  if (others.empty()) others = causes_of_impacts(run, misses);
+  for (Cause& cause : others) {
+    cause.is_more |= score.ends_early;
+    causes.push_back(std::move(cause));
+  }
+  return causes;
 }
 
 }  // namespace clatter::validation

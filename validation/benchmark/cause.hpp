@@ -18,6 +18,8 @@ struct Cause {
   double misfit = 0;            ///< the relative error that is left with it
   std::string words;            ///< one line
   bool is_more = false;         ///< holds beside the cause before it, not in place of it
+  /// V, Ω and t of a code that has all but this cause, off the truth; nothing where that cannot be told.
+  std::optional<double> error_without{};
 };
 
 /// A run as its file has it.
@@ -75,11 +77,28 @@ struct Fitted {
 /// A step of first order Δt, by whose velocities the places run ahead of free flight's or fall behind by
 ///     ±g Δt/2                                                                                        (3)
 /// after each impact anew: + of the velocities at the step's end (semi-implicit Euler), − at its begin.  Its misfit is
-/// the flight error that is left.
+/// the flight error that is left, its value ±Δt.
 /// @param impacts all of the motion
 [[nodiscard]] std::optional<Cause> first_order_step_of(const Motion& motion, const Reference& reference,
                                                        const ReferenceSequence& sequence,
                                                        const std::vector<FoundImpact>& impacts, double flight_error);
+
+// What the steps of a code are worth, by a code that follows the law from the run's own start.
+
+/// How a code goes on in time.
+struct Stepping {
+  double step = 0;  ///< at whose ends it strikes what is in the ground; 0: it resolves the instants [s]
+  analytic::space::Vector3 creep = analytic::space::Vector3::Zero();  ///< by which places run ahead, (3) [m/s]
+  bool gravity_first = false;  ///< whether an impact has the gravity of the step that begins with it
+  bool as_listed = false;      ///< whether points of one step are struck as the body lists them; else the lowest first
+};
+
+/// The impacts of such a code, at most so many, up to the end of the run; fewer where the law has no answer.
+[[nodiscard]] std::vector<FoundImpact> replayed(const Motion& motion, const Reference& reference,
+                                                const DeclaredLaw& law, const Stepping& stepping, std::size_t most);
+/// The largest distance of velocities after impacts, over the speed; unknown where the places are others.
+[[nodiscard]] double replay_distance(const Reference& reference, const std::vector<FoundImpact>& replay,
+                                     const std::vector<FoundImpact>& impacts);
 
 // Rows of a foreign run that are right when read otherwise.
 
@@ -108,7 +127,8 @@ struct Fitted {
 // What may have gone wrong in a foreign run: hypotheses with one number each, fitted to the run's own impacts and
 // flights, or to the rows as they were written.
 
-/// The one or two hypotheses that explain a run that fails; none where all leave more than a twentieth of the error.
+/// The hypotheses that explain a run that fails; none where all leave more than a twentieth of the error.  Where
+/// several are at work at once, the one comes first without which the least error would be left.
 ///
 /// Each impact is judged by the exact map at the run's own state before it (Score::law): restitution, friction,
 /// inertia, lever and a restitution that is left out for slow contacts.  The flights tell gravity and damping; the

@@ -255,7 +255,7 @@ std::optional<Cause> first_order_step_of(const Motion& motion, const Reference& 
     const double left = flight_error_with(sign * creep, motion, reference, sequence, impacts);
     if (!(left <= explained * flight_error)) continue;
     return Cause{
-        "first-order-step", motion.step(), left,
+        "first-order-step", sign * motion.step(), left,
         fmt::format("the flights are a first-order step's: places fall g·step/2 = {} m/s {} than free flight, "
                     "as by {} Euler in steps of {} s; without that they are free {}",
                     significant(creep.norm(), 3), sign > 0 ? "faster" : "slower",

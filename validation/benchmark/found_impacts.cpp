@@ -174,12 +174,17 @@ class Step {
       for (const int l : candidates_) {
         if (k == l) continue;
         const Two two = pair(k, l);
-        // Without times the one that is lower before the step comes first.
-        if (!two.is_timed && height_before(k) > height_before(l)) continue;
+        if (!two.is_timed && comes_after(k, l)) continue;
         if (is_better(two, best)) best = two;
       }
     }
     return best;
+  }
+
+  /// Whether of two points without times the first comes later: the other alone approaches, or is the lower one.
+  [[nodiscard]] bool comes_after(int k, int l) const {
+    const bool approaches = speed_of(before_, k) < 0;
+    return approaches == (speed_of(before_, l) < 0) ? height_before(k) > height_before(l) : !approaches;
   }
 
   [[nodiscard]] double height_before(int k) const {
@@ -345,7 +350,9 @@ class Search {
                        .place = reference_.place_name(contact.points),
                        .impulse = contact.impulse,
                        .first_row = contact.first_row,
-                       .last_row = contact.last_row};
+                       .last_row = contact.last_row,
+                       .first_line = motion_.line(contact.first_row),
+                       .last_line = motion_.line(contact.last_row)};
     const bool alone = previous == nullptr && !overlap(i);
     const double time = alone && contact.steps > 1
                             ? begin + meeting_time(start, end, finish - begin, reference_.gravity)
@@ -357,9 +364,24 @@ class Search {
     impact.bookings.push_back({impact.before, impact.after});
     impact.begins_in_a_row = alone && !impact.points.empty() && touches(start, impact.points);
     impact.is_resolved = touches(impact.before, impact.points);
-    if (alone && (impact.begins_in_a_row || !impact.is_resolved)) add_bookings(impact, start, end);
+    if (alone && (impact.begins_in_a_row || !impact.is_resolved)) add_bookings(impact, start, end, impact.bookings);
     if (impact.begins_in_a_row) add_first_step(impact, start);
+    if (is_pair(i)) add_pair(impact, i, start, end);
+    else if (i > 0 && is_pair(i - 1)) add_pair(impact, i - 1, start, end);
     return impact;
+  }
+
+  /// Whether a contact and the next one are those of one step.
+  [[nodiscard]] bool is_pair(std::size_t i) const {
+    if (i + 1 >= contacts_.size()) return false;
+    const Contact &one = contacts_[i], &next = contacts_[i + 1];
+    return one.steps == 1 && next.steps == 1 && one.first_row == next.first_row && !one.points.empty() &&
+           !next.points.empty();
+  }
+
+  void add_pair(FoundImpact& impact, std::size_t i, const State& start, const State& end) const {
+    impact.pair = {contacts_[i].points, contacts_[i + 1].points};
+    add_bookings(impact, start, end, impact.of_pair);
   }
 
   /// Whether the points are on the ground.
@@ -382,17 +404,23 @@ class Search {
     impact.bookings.push_back(booking);
   }
 
-  void add_bookings(FoundImpact& impact, const State& start, const State& end) const {
+  void add_bookings(const FoundImpact& impact, const State& start, const State& end,
+                    std::vector<Booking>& bookings) const {
     const Vector3 fall = (motion_.time(impact.last_row) - motion_.time(impact.first_row)) * reference_.pull();
+    const bool is_pair = !impact.pair.empty();
     for (const space::Quaternion& pose : {impact.before.attitude, start.attitude, end.attitude}) {
       const auto add = [&](const Vector3& before, const Vector3& after) {
         Booking booking{impact.before, impact.after};
         booking.before.attitude = booking.after.attitude = pose;
         booking.before.velocity = before;
         booking.after.velocity = after;
-        impact.bookings.push_back(booking);
+        if (is_pair) {
+          booking.before.angular_velocity = start.angular_velocity;
+          booking.after.angular_velocity = end.angular_velocity;
+        }
+        bookings.push_back(booking);
       };
-      add(impact.before.velocity, impact.after.velocity);
+      if (!is_pair) add(impact.before.velocity, impact.after.velocity);
       if (!(fall.z() < 0)) continue;
       add(start.velocity + fall, end.velocity);
       add(start.velocity, end.velocity - fall);
@@ -448,7 +476,9 @@ std::vector<FoundImpact> listed_impacts(const NumericTable& table, const Referen
         .place = reference.place_name(*points),
         .time = given - shift,
         .impulse = in_space ? vector(row, "Px", "Py", "Pz") : Vector3(number(row, "Pt"), 0, number(row, "Pn")),
-        .before = reference.flight(state).at(given - shift - (row == 0 ? 0 : time))};
+        .before = reference.flight(state).at(given - shift - (row == 0 ? 0 : time)),
+        .first_line = table.line(row),
+        .last_line = table.line(row)};
     time = impact.time;
     state = impact.before;
     state.velocity = in_space

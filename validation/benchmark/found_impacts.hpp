@@ -25,8 +25,13 @@ struct FoundImpact {
   analytic::space::State before{}, after{};                             ///< of the flights, at `time`
   /// States right before and after, as the code may have had them; the first is (before, after).
   std::vector<Booking> bookings{};
-  std::size_t first_row = 0, last_row = 0;  ///< of the motion, around it
-  bool is_resolved = false;                 ///< the points are on the ground at the instant at which the flights meet
+  std::size_t first_row = 0, last_row = 0;    ///< of the motion, around it
+  std::size_t first_line = 0, last_line = 0;  ///< of the file, likewise; of a list both are the impact's own
+  /// Where two places are struck in one step: both of them, the earlier first, and the states before and after both.
+  /// How the step's impulse is shared is then a guess, and only both together can be held against the law.
+  std::vector<std::vector<int>> pair{};
+  std::vector<Booking> of_pair{};
+  bool is_resolved = false;      ///< the points are on the ground at the instant at which the flights meet
   bool begins_in_a_row = false;  ///< the points are on the ground in the first row: whether its code resolves the
                                  ///< instant or strikes at the begin of a step cannot be told
 };

@@ -82,6 +82,13 @@ class ImpactCauses {
     return std::move(causes_);
   }
 
+  /// A normal impulse that is the one without friction, with a tangential one beside it: no number is free.  Without
+  /// this any such impact would be one of another restitution, since that alone fits it, too.
+  std::vector<Cause> of_normal_alone() {
+    if (!broken_.empty() && worst_ > reference_.tolerances[1] && !reference_.is_compliant) add_normal_alone();
+    return std::move(causes_);
+  }
+
   std::vector<Cause> of_impacts(const std::vector<FoundImpact>& impacts) {
     if (reference_.is_compliant) return {};
     add_centre_alone(impacts);
@@ -116,9 +123,20 @@ class ImpactCauses {
   }
 
   void keep(const char* name, const Fitted& fit, const std::string& words) {
-    if (!(fit.misfit <= explained * worst_) || is_of_the_step(fit.misfit)) return;
+    // With friction one number often fits a part of an impact: it must explain all of it.
+    const double most = has_friction() ? explained * explained : explained;
+    if (has_friction() && takes_steps()) return;
+    if (!(fit.misfit <= most * worst_) || is_of_the_step(fit.misfit)) return;
     causes_.push_back({name, fit.value, fit.misfit, words + " " + misfit_words(fit.misfit)});
   }
+
+  /// Whether impacts go on over several rows: with friction their whole is that of several ones, or of a contact.
+  [[nodiscard]] bool takes_steps() const {
+    return std::any_of(broken_.begin(), broken_.end(),
+                       [&](std::size_t i) { return impacts_[i].last_row > impacts_[i].first_row + 1; });
+  }
+
+  [[nodiscard]] bool has_friction() const { return law_.law.friction == analytic::FrictionKind::coulomb; }
 
   [[nodiscard]] std::string which() const { return impacts_words(broken_.size(), impacts_.size(), broken_.front()); }
 
@@ -161,6 +179,51 @@ class ImpactCauses {
                      three_digits(fastest), three_digits(slowest), which()));
   }
 
+  void add_normal_alone() {
+    if (!has_friction()) return;
+    double left = 0, coupled = Score::unknown;
+    for (const std::size_t i : broken_) {
+      FoundImpact asked = impacts_[i];
+      if (asked.points.size() > 1) return;
+      try {
+        asked.bookings.resize(1);
+        asked.bookings.front().after = exact_map(reference_, law_, asked.bookings.front().before, asked.points);
+      } catch (const std::exception&) {
+        return;  // the law has no answer there
+      }
+      left = worse(left, normal_alone(impacts_[i]));
+      coupled = std::fmin(coupled, normal_alone(asked));
+    }
+    // Where friction does not change the normal impulse, it is that without friction whatever else is wrong.
+    if (!(left <= explained * std::fmin(worst_, coupled)) || is_of_the_step(left)) return;
+    causes_.push_back({"normal-first",
+                       {},
+                       left,
+                       fmt::format("the normal impulse is the one without friction, and the tangential one is added to "
+                                   "it, as by codes that solve one after the other: that explains {} {}",
+                                   which(), misfit_words(left))});
+  }
+
+  /// The change of normal velocity off that without friction, relative, in the nearest booking; unknown where no
+  /// tangential impulse goes with it.
+  [[nodiscard]] double normal_alone(const FoundImpact& impact) const {
+    DeclaredLaw smooth = law_;
+    smooth.is_moreau = false;
+    smooth.law.friction = analytic::FrictionKind::none;
+    smooth.law.friction_value = 0;
+    double least = Score::unknown;
+    for (const auto& [before, after] : impact.bookings) {
+      try {
+        const Vector3 change = after.velocity - before.velocity;
+        const double asked = exact_map(reference_, smooth, before, impact.points).velocity.z() - before.velocity.z();
+        if (change.head<2>().norm() > 1e-2 * change.z()) least = std::fmin(least, std::fabs(change.z() / asked - 1));
+      } catch (const std::exception&) {
+        continue;  // the law has no answer there
+      }
+    }
+    return least;
+  }
+
   /// Another of the laws that the problem has a truth for.
   void add_law() {
     for (const ReferenceSequence& other : reference_.sequences) {
@@ -186,7 +249,8 @@ class ImpactCauses {
     // The change of e alone must be able to make the error: where the law jumps, any e beside the right one may fit.
     if (!(std::fabs(fit.value - asked) >= 0.1 * std::fmin(worst_, 1))) return;
     keep("restitution", fit,
-         fmt::format("e = {} ({} is asked) explains {}", three_digits(fit.value), shortest(asked), which()));
+         fmt::format("e = {} ({} is asked){} explains {}", three_digits(fit.value), shortest(asked),
+                     has_friction() && broken_.size() == 1 ? ", or another normal impulse," : "", which()));
   }
 
   /// By impacts before others follow in neighbouring steps, of which some are taken for one: by two of them at least.
@@ -389,7 +453,8 @@ void add_far_inertia(const Answer& answer, const Reference& reference, const Dec
 std::vector<Cause> impact_causes_of(const Reference& reference, const DeclaredLaw& law,
                                     const std::vector<FoundImpact>& impacts, double gravity_of_step) {
   const std::vector<FoundImpact> plain = as_in_rows(reference, law, impacts);
-  std::vector<Cause> causes = ImpactCauses(reference, law, plain, gravity_of_step).of_impacts(plain);
+  std::vector<Cause> causes = ImpactCauses(reference, law, impacts, gravity_of_step).of_normal_alone();
+  if (causes.empty()) causes = ImpactCauses(reference, law, plain, gravity_of_step).of_impacts(plain);
   return !causes.empty() ? causes : ImpactCauses(reference, law, impacts, gravity_of_step).of_impacts(impacts);
 }
 

@@ -21,7 +21,8 @@ using space::Vector3;
 const std::vector<std::string> in_plane{"t", "x", "z", "phi", "vx", "vz", "omega"};
 const std::vector<std::string> in_three{"t", "x", "y", "z", "q0", "q1", "q2", "q3", "vx", "vy", "vz", "wx", "wy", "wz"};
 
-/// Time at which the lowest point of a flight comes down to the ground; 0 where it does not come down.
+}  // namespace
+
 double touch_time(const Reference& reference, const space::FreeFlight& flight) {
   const double fastest = flight.rotation().fastest();
   const double bound = reference.gravity + 2 * reference.reach() * fastest * fastest + 1e-300;
@@ -47,8 +48,6 @@ double touch_time(const Reference& reference, const space::FreeFlight& flight) {
   }
   return time;
 }
-
-}  // namespace
 
 std::string place_of(const NumericTable& table, const std::string& key) {
   for (const NumericTable::Comment& one : table.comments()) {

@@ -54,6 +54,8 @@ class Motion {
   [[nodiscard]] const NumericTable& table() const { return table_; }
   /// Row of the table that a row of the motion is.
   [[nodiscard]] std::size_t table_row(std::size_t row) const { return row - (lead_ && row > 0 ? 1 : 0); }
+  /// Line of the file that a row of the motion is.
+  [[nodiscard]] std::size_t line(std::size_t row) const { return table_.line(table_row(row)); }
 
  private:
   void check_rows() const;
@@ -75,6 +77,10 @@ class Motion {
   double step_ = 0;
   double origin_ = 0;  ///< x of the first touch, where the ground slopes [m]
 };
+
+/// Time at which the lowest point of a flight comes down to the ground, or a little later, where it rises at first; a
+/// time that has passed of a point in the ground that goes down [s].
+[[nodiscard]] double touch_time(const Reference& reference, const analytic::space::FreeFlight& flight);
 
 // Where a foreign run begins, beside the drop that is asked for.
 

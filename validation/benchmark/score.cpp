@@ -50,11 +50,14 @@ ImpactScore impact_score(const Reference& reference, const ReferenceSequence& se
   const Sizes sizes = sizes_of(reference, sequence);
   ImpactScore score{.place = impact.place,
                     .true_place = "",
+                    .first_line = impact.first_line,
+                    .last_line = impact.last_line,
                     .time = impact.time,
                     .law_error = reference.is_compliant ? 0 : law_error(reference, sequence.law, impact),
                     .impulse_normal = impact.impulse.z(),
                     .impulse_tangential = impact.impulse.x(),
                     .after = impact.after};
+  for (const std::vector<int>& points : impact.pair) score.pair.push_back(reference.place_name(points));
   if (i >= sequence.truth.size()) return score;
   const TruthRow& truth = sequence.truth[i];
   const State& after = sequence.after[i];
@@ -69,23 +72,32 @@ ImpactScore impact_score(const Reference& reference, const ReferenceSequence& se
 /// A place for readers; "?" is that of a jump that no point explains.
 std::string place_words(const std::string& place) { return place == "?" ? "no point of the body" : place; }
 
+/// "impact 2 (lines 11 to 12)"
+std::string impact_words(const Score& score, std::size_t i) {
+  const ImpactScore& one = score.impacts[i];
+  return one.first_line == one.last_line
+             ? fmt::format("impact {} (line {})", i + 1, one.first_line)
+             : fmt::format("impact {} (lines {} to {})", i + 1, one.first_line, one.last_line);
+}
+
 void find_missing(Score& score, const ReferenceSequence& sequence) {
   for (std::size_t i = 0; i < sequence.truth.size(); ++i) {
     const std::string& place = sequence.truth[i].place;
     if (i >= score.impacts.size()) {
       score.findings.push_back(fmt::format("impact {} at {} is missing", i + 1, place));
     } else if (score.impacts[i].place != place) {
-      score.findings.push_back(
-          fmt::format("impact {} is at {}, must be at {}", i + 1, place_words(score.impacts[i].place), place));
+      score.findings.push_back(fmt::format("{} is at {}, must be at {}", impact_words(score, i),
+                                           place_words(score.impacts[i].place), place));
     } else {
       continue;
     }
     return;
   }
   if (score.found > score.expected) {
-    score.findings.push_back(fmt::format("an impact more at {}, {} s after the first touch",
-                                         place_words(score.impacts.back().place),
-                                         significant(score.impacts.back().time, 4)));
+    const ImpactScore& more = score.impacts.back();
+    score.findings.push_back(fmt::format("an impact more at {}, {} s after the first touch: {}",
+                                         place_words(more.place), significant(more.time, 4),
+                                         impact_words(score, score.impacts.size() - 1)));
   }
 }
 
@@ -156,17 +168,23 @@ void explain(Score& score, double tolerance, double time) {
   for (std::size_t i = 0; i < std::min(score.impacts.size(), score.expected); ++i) {
     const ImpactScore& one = score.impacts[i];
     if (one.law_error <= tolerance) continue;
-    add(one.law_error, fmt::format("impact {} does not follow the law{}", i + 1,
+    add(one.law_error, fmt::format("{} does not follow the law{}", impact_words(score, i),
                                    std::isfinite(one.law_error) ? ""
                                    : one.place == "?"           ? ": no point of the body explains its jump"
                                                                 : ", which has no answer there"));
     break;
   }
+  for (std::size_t i = 0; i + 1 < score.impacts.size(); ++i) {
+    const ImpactScore &one = score.impacts[i], &next = score.impacts[i + 1];
+    if (one.pair.empty() || one.pair != next.pair || one.first_line != next.first_line) continue;
+    add(score.motion_error(), fmt::format("two ends strike between lines {} and {}, {}, then {}", one.first_line,
+                                          one.last_line, one.pair.front(), one.pair.back()));
+  }
   if (score.drift) add(score.energy_error, "energy drifts in flight " + flight_words(*score.drift));
   if (score.stray) add(score.flight_error, score.stray->words);
   for (std::size_t i = 0; i < std::min(score.impacts.size(), score.expected); ++i) {
     const ImpactScore& one = score.impacts[i];
-    const std::string at = fmt::format(" of impact {} is off", i + 1);
+    const std::string at = fmt::format(" of {} is off", impact_words(score, i));
     const std::size_t before = score.findings.size();
     add(one.velocity_error, "velocity" + at);
     add(one.angular_error, "angular velocity" + at);
@@ -175,9 +193,10 @@ void explain(Score& score, double tolerance, double time) {
     add(one.impulse_error, "impulse" + at);
     constexpr double most = 1e6;  // times of the sequence: a run that never touches the ground has no time of touch
     if (!(std::fabs(one.time_error) <= most * time)) {
-      score.findings.push_back(fmt::format("impact {} comes at no time of the sequence", i + 1));
+      score.findings.push_back(impact_words(score, i) + " comes at no time of the sequence");
     } else if (!(std::fabs(one.time_error) <= tolerance * time)) {
-      score.findings.push_back(fmt::format("impact {} comes {} s {}", i + 1, significant(std::fabs(one.time_error), 2),
+      score.findings.push_back(fmt::format("{} comes {} s {}", impact_words(score, i),
+                                           significant(std::fabs(one.time_error), 2),
                                            one.time_error < 0 ? "early" : "late"));
     }
     if (score.findings.size() != before) break;
@@ -444,6 +463,42 @@ void score_ending(Score& score, const Ending& ending, const Reference& reference
   }
 }
 
+/// Where impacts of a motion are missing that can still come, in its own motion or by the truth: what is left out, and
+/// until when it must go on; empty: they cannot.
+std::string early_end(const Motion& motion, const Reference& reference, const ReferenceSequence& sequence,
+                      const Score& score, const Ending& ending) {
+  if (!(score.found < score.expected) || ending.nothing_approaches) return "";
+  if (!(score.start_error <= reference.tolerances.back())) return "";  // another drop has other impacts
+  for (std::size_t i = 0; i < score.found; ++i) {
+    if (score.impacts[i].place != sequence.truth[i].place) return "";
+  }
+  const std::size_t last = motion.size() - 1;
+  const double end = motion.time(last) - motion.first_touch(), step = motion.time(last) - motion.time(last - 1);
+  const auto height_of = [&](const State& state, std::size_t point) {
+    return state.position.z() + reference.arms(state.attitude)[point].z();
+  };
+  const TruthRow& next = sequence.truth[score.found];
+  const space::FreeFlight flight = reference.flight(motion.state(last));
+  const double wait = touch_time(reference, flight);
+  const State touch = flight.at(wait);
+  const std::size_t point = lowest_of(reference.arms(touch.attitude));
+  // A point that has come through the ground since the row before is struck in the next step.
+  const bool comes = std::fabs(height_of(touch, point)) <= 1e-2 * reference.reach() &&
+                     height_of(motion.state(last - 1), point) > 0 &&
+                     reference.place_named(next.place) == std::vector<int>{static_cast<int>(point)};
+  const bool is_whole = reference.until && end + step >= *reference.until;
+  if (is_whole && !(comes && wait <= 0)) return "";
+  if (!comes && !(end <= next.time + step)) return "";
+  const double late = comes ? std::fmax(end + wait - next.time, 0) : 0;
+  const double last_time = reference.until.value_or(1.1 * (sequence.truth.back().time + late) + step);
+  const double enough = is_whole ? end + 2 * step : last_time;
+  return fmt::format(
+      "the run ends {} s after the first touch, before impact {} at {}{}: {} s are needed", significant(end, 3),
+      score.found + 1, next.place,
+      comes ? fmt::format(", which its own motion has at {} s", significant(std::fmax(end + wait, end), 3)) : "",
+      significant(rounded_up(enough), 2));
+}
+
 }  // namespace
 
 double law_error(const Reference& reference, const DeclaredLaw& law, const FoundImpact& impact) {
@@ -456,6 +511,16 @@ double law_error(const Reference& reference, const DeclaredLaw& law, const Found
       least = std::fmin(least, distance(reference, exact, after) / change);
     } catch (const std::exception&) {
       continue;  // the law has no answer there: the error is unknown
+    }
+  }
+  for (const auto& [before, after] : impact.of_pair) {
+    try {
+      const State first = exact_map(reference, law, before, impact.pair.front());
+      const State exact = exact_map(reference, law, first, impact.pair.back());
+      const double change = distance(reference, first, before) + distance(reference, exact, first);
+      least = std::fmin(least, distance(reference, exact, after) / change);
+    } catch (const std::exception&) {
+      continue;  // likewise
     }
   }
   return least;
@@ -486,7 +551,7 @@ double Score::motion_error() const { return worse(velocity_error, worse(angular_
 double Score::error() const { return worse(impacts_error(), gradient_error); }
 
 std::string Score::decided_by() const {
-  if (!order_is_right) return "number or places of the impacts";
+  if (!order_is_right && !ends_early) return "number or places of the impacts";
   const std::pair<const char*, double> parts[]{
       {"law", law_error},       {"V", velocity_error},    {"Ω", angular_error},
       {"t", time_error},        {"energy", energy_error}, {"impulse", impulse_error},
@@ -497,7 +562,7 @@ std::string Score::decided_by() const {
 }
 
 double Score::impacts_error() const {
-  if (!order_is_right) return unknown;
+  if (!order_is_right && !ends_early) return unknown;
   return worse(worse(worse(law_error, impulse_error), motion_error()),
                worse(energy_error, worse(flight_error, start_error)));
 }
@@ -517,6 +582,11 @@ Score score_motion(const Motion& motion, const Reference& reference, const std::
     score.start_error = motion.start_error();
     if (!(score.start_error <= reference.tolerances[1])) score.start_words = start_differences(motion, reference);
     Flights(motion, reference, sequence, impacts, ending.nothing_approaches).score(score);
+    if (const std::string words = early_end(motion, reference, sequence, score, ending); !words.empty()) {
+      score.ends_early = true;
+      score.left_out = words;
+      score.findings.clear();  // that the impact is missing
+    }
     return score;
   });
 }

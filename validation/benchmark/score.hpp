@@ -27,12 +27,14 @@ enum class Verdict {
 /// Errors of one impact.
 struct ImpactScore {
   std::string place, true_place;
-  double time = 0;            ///< since the first touch, as found [s]
-  double law_error = 0;       ///< (1)
-  double time_error = 0;      ///< [s], signed
-  double velocity_error = 0;  ///< |ΔV| over the sequence's largest |V|
-  double angular_error = 0;   ///< |ΔΩ| over the sequence's largest |Ω|, at least |V|/reach
-  double energy_error = 0;    ///< of the energy after it, relative to that of the start, signed
+  std::size_t first_line = 0, last_line = 0;  ///< of the file, around it
+  std::vector<std::string> pair{};            ///< places that one step strikes, the earlier first, this among them
+  double time = 0;                            ///< since the first touch, as found [s]
+  double law_error = 0;                       ///< (1)
+  double time_error = 0;                      ///< [s], signed
+  double velocity_error = 0;                  ///< |ΔV| over the sequence's largest |V|
+  double angular_error = 0;                   ///< |ΔΩ| over the sequence's largest |Ω|, at least |V|/reach
+  double energy_error = 0;                    ///< of the energy after it, relative to that of the start, signed
   double impulse_error = 0;   ///< |ΔP| over the sequence's largest |P|, of a list; of a motion P is m ΔV
   double drift = 0;           ///< of energy in flight after it, of the first impact also before it
   double flight_error = 0;    ///< of the rows there
@@ -70,11 +72,13 @@ struct Score {
   bool order_is_right = false;
   double law_error = 0, velocity_error = 0, angular_error = 0, time_error = 0, impulse_error = 0, energy_error = 0,
          flight_error = 0, start_error = 0;
-  double gradient_error = 0;            ///< of derivatives that a list gives (gradient_score.hpp)
-  std::optional<std::size_t> drift{};   ///< after how many impacts energy is worst
-  std::optional<Stray> stray{};         ///< the flight that is worst
-  std::string start_words{};            ///< what differs at the start
-  std::string left_out{};               ///< what the problem asks for and the answer does not say; empty: nothing
+  double gradient_error = 0;           ///< of derivatives that a list gives (gradient_score.hpp)
+  std::optional<std::size_t> drift{};  ///< after how many impacts energy is worst
+  std::optional<Stray> stray{};        ///< the flight that is worst
+  std::string start_words{};           ///< what differs at the start
+  std::string left_out{};              ///< what the problem asks for and the answer does not say; empty: nothing
+  /// Whether the impacts that are missing can still come after the last row: errors are those of what there is.
+  bool ends_early = false;
   std::vector<std::string> findings{};  ///< what is wrong, in words, the first first
 
   /// V, Ω and t.

@@ -23,6 +23,7 @@ Value impact_value(const ImpactScore& one, int n) {
   Value value;
   value["n"] = n;
   value["place"] = one.place;
+  value["lines"] = std::vector<double>{static_cast<double>(one.first_line), static_cast<double>(one.last_line)};
   value["true_place"] = text_or_nothing(one.true_place);
   value["t"] = one.time;
   value["time_error"] = rounded_up(one.time_error);
@@ -75,6 +76,13 @@ Row submission_row(const Submission& one) {
           Cell(text_or_nothing(score.findings.empty() ? std::string() : score.findings.front()))};
 }
 
+/// The share of the error of V, Ω and t that goes without a cause; below 0 where it would be larger, NaN where that is
+/// not known.
+double share_of(const Submission& one, const Cause& cause) {
+  const double share = 1 - cause.error_without.value_or(Score::unknown) / one.score.motion_error();
+  return std::isfinite(share) ? share : std::nan("");
+}
+
 Value submission_value(const std::vector<Column>& columns, const Submission& one) {
   Value value = row_object(columns, submission_row(one));
   value["findings"] = one.score.findings;
@@ -83,6 +91,7 @@ Value submission_value(const std::vector<Column>& columns, const Submission& one
     causes.push_back(Value::Fields{{"cause", cause.name},
                                    {"value", cause.value ? Value(*cause.value) : Value()},
                                    {"misfit", cause.misfit},
+                                   {"share", share_of(one, cause)},
                                    {"words", cause.words}});
   }
   value["causes"] = std::move(causes);
@@ -165,29 +174,49 @@ std::string group_words(const SubmissionGroup& group) {
   const auto off = [](const SubmissionGroup::Step& step) {
     return fmt::format("off by {}, {}", error_words(step.error), verdict_name(step.verdict));
   };
-  const SubmissionGroup::Step &longest = group.steps.front(), &shortest = group.steps.back();
-  if (group.steps.size() < 2 || !longest.step || !shortest.step) return words + ": " + off(shortest);
+  std::string unknown;
+  std::vector<SubmissionGroup::Step> steps, right;  // with a known length; with all impacts right
+  for (const SubmissionGroup::Step& step : group.steps) {
+    if (!step.step) unknown = "; step unknown, for want of a line \"# step:\": " + off(step);
+    else steps.push_back(step);
+    if (step.step && std::isfinite(step.motion_error)) right.push_back(step);
+  }
+  if (steps.empty()) return words + unknown;
+  if (steps.size() == 1) return words + ": " + off(steps.front()) + unknown;
   std::string order = "no order";
   if (group.order) order = fmt::format("order {:.2f}", group.order->value);
   if (group.order && std::isfinite(group.order->error)) order += " ± " + significant(rounded_up(group.order->error), 1);
-  const auto known = std::ranges::count_if(
-      group.steps, [](const SubmissionGroup::Step& step) { return std::isfinite(step.motion_error); });
-  return words + fmt::format(": {} with {} steps; {} s: {}; {} s: {}", order, known, significant(*longest.step, 3),
-                             off(longest), significant(*shortest.step, 3), off(shortest));
+  order += fmt::format(" with {} steps", right.size());
+  if (group.order && right.size() == 2) order += ", too few to tell its error";
+  if (group.order) {
+    const auto [few, many] = std::ranges::minmax(right, {}, &SubmissionGroup::Step::files);
+    if (few.files != many.files)
+      order += fmt::format(" of {} to {} starts, which are not alike", few.files, many.files);
+  }
+  const SubmissionGroup::Step &longest = steps.front(), &shortest = steps.back();
+  return words + fmt::format(": {}; {} s: {}; {} s: {}{}", order, significant(*longest.step, 3), off(longest),
+                             significant(*shortest.step, 3), off(shortest), unknown);
 }
 
-/// Why an answer is not exact, in a few words: the likely cause, or an impact that is wrong.
+/// The likely cause, and how much of the error of V, Ω and t would go without it: "time-step (91 %)".
 std::string short_reason(const Submission& one) {
-  if (!one.causes.empty()) return one.causes.front().name;
-  return one.score.order_is_right || one.score.findings.empty() ? "" : one.score.findings.front();
+  if (one.causes.empty()) return "";
+  const Cause& cause = one.causes.front();
+  const double share = share_of(one, cause);
+  return cause.name + (share > 0 ? fmt::format(" ({:.0f} %)", 100 * share) : "");
 }
 
-/// A line for each of many files, those of a group together, the longest step first.
-Grid files_in_lines(std::vector<Submission> submissions) {
+/// The files of a group stand together, the longest step first.
+std::vector<Submission> by_group(std::vector<Submission> submissions) {
   std::ranges::stable_sort(submissions, {}, [](const Submission& one) {
     return std::tuple(one.head.problem, one.head.engine, one.head.version, one.head.settings, one.head.law,
                       -one.head.step.value_or(0));
   });
+  return submissions;
+}
+
+/// A line for each of many files.
+Grid files_in_lines(const std::vector<Submission>& submissions) {
   Grid lines;
   lines.columns = {word_column("file", "file", ""),
                    {"step", "step", "s"},
@@ -197,7 +226,8 @@ Grid files_in_lines(std::vector<Submission> submissions) {
                    word_column("cause", "likely cause", "")};
   for (const Submission& one : submissions) {
     const Score& score = one.score;
-    const std::string of = score.error() > 0 && score.order_is_right ? score.decided_by() : "";
+    const bool has_all = score.order_is_right || score.ends_early;
+    const std::string of = !has_all ? "impacts" : score.error() > 0 ? score.decided_by() : "";
     lines.rows.push_back({Cell(file_name(one)), step_cell(one.head.step), error_cell(score.error()),
                           Cell(text_or_nothing(of)), Cell(verdict_name(one.verdict)),
                           Cell(text_or_nothing(short_reason(one)))});
@@ -212,6 +242,7 @@ void add_details(const Submission& one, std::vector<std::string>& notes) {
   if (one.verdict != Verdict::exact && !says_why) notes.push_back(name + ": " + class_words(one));
   for (const std::string& words : cause_words(one.causes)) notes.push_back(name + ": " + words);
   for (const std::string& finding : one.score.findings) notes.push_back(name + ": " + finding);
+  if (!one.is_list && !one.head.step) notes.push_back(name + ": its step is unknown, for want of a line \"# step:\"");
   if (!one.score.law_is_declared && one.score.law != "any")
     notes.push_back(name + ": declares no law; judged by the one that fits best, " + one.score.law);
 }
@@ -260,9 +291,10 @@ std::vector<std::string> score_legend() {
 Report score_report(const std::string& command, const std::vector<Submission>& submissions, bool details) {
   Report report = begun_report(command, "answers of others against the truth");
   report.grid.columns = score_columns();
+  const std::vector<Submission> sorted = by_group(submissions);
   const bool in_lines = submissions.size() > 1 && !details;
   if (in_lines) {
-    report.digest = files_in_lines(submissions);
+    report.digest = files_in_lines(sorted);
     report.notes = {
         "error: the largest of all, without unit, 1 is 100 %; ?: impacts are wrong, missing or extra; --details tells "
         "all errors and findings of each file"};
@@ -276,7 +308,13 @@ Report score_report(const std::string& command, const std::vector<Submission>& s
     for (Column& column : report.grid.columns) column.shown |= one.gradients && column.name == "gradient_error";
     files.push_back(submission_value(report.grid.columns, one));
     worst = std::max(worst, one.verdict);
-    if (!in_lines) add_details(one, report.notes);
+  }
+  if (!in_lines) {
+    report.digest = Grid{report.grid.columns, {}};
+    for (const Submission& one : sorted) {
+      report.digest->rows.push_back(submission_row(one));
+      add_details(one, report.notes);
+    }
   }
   for (const SubmissionGroup& group : group_submissions(submissions)) {
     problems.push_back(group_value(group));
@@ -290,7 +328,7 @@ Report score_report(const std::string& command, const std::vector<Submission>& s
 
 bool Requirement::is_met(const Submission& submission) const {
   if (verdict && !(submission.verdict <= *verdict)) return false;
-  return !error || (submission.verdict != Verdict::incomplete && submission.score.error() <= *error);
+  return !error || (submission.score.left_out.empty() && submission.score.error() <= *error);
 }
 
 bool meets(const Submission& submission, const Requirement& requirement) {
@@ -331,12 +369,15 @@ void add_answer(const Submission& submission, double curve, PicturePanel& panel)
        .where = {{"curve", curve}}});
 }
 
-/// The worst error of V, Ω and t of a group over its steps, by which its order is told.
+constexpr double wrong_impacts = -10;  ///< curve of steps at which a file has wrong, missing or more impacts
+
+/// The worst error of V, Ω and t of a group over its steps.
 void add_steps(const SubmissionGroup& group, double curve, PicturePanel& panel) {
   for (const SubmissionGroup::Step& step : group.steps) {
-    if (!step.step || !std::isfinite(step.motion_error)) continue;
-    const double error = std::clamp(step.motion_error, least_drawn, most_drawn);
-    panel.rows.push_back({curve, *step.step, error});
+    if (!step.step) continue;
+    const bool is_known = std::isfinite(step.motion_error);
+    const double error = is_known ? std::clamp(step.motion_error, least_drawn, most_drawn) : 1;
+    panel.rows.push_back({is_known ? curve : wrong_impacts, *step.step, error});
     Range2& y = panel.plot.y;
     y = {std::fmin(y.low, error / 5), std::fmax(y.high, error * 5)};
     Range2& x = panel.plot.x;
@@ -365,7 +406,7 @@ void add_classes(const std::vector<double>& tolerances, const std::string& of_wh
     panel.plot.curves.push_back({.x = axis,
                                  .y = "error",
                                  .legend = legend,
-                                 .style = FigureCurve::Style::dotted,
+                                 .style = k % 2 == 0 ? FigureCurve::Style::dotted : FigureCurve::Style::dashed,
                                  .where = {{"curve", curve}},
                                  .colour = ink});
   }
@@ -394,6 +435,12 @@ Picture score_picture(const std::vector<Submission>& submissions) {
     panel.plot.y_label = "largest error of V, Ω and t, relative";
     panel.plot.y = {};
     for (std::size_t i = 0; i < groups.size(); ++i) add_steps(groups[i], static_cast<double>(i), panel);
+    panel.plot.curves.push_back({.x = "step",
+                                 .y = "error",
+                                 .legend = "at 1: impacts of a file wrong, missing or extra",
+                                 .style = FigureCurve::Style::crosses,
+                                 .where = {{"curve", wrong_impacts}},
+                                 .colour = ink});
   } else {
     std::size_t most = 1;
     for (std::size_t file = 0; file < submissions.size(); ++file) {

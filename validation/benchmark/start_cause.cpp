@@ -165,8 +165,11 @@ std::vector<Cause> size_causes_of(const Motion& motion, const Reference& referen
   std::vector<Cause> causes;
   for (const int axis : {0, 2}) {
     const double other = half[2 - axis] * std::fabs(up[2 - axis]), share = half[axis] * std::fabs(up[axis]);
-    const double factor = (height - other) / share;
-    if (!(share > 1e-6 * reference.reach()) || !(factor > 0.1 && factor < 10)) continue;
+    double factor = (height - other) / share;
+    // A code of steps strikes a body without thickness up to a step's fall too low.
+    const double fall = std::fabs(first.before.velocity.z()) + first.before.angular_velocity.norm() * reference.reach();
+    if (axis == 2 && std::fabs(factor) * share <= motion.step() * fall + 1e-9 * reference.reach()) factor = 0;
+    if (!(share > 1e-6 * reference.reach()) || !(factor == 0 || (factor > 0.1 && factor < 10))) continue;
     for (const bool inertia_follows : {true, false}) {
       const Size size{.axis = axis, .inertia_follows = inertia_follows, .half = half[axis], .factor = factor};
       const double left = size_misfit(motion.table(), with_size(reference, size), law);

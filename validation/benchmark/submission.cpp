@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -259,26 +258,56 @@ Submission judge(const ReadFile& file, const SubmissionHead& head, const Referen
                                   : score_motion(Motion(file.table, reference), reference, head.law, answer.ending);
   score_gradients(answer, file.gradients, reference, submission.score);
   submission.verdict = verdict_of(submission.score, reference.tolerances);
-  if (!(submission.score.impacts_error() <= reference.tolerances[1]))
+  if (!(submission.score.impacts_error() <= reference.tolerances[1]) || submission.score.ends_early)
     submission.causes = causes_of(answer, reference, submission.score);
   return submission;
 }
 
-/// Least-squares slope of ln(error) over ln(step), with its standard error.
+/// ln(step), ln(error), and the variance of that by its phases, 0 for one alone.
+struct OrderPoint {
+  double step, error, variance;
+};
+
+/// Slope and the variance that the points' own give it; with `without` one of them is left out.
+Estimated slope_of(const std::vector<OrderPoint>& points, std::size_t without) {
+  double x = 0, y = 0, n = 0, xx = 0, xy = 0, variance = 0, left = 0;
+  const auto each = [&](auto&& add) {
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      if (i != without) add(points[i]);
+    }
+  };
+  each([&](const OrderPoint& p) { x += p.step, y += p.error, ++n; });
+  x /= n, y /= n;
+  each([&](const OrderPoint& p) {
+    xx += (p.step - x) * (p.step - x), xy += (p.step - x) * (p.error - y);
+    variance += (p.step - x) * (p.step - x) * p.variance;
+  });
+  each([&](const OrderPoint& p) { left += std::pow(p.error - y - xy / xx * (p.step - x), 2); });
+  return {xy / xx, std::fmax(std::sqrt(variance) / xx, n > 2 ? std::sqrt(left / (n - 2) / xx) : 0)};
+}
+
 std::optional<Estimated> observed_order(const std::vector<SubmissionGroup::Step>& steps) {
-  std::vector<std::array<double, 2>> points;
+  std::vector<OrderPoint> points;
   for (const SubmissionGroup::Step& one : steps) {
-    if (one.step && one.motion_error > 0 && std::isfinite(one.motion_error))
-      points.push_back({std::log(*one.step), std::log(one.motion_error)});
+    if (!one.step || !(one.motion_error > 0) || !std::isfinite(one.motion_error)) continue;
+    const auto n = static_cast<double>(one.motion_errors.size());
+    double mean = 0, square = 0;
+    for (const double error : one.motion_errors) mean += error / n;
+    for (const double error : one.motion_errors) square += (error / mean - 1) * (error / mean - 1);
+    points.push_back({std::log(*one.step), std::log(mean), n > 1 ? square / (n - 1) / n : 0});
   }
-  if (points.size() < 2 || !(points.front()[0] - points.back()[0] > 1e-6)) return std::nullopt;
-  const auto n = static_cast<double>(points.size());
-  double x = 0, y = 0, xx = 0, xy = 0, left = 0;
-  for (const auto& [a, b] : points) x += a / n, y += b / n;
-  for (const auto& [a, b] : points) xx += (a - x) * (a - x), xy += (a - x) * (b - y);
-  const double slope = xy / xx;
-  for (const auto& [a, b] : points) left += std::pow(b - y - slope * (a - x), 2);
-  return Estimated{slope, points.size() > 2 ? std::sqrt(left / (n - 2) / xx) : std::nan("")};
+  const std::size_t n = points.size();
+  if (n < 2 || !(points.front().step - points.back().step > 1e-6)) return std::nullopt;
+  Estimated order = slope_of(points, n);
+  if (n < 3) return Estimated{order.value, std::nan("")};
+  double mean = 0, square = 0;
+  std::vector<double> slopes;
+  for (std::size_t i = 0; i < n; ++i) slopes.push_back(slope_of(points, i).value);
+  const auto count = static_cast<double>(n);
+  for (const double slope : slopes) mean += slope / count;
+  for (const double slope : slopes) square += (slope - mean) * (slope - mean);
+  order.error = std::fmax(order.error, std::sqrt((count - 1) / count * square));
+  return order;
 }
 
 }  // namespace
@@ -342,7 +371,8 @@ std::vector<SubmissionGroup> group_submissions(const std::vector<Submission>& su
     if (step == group.steps.end()) step = group.steps.insert(step, {.step = head.step});
     ++step->files;
     constexpr double unknown = std::numeric_limits<double>::infinity();
-    step->motion_error = std::max(step->motion_error, one.score.order_is_right ? one.score.motion_error() : unknown);
+    step->motion_errors.push_back(one.score.order_is_right ? one.score.motion_error() : unknown);
+    step->motion_error = std::max(step->motion_error, step->motion_errors.back());
     step->verdict = std::max(step->verdict, one.verdict);
     step->law_error = std::max(step->law_error, one.score.law_error);
     step->error = std::max(step->error, one.score.error());

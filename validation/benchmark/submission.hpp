@@ -37,12 +37,16 @@ struct SubmissionGroup {
     std::optional<double> step;                         ///< [s]
     std::size_t files = 0;                              ///< phases: starting gaps
     double motion_error = 0, law_error = 0, error = 0;  ///< of the worst phase; infinite: not known
+    std::vector<double> motion_errors{};                ///< of each phase
     Verdict verdict = Verdict::exact;                   ///< of the worst phase
   };
   SubmissionHead head;
   std::vector<Step> steps;  ///< the longest first
-  /// The order of V, Ω and t in the step, by least squares over the steps at which all impacts are right; nothing for
-  /// fewer than two.  The error is the estimate of the fit, NaN for fewer than three.
+  /// The order of V, Ω and t in the step, by least squares over the steps at which all impacts are right, of the mean
+  /// over the phases: where in a step a touch falls is chance, and the errors of first order that it makes lie anywhere
+  /// between none and those of a whole step.  Nothing for fewer than two steps.  The error is an estimate, NaN for
+  /// fewer than three steps: the largest of those by the fit, by leaving out a step at a time (jackknife), and by the
+  /// scatter of the phases.
   std::optional<Estimated> order;
   Verdict verdict = Verdict::exact;  ///< of the worst file
 };

@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -321,6 +322,17 @@ Range2 whole_range(const Range2& range) {
 
 bool is_given(const Range2& range) { return std::isfinite(range.low) || std::isfinite(range.high); }
 
+/// Tics at 1, 2 and 5 of each decade: within two of them those of the decades alone are too few.
+std::string few_tics(const Range2& range) {
+  std::vector<std::string> tics;
+  for (double decade = std::pow(10, std::floor(std::log10(range.low))); decade <= range.high; decade *= 10) {
+    for (const double tic : {decade, 2 * decade, 5 * decade}) {
+      if (tic >= range.low && tic <= range.high) tics.push_back(fmt::format("{:.1g}", tic));
+    }
+  }
+  return fmt::format("set format x '%g'\nset xtics ({})\n", fmt::join(tics, ", "));
+}
+
 }  // namespace
 
 std::string data_blocks(const PlotData& data, const FigurePlot& plot, const std::string& name) {
@@ -355,7 +367,8 @@ std::string axes_text(const PlotData& data, const FigurePlot& plot) {
         "set label 11 '0°' at 1.05, 0 left\nset label 12 '90°' at 0, 1.14 "
         "center\nset label 13 '180°' at -1.05, 0 right\nset label 14 '270°' at 0, -1.14 center\n";
   }
-  if (plot.logarithmic_x) text += "set logscale x\nset format x '10^{%T}'\n";
+  if (plot.logarithmic_x)
+    text += "set logscale x\n" + (x.high < 200 * x.low ? few_tics(x) : "set format x '10^{%T}'\n");
   if (plot.logarithmic_y) text += "set logscale y\nset format y '10^{%T}'\n";
   return text;
 }

@@ -29,7 +29,7 @@ struct TableColumn {
   std::size_t place = 0;
   std::string heading, unit;
   bool words = false;
-  std::size_t width = 0;
+  std::size_t width = 0, longest_word = 0;
 
   [[nodiscard]] std::size_t least_width() const {
     return std::min(width, std::max({least_folded, display_width(heading), display_width(unit)}));
@@ -47,12 +47,16 @@ TableColumns table_columns(const Grid& grid, const RowSource& rows, const Writte
     const Column& column = grid.columns[i];
     if (!column.shown) continue;
     columns.push_back({i, column.heading, column.unit, column.words,
-                       std::max(display_width(column.heading), display_width(column.unit))});
+                       std::max(display_width(column.heading), display_width(column.unit)), 0});
   }
   for (std::size_t r = 0; r < rows.count; ++r) {
     const Row& row = rows.row(r);
-    for (TableColumn& column : columns)
-      column.width = std::max(column.width, display_width(cell_text(row, column.place, written)));
+    for (TableColumn& column : columns) {
+      const std::string text = cell_text(row, column.place, written);
+      column.width = std::max(column.width, display_width(text));
+      std::istringstream words(column.words ? text : "");
+      for (std::string word; words >> word;) column.longest_word = std::max(column.longest_word, display_width(word));
+    }
   }
   return columns;
 }
@@ -63,19 +67,23 @@ std::size_t total_width(const TableColumns& columns) {
   return total;
 }
 
-/// Takes what is too wide from the columns of words, the widest first.
-void fold_words(TableColumns& columns) {
+/// Takes what is too wide from the columns of words, the widest first; words are cut where no other way is left, but
+/// never those that say which row it is.
+void fold_words(TableColumns& columns, std::size_t leading) {
   std::vector<TableColumn*> words;
   for (TableColumn& column : columns) {
     if (column.words) words.push_back(&column);
   }
   std::stable_sort(words.begin(), words.end(),
                    [](const TableColumn* one, const TableColumn* other) { return one->width > other->width; });
-  for (TableColumn* const column : words) {
-    const std::size_t total = total_width(columns);
-    if (total <= table_width) return;
-    const std::size_t excess = total - table_width;
-    column->width -= std::min(excess, column->width - column->least_width());
+  for (const bool cuts : {false, true}) {
+    for (TableColumn* const column : words) {
+      const std::size_t total = total_width(columns);
+      if (total <= table_width) return;
+      const std::size_t least =
+          std::max(column->least_width(), cuts && column->place >= leading ? 0 : column->longest_word);
+      column->width -= std::min(total - table_width, column->width - std::min(least, column->width));
+    }
   }
 }
 
@@ -182,7 +190,7 @@ void write_block(const TableColumns& columns, const RowSource& rows, const Writt
 void write_aligned_grid(const Grid& grid, const RowSource& rows, const Written& written, const WriteText& write) {
   const TableColumns whole = table_columns(grid, rows, written);
   TableColumns columns = whole;
-  fold_words(columns);
+  fold_words(columns, grid.leading);
   if (total_width(columns) <= table_width) return write_block(columns, rows, written, write);
   bool is_first = true;
   for (const TableColumns& block : blocks_of(whole, grid.leading)) {

@@ -103,7 +103,7 @@ class Reasons(EmptyFolder):
     def test_what_the_class_is_by_is_said_with_its_size(self):
         found, = scored(self.hot())
         self.assertEqual((found["verdict"], found["decided_by"]), ("fails", "energy"))
-        self.assertIn("energy after impact 1 is off, error 0.013", found["findings"])
+        self.assertIn("energy after impact 1 (lines 5 to 6) is off, error 0.013", found["findings"])
         self.write("0.csv", self.hot())
         self.assertIn("0.csv: fails by energy, off by 0.013", self.run_program("benchmark", "score", "0.csv").stdout)
 

@@ -221,12 +221,12 @@ class Exact(EmptyFolder):
         words = re.search(r"rod-45, some engine, tuned: order (\S+) ± (\S+) with 3 steps; 0.0100 s: off by (\S+), (\w+); 0.00250 s: off by (\S+), (\w+)",
                           re.sub(r"\n  ", " ", text))
         self.assertEqual(words[1], "1.00")
-        self.assertLess(float(words[2]), 0.01)
+        self.assertLess(float(words[2]), 0.1)  # the starts differ by a fifth
         for n, error, verdict in ((100, words[3], words[4]), (400, words[5], words[6])):
             worst = max((judged[f"{n}_{gap}"] for gap in (0, 2)), key=lambda file: file["error"])
             self.assertEqual((float(error), verdict), (worst["error"], worst["verdict"]))
         self.assertNotIn("is off, error", text)
-        self.assertIn("velocity of impact 1 is off, error", printed("benchmark", "score", *files, "--details"))
+        self.assertRegex(" ".join(printed("benchmark", "score", *files, "--details").split()), r"velocity of impact 1 \(lines \d+ to \d+\) is off, error")
         self.assertEqual(printed("benchmark", "score", files[0]), printed("benchmark", "score", files[0], "--details"))
 
     def test_a_step_at_which_an_impact_is_missing_has_no_error_and_no_part_in_the_order(self):

@@ -96,7 +96,7 @@ def damped():
 REST = "# energy: 0.9810000000000001"
 # file: (its text, the cause that is told, what it says)
 THREADS = {
-    "siconos-125": (one_end_at_a_time, None, "impact 1 is at a, must be at both"),
+    "siconos-125": (one_end_at_a_time, None, "impact 1 (line 5) is at a, must be at both"),
     "newton-1137": (rock_that_rebounds, "restitution", "e = 0.5"),
     "physx-351": (lambda: Watched("ball-rest", threshold=2.0).listed("surface", REST), "restitution", "e = 0 "),
     "reactphysics3d-96": (lambda: Watched("ball-rest", threshold=1.0).listed("surface", REST), "restitution-threshold", "0.75"),
