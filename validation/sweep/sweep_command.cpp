@@ -557,12 +557,7 @@ int run_sweep(const SweepInput& input, const SweepPlan& plan, const SweepBody& b
   if (is_done) return 0;
   if (queue.is_complete()) {
     output.commit();
-    if (const auto& warning = plan.warning->found())
-      say(fmt::format("scene {}, the first of those that warn: {}", warning->first, warning->second));
-    if (output.cut() > 0 && !plan.has_own_limit && !input.request.summary) {
-      say(fmt::format("{} of {} scenes end at {} impacts, where more may follow: run.impacts is not given",
-                      output.cut(), scenes, plan.scene.request.impacts));
-    }
+    for (const std::string& remark : plan.remarks(input.request.summary ? 0 : output.cut())) say(remark);
     return output.shortfalls().status(scenes, "scenes");
   }
   const std::string words = fmt::format("interrupted after {} of {} scenes", queue.taken(), scenes);

@@ -516,6 +516,17 @@ void SweepPlan::put_point(const std::vector<double>& values, Scene& into) const 
   into.settle_restitution();
 }
 
+std::vector<std::string> SweepPlan::remarks(long long cut) const {
+  std::vector<std::string> said;
+  if (const auto& found = warning->found())
+    said.push_back(fmt::format("scene {}, the first of those that warn: {}", found->first, found->second));
+  if (cut > 0 && !has_own_limit) {
+    said.push_back(fmt::format("{} of {} scenes end at {} impacts, where more may follow: run.impacts is not given",
+                               cut, points.count(), scene.request.impacts));
+  }
+  return said;
+}
+
 std::string SweepPlan::command_of(long long index) const {
   std::string command = "clatter sweep " + fixed_words;
   std::vector<double> values;

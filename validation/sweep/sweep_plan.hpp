@@ -86,6 +86,10 @@ struct SweepPlan {
   bool numbered_attitudes = false;  ///< the listed ones are a box's 26
   /// Puts the numbers of a point into a scene.
   void put_point(const std::vector<double>& values, Scene& into) const;
+  /// What to say of rows that are whole: the first of its runs that warns, and how many end at a limit that nobody
+  /// gave.
+  /// @param cut  scenes that end at run.impacts, where more may follow
+  [[nodiscard]] std::vector<std::string> remarks(long long cut) const;
   /// The report without rows.  Equal for equal sweeps; a mesh and lists of attitudes are in it by digests of their
   /// files.  What it says of the scene leaves out the swept keys.
   [[nodiscard]] Report report() const;

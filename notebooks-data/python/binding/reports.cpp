@@ -106,6 +106,7 @@ py::list keys() {
     row["allowed"] = key.allowed();
     row["meaning"] = key.help;
     row["is_discrete"] = key.is_for(validation::Model::discrete);
+    row["is_continuous"] = key.is_for(validation::Model::continuous);
     rows.append(row);
   }
   return rows;

@@ -226,7 +226,7 @@ validation::Report swept(const validation::SweepPlan& plan, bool summary, bool c
   return report;
 }
 
-/// (report, how many scenes fall short and why the first, or "")
+/// (report, how many scenes fall short and why the first, or "", what else is to be said)
 py::tuple sweep(const std::string& name, const std::optional<std::string>& text, const std::vector<std::string>& sets,
                 const std::vector<std::string>& probes, const NamedTexts& options, bool summary,
                 const py::object& progress) {
@@ -243,7 +243,8 @@ py::tuple sweep(const std::string& name, const std::optional<std::string>& text,
     validation::ShortfallCount shortfalls(plan.layout, plan.packed);
     const bool is_named = !request.file.empty() && !(request.text && request.file == "scene");
     validation::Report report = swept(plan, request.summary, is_named, watch, shortfalls);
-    return std::pair(kept(std::move(report)), shortfalls.found().first());
+    return std::tuple(kept(std::move(report)), shortfalls.found().first(),
+                      plan.remarks(request.summary ? 0 : shortfalls.cut()));
   };
   return py::cast(run_interruptible(work, progress));
 }

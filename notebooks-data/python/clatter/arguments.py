@@ -42,6 +42,7 @@ class Key(NamedTuple):
     allowed: str
     meaning: str
     is_discrete: bool
+    is_continuous: bool
 
     def type_name(self) -> str:
         """As stubs have it."""

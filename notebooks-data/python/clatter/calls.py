@@ -28,7 +28,7 @@ _CUT_SHORT = {"evaluation-limit", "step-too-small", "not-representable", "flight
 def _warn(reservations: Iterable[str]) -> None:
     """Of the line that calls a function of this file."""
     for words in reservations:
-        warnings.warn(words, ClatterWarning, stacklevel=4)
+        warnings.warn(words.removeprefix("warning: "), ClatterWarning, stacklevel=4)
 
 
 def _reservations(shortfall: str | None, outcome: str, impacts: int) -> list[str]:
@@ -113,7 +113,9 @@ def simulate(scene: Scene | float | None = None, *, history: bool = False, progr
     if "runs" in report.data():
         return Sweep(report)
     run = Simulation(report, None if arrays is None else History(arrays))
-    _warn(_reservations(run.shortfall, run.outcome, len(run)))
+    left_out = [f"{name}: the discrete model's alone, which simulate() leaves out" for name, value in changes.items()
+                if value is not None and (KEYS[name].key.startswith("impact.") or not KEYS[name].is_continuous)]
+    _warn([*_reservations(run.shortfall, run.outcome, len(run)), *left_out, *run._data["warnings"]])
     return run
 
 
@@ -204,10 +206,10 @@ def sweep(
     name, text, _ = scene_text(scene, {})
     if isinstance(scene, str):  # the program finds a case by its name, which its commands then have, too
         name, text = scene, None
-    report, shortfall = called(_clatter.sweep, name, text, sets, probe_texts(probe), options, summary, progress)
+    report, shortfall, said = called(_clatter.sweep, name, text, sets, probe_texts(probe), options, summary, progress)
     if shortfall and require_digits:
         raise NotComputed(shortfall)
-    _warn([shortfall] if shortfall else [])
+    _warn([*([shortfall] if shortfall else []), *said])
     return Summary(report) if summary else Rows(report)
 
 

@@ -7,7 +7,7 @@ from typing import Any
 from clatter.arguments import KEYS
 from clatter.arrays import Array
 from clatter.fields import Choice, Rung, Step
-from clatter.records import Record, absent
+from clatter.records import Record, absent, as_array
 from clatter.results import Report, Result, given_again, named_row
 
 
@@ -155,7 +155,9 @@ class Ranking(Table):
 
     @functools.cached_property
     def _columns(self) -> dict[str, list[Any]]:
-        rows = [{name: value["largest"] if isinstance(value, dict) else value for name, value in one.items()} for one in self._objects()]
+        def worst(value: Any) -> Any:
+            return value.get("largest", value.get("least")) if isinstance(value, dict) else value
+        rows = [{name: worst(value) for name, value in one.items()} for one in self._objects()]
         return {name: [row.get(name) for row in rows] for name in dict.fromkeys(name for row in rows for name in row)}
 
 
@@ -171,7 +173,10 @@ class Rows(Table):
                 for name, values in super()._columns.items()}
 
     def column(self, name: str) -> Array:
-        """One value of each row; NaN where there is none.  @raise KeyError: with how a sweep gets more columns."""
+        """One value of each row, vectors as rows; NaN where there is none.  @raise KeyError: with how a sweep gets more columns."""
+        parts = [f"{name}_{part}" for part in ("x", "y", "z", "q0", "q1", "q2", "q3") if f"{name}_{part}" in self._columns]
+        if parts and name not in self._columns:
+            return as_array([list(row) for row in zip(*(self._columns[part] for part in parts))])
         try:
             return super().column(name)
         except KeyError as error:

@@ -31,12 +31,13 @@ def _ends(rows: list[str], left_out: str) -> list[str]:
     return [*rows[:_ROWS_AT_AN_END], left_out.format(f"… {len(rows)} rows"), *rows[-_ROWS_AT_AN_END:]]
 
 
-def shown_text(text: str) -> str:
-    """A table for a terminal: the ends of each block, which begins below a rule and ends at an empty line."""
+def shown_text(text: str, count: int) -> str:
+    """A table for a terminal: the ends of each block, whose `count` rows begin below a rule, and all that is said below it."""
     lines: list[str] = []
     for block in text.rstrip("\n").split("\n\n"):
         head, rule, rows = re.fullmatch(r"(?s)(?:(.*?\n)( *─+\n))?(.*)", block).groups()  # type: ignore[union-attr]
-        lines.append((head or "") + (rule or "") + ("\n".join(_ends(rows.split("\n"), "  {}")) if rule else rows))
+        body = rows.split("\n")
+        lines.append((head or "") + (rule or "") + ("\n".join([*_ends(body[:count], "  {}"), *body[count:]]) if rule else rows))
     return "\n\n".join(lines)
 
 
@@ -205,7 +206,7 @@ class Result(Generic[Row]):
         return self._report.text(format, ascii)
 
     def __repr__(self) -> str:
-        return shown_text(self.to_text())
+        return shown_text(self.to_text(), len(next(iter(self._report.columns().values()), [])))
 
     def _repr_html_(self) -> str:
         return shown_html(self._report.html())
@@ -225,6 +226,37 @@ class States:
 
     def __init__(self, rows: list[dict[str, Any]]) -> None:
         self._rows = rows
+
+    @property
+    def columns(self) -> list[str]:
+        """Their names, vectors by their parts."""
+        return list(dict.fromkeys(name for row in self._rows for name in flat(row)))
+
+    @property
+    def rows(self) -> list[Record]:
+        """A record for each time."""
+        return self[:]
+
+    def to_dict(self) -> list[dict[str, Any]]:
+        """The program's JSON of each time."""
+        return copy.deepcopy(self._rows)
+
+    def __repr__(self) -> str:
+        """A line for each column, with the first times."""
+        most, rows = 5, [flat(row) for row in self._rows]
+        def text(value: Any) -> str:
+            return "?" if value is None else f"{value:.6g}" if isinstance(value, float) else str(value)
+        lines = [f"{name:<28}" + "".join(f"{text(row.get(name)):>13}" for row in rows[:most]) for name in self.columns]
+        return "\n".join([*lines, *([f"… {len(rows)} times"] if len(rows) > most else [])])
+
+    if not TYPE_CHECKING:
+        def __getattr__(self, name: str) -> Any:
+            if name.startswith("_"):
+                raise AttributeError(name)
+            try:
+                return self.column(name)
+            except KeyError:
+                raise AttributeError(absent(name, self.columns)) from None
 
     def column(self, name: str) -> Array:
         """One value of each time, vectors as rows; NaN where the model does not say.  NAME_error is its error, NAME_z a vector's part."""
@@ -288,6 +320,16 @@ class Run(Result[OneImpact]):
     def predictable(self) -> bool:
         """Whether each impact is: rounding has not decided what happens."""
         return bool(self._data["predictable"])
+
+    @property
+    def rest(self) -> Record | None:
+        """Of a body that comes to rest: corners of the face on which it must, and by when; None: it is not known."""
+        return Record(self._data["rest"]) if self._data.get("rest") else None
+
+    @property
+    def end_motion(self) -> Record | None:
+        """How the body slides, spins or rolls after its last impact; None: it does not, or it is not known."""
+        return Record(self._data["end_motion"]) if self._data.get("end_motion") else None
 
     @property
     def shortfall(self) -> str | None:

@@ -104,4 +104,5 @@ def called(function: Callable[..., Returned], *arguments: Any, renamed: Mapping[
         return function(*arguments)
     except BadInput as error:
         words = re.sub(r"^scene(:\d+:\d+)?: ", "", str(error))
+        words = words.replace("clatter shock --ground", "clatter.ground()")
         raise BadInput(re.sub(r"--([a-z][a-z-]*)", name, words)) from None
