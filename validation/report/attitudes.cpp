@@ -26,8 +26,6 @@
 namespace clatter::validation {
 namespace {
 
-using numeric::Vector3;
-
 /// Which way is down in the axes of a body of this attitude.
 Vector3 down_of(const Eigen::Quaterniond& attitude) { return -(attitude.conjugate() * Vector3::UnitZ()); }
 
@@ -47,7 +45,7 @@ SweepRequest sweep_of(const ReportInput& input, const Attitudes& attitudes, cons
                        .columns = {},
                        .no_errors = true,
                        .summary = true,
-                       .part = input.part(),
+                       .parts = input.parts,
                        .rank_by = rank_by};
   if (request.file.empty()) request.text = "";
   for (const SceneOverride& given : overrides_of(input.scene)) {
@@ -61,7 +59,7 @@ std::string sweep_command_of(const SweepRequest& request) {
   std::string words = "clatter sweep " + shell_word(request.file) + " --model " + name_of(*request.model);
   for (const std::string& set : request.sets) words += " --set " + shell_word(set);
   for (const std::string& probe : request.probes) words += " --probe " + shell_word(probe);
-  if (request.part) words += " --part " + shell_word(part_text(*request.part));
+  for (const FragilePart& part : request.parts) words += " --part " + shell_word(part_text(part));
   if (!request.rank_by.empty()) words += " --rank-by " + shell_word(request.rank_by);
   return words + fmt::format(" --random {} --scatter {} --no-errors --summary", *request.random, *request.scatter);
 }
@@ -152,7 +150,11 @@ std::string name_of_drop(const Scene& scene, int number, const Vector3& down) {
 }
 
 Ranking ranking_of(std::string_view column, const std::vector<Probe>& probes, const ReportInput& input) {
-  Ranking ranking{.part = input.part(), .has_peaks = model_of(input) == Model::continuous};
+  Ranking ranking{.has_peaks = model_of(input) == Model::continuous};
+  for (std::size_t i = 0; i < probes.size(); ++i) {
+    if (column.ends_with("_" + probes[i].name)) ranking.probe = i;
+  }
+  if (!probes.empty() && input.part() && input.part()->is_at(probes[ranking.probe].name)) ranking.part = input.part();
   ranking.landing_alone = column.starts_with(of_landing);
   if (ranking.landing_alone) column.remove_prefix(of_landing.size());
   const bool is_velocity = column.starts_with(shock_column) || !ranking.has_peaks;
@@ -161,9 +163,6 @@ Ranking ranking_of(std::string_view column, const std::vector<Probe>& probes, co
                : ranking.part                     ? Ranking::By::margin
                : is_velocity                      ? Ranking::By::velocity
                                                   : Ranking::By::peak;
-  for (std::size_t i = 0; i < probes.size(); ++i) {
-    if (column.ends_with("_" + probes[i].name)) ranking.probe = i;
-  }
   return ranking;
 }
 
@@ -183,12 +182,13 @@ std::optional<AllAttitudes> all_attitudes(const ReportInput& input, const Scene&
     return static_cast<std::size_t>(std::ranges::find(columns, name, &Column::name) - columns.begin());
   };
   const std::string& by = all.column.name;
+  const Ranking ranks = ranking_of(by, plan.layout.probes, input);
   const std::string beyond = by.starts_with(of_landing) ? by.substr(of_landing.size()) : "";
   const std::size_t curve = place_of("curve_depth"), beyond_value = place_of(beyond),
                     beyond_impact = place_of(beyond + "_impact"),
                     peak = plan.layout.probes.empty()
                                ? columns.size()
-                               : place_of(std::string(peak_column) + plan.layout.probes.front().name);
+                               : place_of(std::string(peak_column) + plan.layout.probes[ranks.probe].name);
   RangeQueue queue({0, plan.points.count()}, range_size(plan));
   SweepHooks hooks;
   Progress progress;
@@ -214,11 +214,11 @@ std::optional<AllAttitudes> all_attitudes(const ReportInput& input, const Scene&
   };
   hooks.tick = [] {};
   hooks.stop = [&] { return interrupt.requested(); };
-  Ranks ranks;
-  const int threads = thread_count(input.threads, ranks);
+  Ranks processes;
+  const int threads = thread_count(input.threads, processes);
   run_on_threads(queue, threads, runners_of(plan, body), hooks);
   if (interrupt.requested() || all.drops.empty()) return {};
-  find_blows(plan, body, threads, ranking_of(by, plan.layout.probes, input), all);
+  find_blows(plan, body, threads, ranks, all);
   all.worst = *std::ranges::min_element(all.worst_of, [&](std::size_t one, std::size_t other) {
     return all.is_worse(all.drops[one].value, all.drops[other].value);
   });
@@ -263,7 +263,7 @@ std::vector<Column> attitude_columns() {
           {"depth_percent", "of pad", "%", "the same in parts of the pad's thickness"},
           {"worst", "worst", "", "what the drops are ranked by, of that drop"},
           {"mildest", "mildest", "", "the same of the mildest of its drops"},
-          {"largest_peak_g", "any peak", "g", "largest specific force at the first probe in any blow of any of them"},
+          {"largest_peak_g", "any peak", "g", "largest specific force at the probe in any blow of any of them"},
           {"drops", "drops", "", "of this attitude"}};
 }
 
@@ -278,7 +278,7 @@ Grid attitudes_grid(const AllAttitudes& all) {
     return !blow || blow->value == all.drops[drop].value;
   });
   const auto& pad = all.scene.pad.thickness;
-  const bool has_share = has_depth && all.scene.world.ground.is_pad() && pad;
+  const bool has_share = has_depth && pad;
   Grid grid{attitude_columns(), {}, 1};
   for (Column& column : grid.columns) {
     if (column.name == "worst" || column.name == "mildest") {

@@ -2,6 +2,7 @@
 // The drops of a report in all attitudes: a sweep, ranked, and the worst blow of each face, edge and corner.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <optional>
 #include <string>
@@ -33,7 +34,7 @@ struct SweptDrop {
   double beyond_value = 0;  ///< the same with the impacts that the ranking leaves out, or NaN
   int beyond_impact = 0;
   double curve_depth = 0;  ///< depth over that of the pad's last point, or NaN
-  double peak_g = 0;       ///< the largest specific force at the first probe in any of its blows, or NaN
+  double peak_g = 0;       ///< the largest specific force at the ranking's probe in any of its blows, or NaN
 };
 
 /// What the drops in all attitudes give.

@@ -45,6 +45,13 @@ bool is_of_box(const ReportInput& input) {
                                      : "") == "box";
 }
 
+/// Whether flags say how the body is turned.
+bool types_attitude(const ReportInput& input) {
+  return std::ranges::any_of(all_keys(), [&](const Key& key) {
+    return turns_body(key.name) && *key.flag != '\0' && is_given(input.scene, key.flag);
+  });
+}
+
 Answer answer_of(const ShockRun& run, const Ranking& ranking) {
   Answer answer;
   const Run impacts = run.continuous ? run_of(run.continuous->planned.run) : *run.discrete_run;
@@ -148,7 +155,7 @@ void show_depths(const Scene& scene, const numeric::Simulation& run, Grid& grid)
     if (column.name == "indentation") column.shown = true;
   }
   const auto& pad = scene.pad.thickness;
-  if (!scene.world.ground.is_pad() || !pad || run.impacts.size() != grid.rows.size()) return;
+  if (!pad || run.impacts.size() != grid.rows.size()) return;
   grid.columns.push_back({"depth_percent", "of pad", "%", "depth in parts of the pad's thickness"});
   for (std::size_t i = 0; i < grid.rows.size(); ++i)
     grid.rows[i].emplace_back(100 * run.impacts[i].value.indentation / *pad, 3);
@@ -202,9 +209,8 @@ void require_worst_attitudes(const ReportInput& input, const Scene& scene) {
 
 bool gives_attitude(const ReportInput& input) {
   const SceneValues values = scene_values(input.scene.source);
-  return std::ranges::any_of(all_keys(), [&](const Key& key) {
-    return turns_body(key.name) && (values.has(key.name) || (*key.flag != '\0' && is_given(input.scene, key.flag)));
-  });
+  return types_attitude(input) ||
+         std::ranges::any_of(all_keys(), [&](const Key& key) { return turns_body(key.name) && values.has(key.name); });
 }
 
 bool looks_at_all(const ReportInput& input) { return is_of_box(input) && input.drops != 0; }
@@ -214,10 +220,13 @@ std::optional<Findings> findings_of(const ReportInput& input, const Scene& given
                                     const CooperativeInterrupt& interrupt) {
   const std::vector<Probe> probes = probes_of(input);
   const Model model = model_of(input);
-  const std::string rank_by =
-      !input.rank_by.empty() || probes.empty()
-          ? input.rank_by
-          : ranking_column({.model = model, .part = input.part()}, probes.front(), is_lossless(given, model));
+  std::string rank_by = input.rank_by;
+  if (rank_by.empty() && !probes.empty()) {
+    RowLayout layout{.model = model, .probes = probes};
+    for (const Probe& probe : probes)
+      layout.part_at.push_back(input.part() && input.part()->is_at(probe.name) ? input.part() : std::nullopt);
+    rank_by = ranking_column(layout, layout.first_ranked(), is_lossless(given, model));
+  }
   Findings found;
   found.ranking = ranking_of(rank_by, probes, input);
   const Ranking& ranking = found.ranking;
@@ -242,6 +251,11 @@ std::optional<Findings> findings_of(const ReportInput& input, const Scene& given
   found.lead = found.answer.words;
   say_doubts(scene, model, probes);
   found.notes = doubts_of(scene, model, probes);
+  if (ranking.part && ranking.part->probe.empty() && probes.size() > 1)
+    found.notes.push_back(fmt::format("The part {0} is judged at {1}{2}: --part {3}:{0} puts it elsewhere",
+                                      part_text(*ranking.part), probes[ranking.probe].name,
+                                      ranking.probe == 0 ? ", the first probe" : "",
+                                      probes[ranking.probe == 0 ? 1 : 0].name));
   if (const auto& all = found.all) {
     const SweptDrop& worst = all->drops[all->worst];
     Value& answer = fields["answer"];
@@ -264,7 +278,9 @@ std::optional<Findings> findings_of(const ReportInput& input, const Scene& given
       const Answer own = answer_of(run_shock(given, probes, plain, {.progress = watch}), ranking);
       const bool is_worse =
           own.blow && found.answer.blow && ranking.is_worse(own.blow->value, found.answer.blow->value);
-      found.lead += fmt::format(". The drop as given{}: {}", is_worse ? " is worse" : "", own.words);
+      // An angle of the file is there for other commands, too.
+      if (is_worse || types_attitude(input))
+        found.lead += fmt::format(". The drop as given{}: {}", is_worse ? " is worse" : "", own.words);
       fields["as_given"] = own.fields;
     }
   } else if (found.answer.blow && found.answer.blow->margin) {

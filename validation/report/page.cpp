@@ -22,12 +22,10 @@
 namespace clatter::validation {
 namespace {
 
-using numeric::Vector3;
-
 struct HandoutPart {
   std::string title;
   std::string html;
-  bool is_floor = false;  ///< whether a floor's parts begin here
+  bool is_case = false;  ///< whether a case's parts begin here
 };
 
 constexpr const char* page_style =
@@ -37,7 +35,7 @@ constexpr const char* page_style =
     "body{font:16px/1.5 system-ui,sans-serif;color:var(--ink);background:var(--paper);max-width:60rem;margin:0 auto;"
     "padding:1rem}"
     "h1{font-size:1.2rem;font-weight:normal;color:var(--soft);margin:0}h1.given{font-size:1.6rem;color:var(--ink)}"
-    "h2.floor{font-size:1.5rem;margin-top:2.5rem;border-bottom:3px solid "
+    "h2.case{font-size:1.5rem;margin-top:2.5rem;border-bottom:3px solid "
     "var(--body)}h2{font-size:1.2rem;margin-top:1.5rem;"
     "border-bottom:1px solid var(--line)}.answer{font-size:1.35rem;line-height:1.3;margin:.4rem 0;max-width:none}"
     ".notes ul{margin:.4rem 0;padding-left:1.2rem}.notes li{font-size:.9rem;line-height:1.35;max-width:none}"
@@ -57,7 +55,7 @@ constexpr const char* page_style =
     "--body:#2a6f97}*{print-color-adjust:exact;-webkit-print-color-adjust:exact}body{font-size:9.5pt;max-width:none;"
     "padding:0}h2{break-after:avoid;margin-top:.8rem}figure,tr,pre{break-inside:avoid}.wide{overflow:visible}"
     "table{font-size:7.5pt}th,td{padding:.05rem .25rem;white-space:normal}figure.plot svg{max-height:9.6cm}"
-    "h2.floor{break-before:page;margin-top:0}p,ul,pre,figure{margin:.25rem "
+    "h2.case{break-before:page;margin-top:0}p,ul,pre,figure{margin:.25rem "
     "0}ul{padding-left:1.2rem}p,li{max-width:none;line-height:1.3}"
     ".lines,.wide p,figcaption,pre{font-size:7.5pt;line-height:1.25}.beside figure{flex-basis:16rem}"
     ".answer{font-size:13pt}}@page{margin:14mm}";
@@ -108,7 +106,7 @@ std::string handout_page(const std::string& title, bool given, const std::vector
     html += "<section>\n" +
             (part.title.empty()
                  ? ""
-                 : fmt::format("<h2{}>{}</h2>\n", part.is_floor ? " class=\"floor\"" : "", html_escaped(part.title))) +
+                 : fmt::format("<h2{}>{}</h2>\n", part.is_case ? " class=\"case\"" : "", html_escaped(part.title))) +
             part.html + "</section>\n";
   return html + "</body></html>\n";
 }
@@ -314,9 +312,18 @@ std::vector<RankedDrop> dots_of(const AllAttitudes& all) {
   return dots;
 }
 
-/// @param floor  that the parts are of, where a page has several; empty: it has one
+/// What to read of blows on a floor that is hard.
+std::string peak_advice(const Scene& scene, Model model) {
+  if (model == Model::discrete || scene.world.ground.is_pad()) return "";
+  return "<p>Near a level face a rigid body on a hard floor gets a peak of thousands of g within microseconds, which "
+         "no "
+         "housing passes on: read the change of velocity, and the spectrum at the part's frequency, not the "
+         "peak.</p>\n";
+}
+
+/// @param heading  of the case that the parts are of, where a page has several; empty: it has one
 std::vector<HandoutPart> parts_of(const ReportInput& input, const Findings& found, const Attitudes& attitudes,
-                                  const ShockView& view, const std::string& floor) {
+                                  const ShockView& view, const std::string& heading) {
   const Scene& scene = found.scene;
   const Model model = model_of(input);
   const auto& all = found.all;
@@ -337,17 +344,18 @@ std::vector<HandoutPart> parts_of(const ReportInput& input, const Findings& foun
   std::string answer = fmt::format("<p class=\"answer\">{}.</p>\n", html_escaped(found.lead));
   if (!found.notes.empty()) answer += "<div class=\"notes\">" + handout_list(found.notes) + "</div>\n";
   const KeyNames unsettled = all ? attitude_keys : KeyNames{};
-  if (!floor.empty()) {
+  if (!heading.empty()) {
     answer += "<p class=\"lines\">";
     for (const std::string& line : scene.summary(model, unsettled)) answer += html_escaped(line) + "<br>\n";
     answer += "</p>\n";
   }
-  std::vector<HandoutPart> parts{{floor, answer + pictures + "</div>\n", !floor.empty()}};
+  std::vector<HandoutPart> parts{{heading, answer + pictures + "</div>\n", !heading.empty() && !input.is_short}};
+  if (input.is_short) return parts;
   if (all) parts.push_back({"Attitudes", attitudes_html(*all, attitudes)});
   parts.push_back({"Shock at points of the body",
                    found.run.probes.empty() ? "<p>No probe was named: give --probe NAME:X,Y,Z, or [[probe]] in the "
                                               "scene file.</p>\n"
-                                            : shock_html(found.run, view, impact)});
+                                            : peak_advice(scene, model) + shock_html(found.run, view, impact)});
   parts.push_back({fmt::format("The impacts, {} model", name_of(model)),
                    handout_table(found.impacts) + legend_html(found.impacts.table()) +
                        (found.run.continuous ? "" : sequence_picture_html(scene))});
@@ -378,12 +386,14 @@ std::string page_of(const std::vector<ReportCase>& cases, const Attitudes& attit
     const std::vector<const ReportCase*> order = ranked(cases);
     const Report joined = joined_report(order);
     Report table;
-    table.grid = joined.grid;
+    table.grid = cases_grid(order);
+    const std::string fixed = fixed_words(order);
     parts = {{"", fmt::format("<p class=\"answer\">{}.</p>\n", html_escaped(joined.notes.front())) +
-                      handout_table(table) + legend_html(table.grid)}};
-    std::set<std::string> said;  // what is said of one floor is left out of the next
-    for (const ReportCase* one : worst_of_floors(order)) {
-      for (HandoutPart& part : parts_of(one->input, one->found, attitudes, one->view, one->name())) {
+                      (fixed.empty() ? "" : fmt::format("<p>{}.</p>\n", html_escaped(fixed))) + handout_table(table) +
+                      legend_html(table.grid)}};
+    std::set<std::string> said;  // what is said of one case is left out of the next
+    for (const ReportCase* one : worst_cases(order)) {
+      for (HandoutPart& part : parts_of(one->input, one->found, attitudes, one->view, one->heading())) {
         if (said.insert(part.title + part.html).second) parts.push_back(std::move(part));
       }
     }

@@ -29,7 +29,10 @@ void require_date(const std::string& text) {
 
 int run_report(const ReportInput& input) {
   const bool is_page = input.form == ReportInput::Form::html;
+  if (input.is_short && !is_page) throw BadInput("--short: is of the page; leave out --format");
   if (is_page) {
+    if (input.row_form != ReportInput::RowForm::by_itself)
+      throw BadInput("--rows attitude: is of --format table, csv or markdown; the page has them");
     if (input.output.empty()) throw BadInput("--output: required, the page's file");
     if (!input.output.ends_with(".html")) throw BadInput(fmt::format("--output '{}': must end in .html", input.output));
     require_gnuplot("report");
@@ -53,7 +56,9 @@ int run_report(const ReportInput& input) {
     status = std::max(status, status_of(one.found.scene, one.found.run));
   }
   if (!is_page) {
-    write_report(choice, cases.size() == 1 ? cases.front().found.report : joined_report(ranked(cases)));
+    Report report = cases.size() == 1 ? cases.front().found.report : joined_report(ranked(cases));
+    if (input.row_form == ReportInput::RowForm::attitude) report.grid = attitudes_of_cases(ranked(cases));
+    write_report(choice, report);
   } else {
     sink->write(page_of(cases, attitudes));
     sink->commit();
@@ -69,6 +74,8 @@ Command report_command() {
     Argument& scenes = *std::ranges::find(command.arguments, "SCENE", &Argument::name);
     scenes.target = &input.scenes;
     scenes.help += "; of several, floors say, a part for each";
+    for (const char* const ranged : {"--restitution", "--floor-restitution"})
+      std::ranges::find(command.arguments, ranged, &Argument::name)->help += "; several: 0.3:0.7:0.1, or 0.3,0.5";
     constexpr const char* group = "Worst attitudes";
     command.add(whole_argument("--drops", input.drops, 0, 1'000'000, "N",
                                "of a box, over its faces, edges and corners (260); 0: none", group));
@@ -80,6 +87,12 @@ Command report_command() {
         "without loss that of the first landing)",
         group);
     command.add(threads_argument(input.threads, "for them (all cores)", group));
+    command.add(choice_argument("--rows", input.row_form, {"auto", "attitude"},
+                                "of table and CSV: of several cases one each, or attitude: each face, edge and corner "
+                                "of each, behind its scene, e and part (auto)",
+                                "Output"));
+    command.add_flag("--short", input.is_short, "the page has the answers, the table of cases and a drawing each",
+                     "Output");
     command.add_text("--title", input.title, "TEXT", "of the page", "Output");
     command.add_text("--date", input.date, "YYYY-MM-DD", "that it bears (none)", "Output");
     command.add({.name = "--output",
@@ -90,10 +103,14 @@ Command report_command() {
     command.add(choice_argument("--format", input.form, {"html", "table", "csv", "json", "markdown"},
                                 "the page (html), its table of faces, edges and corners, or all of it as JSON",
                                 "Output"));
-    command.columns = {{"report", attitude_columns}, {"report-cases", case_columns}};
+    command.columns = {
+        {"report", attitude_columns}, {"report-cases", case_columns}, {"report-attitudes", case_attitude_columns}};
     command.footer =
         "Example: clatter report phone-damped --impacts 2 --probe camera:0.048,0.016,0.0095 --part 300:500 --output "
         "phone.html\n"
+        "Example: clatter report phone-damped --impacts 2 --probe camera:0.048,0.016,0.0095 --probe "
+        "crystal:-0.03,0,0 --part camera:300:500 --part crystal:1500g:0.5ms --floor-restitution 0.3:0.7:0.2 --drops 52 "
+        "--format csv\n"
         "The page has all in itself, asks for nothing from anywhere and prints.  Needs gnuplot.";
   });
 }

@@ -18,6 +18,8 @@ struct ReportInput : ShockInput {
   std::string rank_by;              ///< column of the sweep
   std::vector<std::string> scenes;  ///< SCENE, of which there may be several
   std::string title, date;
+  bool is_short = false;  ///< the page has headlines, the table of cases and a drawing of each worst drop alone
+  enum class RowForm { by_itself, attitude } row_form = RowForm::by_itself;
 
   /// The part of one case, which has no more than one.
   [[nodiscard]] std::optional<FragilePart> part() const {
