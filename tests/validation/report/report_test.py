@@ -238,7 +238,7 @@ class Report(EmptyFolder):
         self.assertEqual({name for name in records(of_one)[0] if name.startswith("margin_")}, {"margin_crystal", "margin_crystal_impact", "margin_crystal_error"})
         self.run_program("report", "full.toml", *options, "--output", "page.html")
         page = self.read("page.html")
-        self.assertEqual(sorted(re.findall(r'<h2 class="case">A part .*? at (\w+) ', page)), ["camera", "crystal"])
+        self.assertEqual(sorted(re.findall(r'<h2 class="case">A part.*? at (\w+) ', page)), ["camera", "crystal"])
         self.assertNotIn("delta_v", page.split("Commands that give")[0])
         self.run_program("report", "full.toml", *options, "--short", "--output", "short.html")
         self.assertNotIn("<h2>Attitudes", self.read("short.html"))
@@ -249,7 +249,7 @@ class Report(EmptyFolder):
         self.assertIn("The part 300:500 is judged at camera, the first probe: --part crystal:300:500", " ".join(unbound["answer"]["notes"]))
         self.refused("no probe is named crysta; did you mean crystal?", "report", "bare.toml", *options, "--part", "crysta:300g", "--format", "json")
         self.write("bad.toml", scene + probes.format("", "part = '15q'\n"))
-        self.refused("bad.toml:17:1: probe.1.part", "report", "bad.toml", *options, "--format", "json")
+        self.refused("bad.toml:17:8: probe.1.part", "report", "bad.toml", *options, "--format", "json")
 
     def test_attitudes_of_several_cases_are_rows_behind_scene_e_and_part(self):
         body = "[drop]\nclearance = 1\nangle_deg = 0\n[body]\nshape = 'box'\nsize = [0.1, 0.05, 0.01]\nmass = 0.1\n[run]\nimpacts = 1\n[ground]\n"
