@@ -383,6 +383,7 @@ PlannedRun run_to_digits(const Scene& scene, const numeric::Body& body, const nu
     depth = std::max(depth, row.value.indentation), sinks = sinks || row.submerged;
   for (const std::string& warning : planned.run.warnings)
     planned.warnings.push_back(warning + (sinks ? "" : pad_remark(scene, depth)));
+  if (const std::string deep = springs_warning(scene, depth); !deep.empty()) planned.warnings.push_back(deep);
   return planned;
 }
 

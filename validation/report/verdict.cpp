@@ -8,6 +8,7 @@
 #include "validation/output/number.hpp"
 #include "validation/run/discrete_scene.hpp"
 #include "validation/scene/floors.hpp"
+#include "validation/scene/pad.hpp"
 #include "validation/scene/probes.hpp"
 
 namespace clatter::validation {
@@ -89,10 +90,13 @@ std::string blow_words(const Blow& blow, const std::string& probe, const Ranking
 }
 
 std::string depth_words(const Scene& scene, double depth) {
-  if (!scene.world.ground.is_pad()) return "";
+  if (!scene.world.ground.is_pad() && !scene.pad.thickness) return "";
   const std::string words = fmt::format("{} mm deep", said(1e3 * depth));
-  return scene.pad.thickness ? fmt::format("{}, {} % of the pad", words, said(100 * depth / *scene.pad.thickness))
-                             : words;
+  if (!scene.pad.thickness) return words;
+  return fmt::format("{}, {} % of the pad{}", words, said(100 * depth / *scene.pad.thickness),
+                     is_too_deep_for_springs(scene, depth)
+                         ? ", too deep for a bed of springs: its curve on a floor (--curve) is the model"
+                         : "");
 }
 
 std::vector<std::string> assumed_words(const Scene& scene, Model model, const Blow& blow) {
@@ -117,6 +121,10 @@ std::vector<std::string> assumed_words(const Scene& scene, Model model, const Bl
   }
   if (is_continuous && scene.impact.restitution && !scene.ground_restitution)
     items.push_back(discrete_restitution_words(scene));
+  if (is_continuous && ground.is_half_space())
+    items.emplace_back(
+        "The half-space takes the ground under corners and edges for 11 to 31 % softer than it is, by energy (boundary "
+        "elements; faces: 2 %), and their peaks for up to half of that too small: up to 15 %");
   const HalfSpaceScene& half_space = scene.half_space;
   if (is_continuous && half_space.floor && !half_space.body_modulus) {
     items.push_back(

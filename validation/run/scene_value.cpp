@@ -213,6 +213,7 @@ std::vector<std::string> Scene::summary(Model model, const KeyNames& unsettled) 
   } else if (ground.is_pad()) {
     springs.add(pad_words(*this), {"ground.curve", "ground.thickness", "ground.under"});
   } else {
+    if (pad.thickness) springs.add(fmt::format("pad {} m thick,", shortest(*pad.thickness)), {"ground.thickness"});
     springs.add(fmt::format("k = {} N/m³", in_powers(ground.stiffness)), {"ground.stiffness"});
     if (!ground_restitution) springs.add(fmt::format("c = {} N·s/m⁴", in_powers(ground.damping)), {"ground.damping"});
   }

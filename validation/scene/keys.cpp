@@ -67,6 +67,7 @@ constexpr std::array all_but_floor_and_pad{"ground.stiffness", "ground.damping",
 constexpr std::array all_but_half_space{"ground.stiffness", "ground.damping",      "ground.area",
                                         "ground.curve",     "ground.curve_units",  "ground.thickness",
                                         "ground.under",     "ground.body_material"};
+constexpr std::array half_space_alone{"ground.modulus"};
 constexpr std::array spin_of_release{"drop.release.spin"};
 constexpr std::array turn_of_plane{"drop.spin"};
 constexpr std::array parts_of_velocity{"drop.speed", "drop.height", "drop.clearance", "drop.tangential_velocity"};
@@ -94,6 +95,7 @@ bool has_impulse_ratio(const Scene& scene) {
 }
 /// The discrete model has no use for keys of a ground that is not there.
 Echo of_ground(const Scene& scene, Model model) { return only_if(model == Model::continuous || scene.has_ground()); }
+Echo of_thickness(const Scene& scene, Model) { return only_if(scene.world.ground.is_pad() || scene.pad.thickness); }
 Echo of_pad(const Scene& scene, Model) { return only_if(scene.world.ground.is_pad()); }
 Echo of_dissipation(const Scene& scene, Model) {
   return only_if(scene.world.ground.has_dissipation() && !scene.ground_restitution);
@@ -485,9 +487,10 @@ void append_ground(std::vector<Key>& keys) {
            "Pa",
            TextValue{[](Scene& s) -> std::string& { return s.pad.units; }}, of_pad, false, springs_and_half_space},
           {"ground.thickness", Use::both, "--thickness", "M", "m",
-           "of the pad, by which strain becomes depth; in clatter shock --ground of a layer",
-           OptionalNumber{[](Scene& s) -> std::optional<double>& { return s.pad.thickness; }, positive_number}, of_pad,
-           false, springs_and_half_space},
+           "of the pad, by which strain becomes depth; under springs it warns of impacts too deep for them; in clatter "
+           "shock --ground of a layer",
+           OptionalNumber{[](Scene& s) -> std::optional<double>& { return s.pad.thickness; }, positive_number},
+           of_thickness, false, half_space_alone},
           {"ground.under", Use::both, "--under", "PA/M", "Pa/m",
            "stiffness of the pad beyond its curve's last point, where it bottoms out; without it or ground.floor that "
            "before the point",

@@ -22,6 +22,7 @@ const char* const strain_curve = "1,Pa";
 const char* const units_allowed =
     "two units: %, 1, m, cm, mm, um or in, and Pa, kPa, MPa, GPa, N/m2, N/cm2, N/mm2, bar or psi, as in %,kPa";
 
+constexpr double most_strain_of_springs = 0.5;
 constexpr double one_slope = 1e-12;  ///< relative distance of slopes that are one
 
 constexpr UnitName strain_units[]{{"%", 1e-2}, {"percent", 1e-2}, {"1", 1}, {"-", 1}, {"m/m", 1}, {"mm/mm", 1}};
@@ -196,6 +197,21 @@ std::string pad_remark(const Scene& scene, double depth) {
                      : pad.under            ? "peaks are those of ground.under"
                                             : "peaks are those of its last slope, where a pad bottoms out; --floor "
                                               "NAME or --under PA/M (ground.under) says on what");
+}
+
+bool is_too_deep_for_springs(const Scene& scene, double depth) {
+  return !scene.world.ground.is_pad() && scene.pad.thickness &&
+         !(depth <= most_strain_of_springs * *scene.pad.thickness);
+}
+
+std::string springs_warning(const Scene& scene, double depth) {
+  if (!is_too_deep_for_springs(scene, depth)) return "";
+  const double thickness = *scene.pad.thickness;
+  return fmt::format(
+      "an impact goes {} m deep, {} {} % of the pad's {} m: a bed of springs is no model beyond half of "
+      "it, where a pad hardens and bottoms out; its curve (--curve) on a floor is",
+      significant(depth, 3), depth >= thickness ? "through the pad," : "to", significant(100 * depth / thickness, 3),
+      shortest(thickness));
 }
 
 }  // namespace clatter::validation

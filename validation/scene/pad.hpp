@@ -37,4 +37,9 @@ void settle_pad(const PadScene& pad, const HalfSpaceScene& floor, numeric::Groun
 /// What to add of the pad to the warning that a body went so deep [m], beyond its curve; empty: the scene has none.
 [[nodiscard]] std::string pad_remark(const Scene& scene, double depth);
 
+/// Whether a body that goes so deep [m] leaves what a bed of springs describes of a pad: more than half its thickness.
+[[nodiscard]] bool is_too_deep_for_springs(const Scene& scene, double depth);
+/// A warning of that; empty: no pad of springs, or not so deep.
+[[nodiscard]] std::string springs_warning(const Scene& scene, double depth);
+
 }  // namespace clatter::validation

@@ -2,6 +2,7 @@
 #include "validation/scene/probes.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cctype>
@@ -10,6 +11,7 @@
 
 #include "validation/output/bad_input.hpp"
 #include "validation/output/number.hpp"
+#include "validation/scene/argument.hpp"
 #include "validation/scene/body_properties.hpp"
 #include "validation/scene/pad.hpp"
 
@@ -19,11 +21,6 @@ namespace {
 constexpr Range places{-1e100, 1e100, false, "from -1e100 to 1e100"};
 const char* const three_places = "three coordinates in m, body frame, from -1e100 to 1e100";
 const char* const names_allowed = "letters, digits, \"_\", \"-\" and \".\", from 1 to 40 of them";
-
-bool is_name(const std::string& text) {
-  const auto fits = [](unsigned char c) { return c < 128 && (std::isalnum(c) || c == '_' || c == '-' || c == '.'); };
-  return !text.empty() && text.size() <= 40 && std::all_of(text.begin(), text.end(), fits);
-}
 
 bool has_name(const std::vector<Probe>& probes, const std::string& name) {
   return std::any_of(probes.begin(), probes.end(), [&](const Probe& probe) { return probe.name == name; });
@@ -41,6 +38,23 @@ bool read_place(const std::string& text, numeric::Vector3& place) {
 
 }  // namespace
 
+bool is_probe_name(const std::string& text) {
+  const auto fits = [](unsigned char c) { return c < 128 && (std::isalnum(c) || c == '_' || c == '-' || c == '.'); };
+  return !text.empty() && text.size() <= 40 && std::all_of(text.begin(), text.end(), fits);
+}
+
+const Probe& probe_named(const std::vector<Probe>& probes, const std::string& name, const std::string& where) {
+  std::vector<std::string> names;
+  for (const Probe& probe : probes) {
+    if (probe.name == name) return probe;
+    names.push_back(probe.name);
+  }
+  throw BadInput(names.empty() ? fmt::format("{}: no probe is named {}: there is none", where, name)
+                               : fmt::format("{}: no probe is named {}; did you mean {}? There {} {}", where, name,
+                                             nearest_name(name, names), names.size() == 1 ? "is" : "are",
+                                             fmt::join(names, ", ")));
+}
+
 std::vector<Probe> read_probes(const SceneValues& values) {
   std::vector<Probe> probes;
   for (int i = 0; values.has_table(fmt::format("{}.{}", probe_table, i)); ++i) {
@@ -49,21 +63,28 @@ std::vector<Probe> read_probes(const SceneValues& values) {
     values.require(name, "the probe's");
     values.require(place, "the probe's [x, y, z] in m");
     const std::string text = values.text(name);
-    if (!is_name(text)) values.refuse(name, names_allowed);
+    if (!is_probe_name(text)) values.refuse(name, names_allowed);
     if (has_name(probes, text)) values.refuse(name, "another name than those of the probes before it");
     probes.push_back({text, vector_of(values.numbers(place, {3}, places, three_places))});
+    if (const std::string part = fmt::format("{}.{}.part", probe_table, i); values.has(part)) {
+      probes.back().part = values.text(part);
+      probes.back().part_at = values.where(part);
+    }
   }
   return probes;
 }
 
-std::vector<Probe> read_probes(const std::string& flag, const std::vector<std::string>& texts) {
+std::vector<Probe> read_probes(const std::string& flag, const std::vector<std::string>& texts,
+                               const std::vector<Probe>& of_file) {
+  if (texts.empty()) return of_file;
   std::vector<Probe> probes;
   for (const std::string& text : texts) {
     const std::size_t colon = text.find(':');
     Probe probe{text.substr(0, colon), {}};
-    const bool is_whole =
-        colon != std::string::npos && is_name(probe.name) && read_place(text.substr(colon + 1), probe.place);
-    if (!is_whole) {
+    const bool is_named = colon == std::string::npos && is_probe_name(text) && !of_file.empty();
+    if (is_named) probe = probe_named(of_file, text, flag + " " + text);
+    else if (!(colon != std::string::npos && is_probe_name(probe.name) &&
+               read_place(text.substr(colon + 1), probe.place))) {
       throw BadInput(
           fmt::format("{} '{}': must be NAME:X,Y,Z, the name {}, then {}", flag, text, names_allowed, three_places));
     }
@@ -128,6 +149,7 @@ Value probe_fields(const std::vector<Probe>& probes) {
   for (const Probe& probe : probes) {
     const std::vector<double> place(probe.place.begin(), probe.place.end());
     list.emplace_back(Value::Fields{{"name", probe.name}, {"place", place}});
+    if (!probe.part.empty()) list.back()["part"] = probe.part;
   }
   return list;
 }

@@ -16,17 +16,26 @@ inline constexpr const char* probe_table = "probe";
 struct Probe {
   std::string name;
   numeric::Vector3 place = numeric::Vector3::Zero();  ///< body frame, as BodyProperties has it [m]
+  std::string part{};     ///< what the part there bears, as --part takes it; empty: the file does not say
+  std::string part_at{};  ///< "file:line:column: key", where it says so
 };
+[[nodiscard]] bool is_probe_name(const std::string& text);
 
 /// The probes of a file, which other commands than `shock`, `report` and `sweep` leave alone:
 ///     [[probe]]
 ///     name = "camera"              letters, digits, "_", "-" and ".", at most 40; no two alike
 ///     place = [0.05, 0.02, 0.009]  body frame, from the geometric centre; a mesh: in its file's frame [m]
+///     part = "500:300"             what the part there bears, if it is known
 /// @throws BadInput naming the key, what was given and what is allowed.
 [[nodiscard]] std::vector<Probe> read_probes(const SceneValues& values);
 
-/// The probes of flags "NAME:X,Y,Z".  @throws BadInput naming the flag.
-[[nodiscard]] std::vector<Probe> read_probes(const std::string& flag, const std::vector<std::string>& texts);
+/// The probes of flags "NAME:X,Y,Z", or "NAME" alone of one of the file's.  @throws BadInput naming the flag.
+/// @param of_file  texts of no flag: all of these
+[[nodiscard]] std::vector<Probe> read_probes(const std::string& flag, const std::vector<std::string>& texts,
+                                             const std::vector<Probe>& of_file);
+/// The probe of this name.  @throws BadInput that begins with `where` and names the nearest
+[[nodiscard]] const Probe& probe_named(const std::vector<Probe>& probes, const std::string& name,
+                                       const std::string& where);
 
 /// "camera at (0.05, 0.02, 0.009) m".
 [[nodiscard]] std::string place_words(const Probe& probe);

@@ -195,7 +195,9 @@ void check_ground(const SceneValues& values, Scene& scene, Model model) {
   const bool is_springs = !is_half_space && !is_pad;
   if (!is_half_space && !has_floor)
     only_for(values, {"ground.body_modulus", "ground.body_material"}, "a ground with a modulus or a floor");
-  if (!is_pad) only_for(values, {"ground.curve_units", "ground.thickness", "ground.under"}, "a pad with a curve");
+  if (!is_pad) only_for(values, {"ground.curve_units", "ground.under"}, "a pad with a curve");
+  if (!is_pad && (is_half_space || !values.has("ground.stiffness")))
+    only_for(values, {"ground.thickness"}, "a pad with a curve or a stiffness");
   if (model == Model::continuous && is_springs)
     values.require(
         "ground.stiffness",

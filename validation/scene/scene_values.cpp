@@ -143,10 +143,10 @@ class SceneParser {
             fmt::format("{}: {}: required, name and place", position(values_.path_, table.source()), probes_name));
       for (const auto& [name, value] : table) {
         const std::string part(name.str());
-        if (part != "name" && part != "place")
+        if (part != "name" && part != "place" && part != "part")
           throw BadInput(fmt::format("{}: {}.{}: unknown key; did you mean {}.{}?",
                                      position(values_.path_, name.source()), probes_name, part, probes_name,
-                                     nearest_name(part, {"name", "place"})));
+                                     nearest_name(part, {"name", "place", "part"})));
         add_value(fmt::format("{}.{}.{}", probes_name, i, part), value);
       }
     }

@@ -63,6 +63,8 @@ class SceneValues {
 
   /// @throws BadInput "where: key = given: must be ALLOWED".
   [[noreturn]] void refuse(const std::string& key, const std::string& allowed) const;
+  /// "file:line:column: key" or "--flag", of a key that is given.
+  [[nodiscard]] const std::string& where(const std::string& key) const { return at(key).where; }
   [[nodiscard]] const std::string& path() const { return path_; }
 
  private:

@@ -91,17 +91,20 @@ double velocity_margin(const FragilePart& part, double velocity) {
 
 std::string words_of(const FragilePart& part) {
   const std::string peak = fmt::format("{:.6g}", part.fragility / standard_gravity);
-  if (part.kind == FragilePart::Kind::at_place) return fmt::format("a part that bears {} g at its place", peak);
+  const std::string place = part.probe.empty() ? "" : " at " + part.probe;
+  if (part.kind == FragilePart::Kind::at_place)
+    return fmt::format("a part that bears {} g{}", peak, place.empty() ? " at its place" : place);
   if (part.kind == FragilePart::Kind::tested)
-    return fmt::format("a part that bore a half sine of {} g and {:.6g} ms", peak, 1e3 * part.duration);
-  return fmt::format("a part of {:.6g} Hz that bears {} g", part.frequency, peak);
+    return fmt::format("a part{} that bore a half sine of {} g and {:.6g} ms", place, peak, 1e3 * part.duration);
+  return fmt::format("a part of {:.6g} Hz{} that bears {} g", part.frequency, place, peak);
 }
 
 std::string part_text(const FragilePart& part) {
   const std::string peak = fmt::format("{:.9g}", part.fragility / standard_gravity);
-  if (part.kind == FragilePart::Kind::at_place) return peak + "g";
-  if (part.kind == FragilePart::Kind::tested) return fmt::format("{}g:{:.9g}ms", peak, 1e3 * part.duration);
-  return fmt::format("{:.9g}:{}", part.frequency, peak);
+  const std::string place = part.probe.empty() ? "" : part.probe + ":";
+  if (part.kind == FragilePart::Kind::at_place) return place + peak + "g";
+  if (part.kind == FragilePart::Kind::tested) return fmt::format("{}{}g:{:.9g}ms", place, peak, 1e3 * part.duration);
+  return fmt::format("{}{:.9g}:{}", place, part.frequency, peak);
 }
 
 double TestPulse::velocity() const { return pulse_area(PulseShape::half_sine) * acceleration * duration; }

@@ -30,7 +30,9 @@ struct FragilePart {
   double fragility = 0;  ///< A_s [m/s²], > 0
   double duration = 0;   ///< of the tested half sine [s], > 0
   Kind kind = Kind::oscillator;
+  std::string probe{};  ///< the name of the point where it is; empty: nobody said, so that any point may be its place
 
+  [[nodiscard]] bool is_at(const std::string& place) const { return probe.empty() || probe == place; }
   /// The undamped oscillator that the part is, or that has the damage boundary of the half sine which it bore: by two
   /// tests V_c = A_s/ω and A_c = A_s/2 of a rectangle, so that 2AT/π and A give f = 1/(2T) and A_s = 2A.  None of a
   /// part at its place, which has its peak as response.
@@ -64,9 +66,9 @@ struct BlowMargin {
 /// V_c/V, the margin whatever the peak is, which is less than any other.  Domain: no part at its place.
 [[nodiscard]] double velocity_margin(const FragilePart& part, double velocity);
 
-/// "a part of 500 Hz that bears 300 g".
+/// "a part of 500 Hz at crystal that bears 300 g".
 [[nodiscard]] std::string words_of(const FragilePart& part);
-/// What to type for it: "500:300".
+/// What to type for it: "500:300", "crystal:1500g:2ms".
 [[nodiscard]] std::string part_text(const FragilePart& part);
 
 /// A half sine of a shock machine.

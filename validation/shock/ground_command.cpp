@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <optional>
 #include <string>
 #include <vector>
@@ -18,6 +20,7 @@
 #include "validation/scene/failure.hpp"
 #include "validation/scene/floors.hpp"
 #include "validation/scene/keys.hpp"
+#include "validation/scene/pad.hpp"
 #include "validation/scene/scene.hpp"
 #include "validation/shock/damage_boundary.hpp"
 #include "validation/shock/ground_fit.hpp"
@@ -35,6 +38,7 @@ struct MaterialLoss {
 };
 
 constexpr const char* units[] = {"", " s", " N", " m"};
+constexpr const char* measure_flags[] = {"--measured-e", "--contact-time", "--peak-force", "--indentation"};
 
 std::string words_of(const MeasuredNumber& measured) {
   return fmt::format("{} {}{}", measure_name(measured.measure), shortest(measured.value),
@@ -52,12 +56,16 @@ const char* area_words(numeric::AreaMeasure area) {
                "surface, the paper's, the same numbers give another.";
 }
 
-Row row_of(const FittedGround& ground) {
+/// @param depth  of the first impact [m]
+/// @param thickness  of the pad, where it is known [m]
+Row row_of(const FittedGround& ground, double depth, const std::optional<double>& thickness) {
   Row row;
   const Estimated stiffness{ground.stiffness, ground.stiffness_error}, damping{ground.damping, ground.damping_error};
   row.push_back(known_cell(stiffness, {6, 0}));
   row.push_back(known_cell(damping, {6, ground.stiffness}));
   for (const double predicted : ground.predicted) row.emplace_back(predicted, 6);
+  row.emplace_back(depth, 4);
+  row.push_back(thickness ? Cell(100 * depth / *thickness, 3) : Cell());
   for (const double by : ground.stiffness_by) row.emplace_back(by, 3);
   for (const double by : ground.damping_by) row.emplace_back(by, 3);
   row.emplace_back(error_or_nothing(stiffness));
@@ -89,6 +97,8 @@ std::vector<Column> ground_columns() {
       {"peak_force", "peak Fₙ", "N", "by the model: largest normal force of the first impact"},
       {"indentation", "δ", "m",
        "by the model: depth at which the ground carries the body at rest, in the attitude of the drop"},
+      {"depth", "depth", "m", "by the model: greatest depth of the first impact"},
+      {"depth_percent", "of pad", "%", "the same in parts of --thickness"},
       {"stiffness_by_first", "∂k/∂1", "", "∂ ln k_G/∂ ln of the first measured number, the second held"},
       {"stiffness_by_second", "∂k/∂2", "", "∂ ln k_G/∂ ln of the second measured number, the first held"},
       {"damping_by_first", "", "N·s/m⁴", "∂ c_G/∂ ln of the first measured number, the second held", false},
@@ -98,15 +108,54 @@ std::vector<Column> ground_columns() {
   return columns;
 }
 
+/// How deep the body goes in the first impact [m].
+double depth_on(const FittedGround& ground, const MeasuredDrop& drop) {
+  numeric::World world = drop.world;
+  world.ground.stiffness = ground.stiffness;
+  world.ground.damping = ground.damping;
+  const numeric::Simulation run = numeric::simulate(
+      *drop.body, world, drop.start, {.impacts = 1, .error_estimates = false, .amplification = false}, {.digits = 5});
+  return run.impacts.empty() ? std::nan("") : run.impacts.front().value.indentation;
+}
+
+/// Notes that say where springs serve for a pad, and the curve that has their stiffness as far as that.
+void add_pad_curve(const Scene& scene, const FittedGround& ground, double depth, Report& report) {
+  const double thickness = *scene.pad.thickness;
+  const std::string deep = springs_warning(scene, depth);
+  report.notes.push_back(
+      deep.empty() ? fmt::format("the drop goes to {} % of the pad: these springs serve for it, and for milder ones",
+                                 significant(100 * depth / thickness, 3))
+                   : "!: warning: " + deep);
+  constexpr double strain = 0.5;
+  report.notes.push_back(fmt::format(
+      "for harder drops: the same stiffness as a curve up to half the thickness, on a floor (another --floor NAME, or "
+      "`under`); the data sheet's own curve is better, since a pad hardens on the way there"));
+  report.notes.emplace_back("[ground]");
+  const std::vector<std::pair<std::string, std::string>> lines{
+      {"curve", fmt::format("[[0, 0], [{}, {}]]", strain, significant(ground.stiffness * thickness * strain, 6))},
+      {"thickness", shortest(thickness)},
+      {"floor", "\"concrete\""},
+      {"restitution", significant(ground.predicted[static_cast<std::size_t>(DropMeasure::restitution)], 4)},
+      {"area", fmt::format("\"{}\"", area_names()[static_cast<std::size_t>(scene.world.ground.area)])}};
+  for (const auto& [name, text] : lines) {
+    report.notes.push_back(fmt::format("{} = {}", name, text));
+    report.fields["pad"][name] = text;
+  }
+}
+
 /// The report on the ground that a drop and two measured numbers give.
-Report ground_report(const Scene& scene, const MeasuredNumber& first, const MeasuredNumber& second,
-                     const GroundFit& fit) {
+Report ground_report(const Scene& scene, const MeasuredDrop& drop, const MeasuredNumber& first,
+                     const MeasuredNumber& second, const GroundFit& fit) {
   Report report = begun_report("ground", "the ground from what was measured");
   KeyNames unsettled{"ground.stiffness", "ground.damping"};
   report.head = scene_head(scene, Model::continuous, {}, unsettled);
   report.head.push_back(fmt::format("measured: {}; {}", words_of(first), words_of(second)));
   report.grid.columns = ground_columns();
-  for (const FittedGround& ground : fit.solutions) report.grid.rows.push_back(row_of(ground));
+  for (Column& column : report.grid.columns) {
+    if (column.name == "depth_percent") column.shown = scene.pad.thickness.has_value();
+  }
+  for (const FittedGround& ground : fit.solutions)
+    report.grid.rows.push_back(row_of(ground, depth_on(ground, drop), scene.pad.thickness));
   if (fit.solutions.empty()) {
     report.notes.push_back(fmt::format("no ground gives both: with the one, the other number goes from {} to {}",
                                        significant(fit.least, 4), significant(fit.largest, 4)));
@@ -123,6 +172,7 @@ Report ground_report(const Scene& scene, const MeasuredNumber& first, const Meas
                       {"ground.damping", "", significant(ground.damping, 6)},
                       {"ground.area", "", area_names()[static_cast<std::size_t>(scene.world.ground.area)]}},
                      report);
+    if (scene.pad.thickness) add_pad_curve(scene, ground, depth_on(ground, drop), report);
   }
   report.fields["scene"] = scene_value(scene);
   report.fields["body"] = body_value(scene);
@@ -232,9 +282,13 @@ struct GroundInput {
   OutputChoice output;
 
   [[nodiscard]] bool has(const char* flag) const { return is_given(scene, flag); }
-  /// The thickness of a layer, which has no curve.
+  [[nodiscard]] bool is_measured() const {
+    return std::ranges::any_of(measured, [](const auto& number) { return number.has_value(); });
+  }
+  /// The thickness of a layer of a material, which has no curve; that of a pad beside measured numbers is the scene's.
   [[nodiscard]] std::optional<double> thickness() const {
-    if (!has("--thickness") || has("--curve")) return std::nullopt;
+    const bool is_of_material = modulus || poisson || footprint || has("--floor") || !is_measured();
+    if (!has("--thickness") || has("--curve") || !is_of_material) return std::nullopt;
     return read_number_option("--thickness", scene.texts.at("--thickness"), positive_number);
   }
   [[nodiscard]] std::optional<std::size_t> floor() const {
@@ -243,11 +297,16 @@ struct GroundInput {
   }
 };
 
+/// A restitution that the drop has anyway, --restitution, stands for --measured-e beside another number.
 std::vector<MeasuredNumber> measured_of(const GroundInput& input) {
   std::vector<MeasuredNumber> measured;
   for (std::size_t i = 0; i < measure_count; ++i) {
     if (input.measured[i]) measured.push_back({static_cast<DropMeasure>(i), *input.measured[i]});
   }
+  if (measured.size() == 1 && !input.measured[0] && input.has("--restitution"))
+    measured.insert(measured.begin(), {DropMeasure::restitution,
+                                       read_number_option("--restitution", input.scene.texts.at("--restitution"),
+                                                          {0, 1, true, "greater than 0 and at most 1"})});
   return measured;
 }
 
@@ -305,6 +364,7 @@ Report material_report_of(const GroundInput& input, const std::optional<Material
 /// The scene takes any stiffness: that is sought.
 Scene scene_of(const GroundInput& input) {
   SceneFlags flags = input.scene;
+  flags.texts.at("--restitution").clear();  // which is what was measured
   for (const char* const flag :
        {"--stiffness", "--damping", "--ground-modulus", "--dissipation", "--curve", "--floor"}) {
     if (is_given(flags, flag)) throw BadInput(fmt::format("{}: must be left out: it is what is sought", flag));
@@ -349,6 +409,15 @@ int run_ground(const GroundInput& input) {
     return 0;
   }
   if (measured.size() != 2) {
+    if (measured.size() == 1)
+      throw BadInput(fmt::format(
+          "{} {}: needs a second number of the drop: {}; or leave it out and give --modulus of "
+          "a material, or --floor",
+          measure_flags[static_cast<std::size_t>(measured.front().measure)], shortest(measured.front().value),
+          measured.front().measure == DropMeasure::restitution
+              ? "--contact-time S, --peak-force N or --indentation M"
+              : "its restitution, --measured-e E, or another of --contact-time, --peak-force "
+                "and --indentation"));
     throw BadInput(
         fmt::format("two of --measured-e, --contact-time, --peak-force and --indentation must be given, not "
                     "{}; or --modulus of a material, or --floor",
@@ -361,7 +430,7 @@ int run_ground(const GroundInput& input) {
   const double gravity = scene.world.gravity > 0 ? scene.world.gravity : standard_gravity;
   const MeasuredDrop drop{&body, scene.world, scene.start(body), body.mass() * gravity};
   const GroundFit fit = fit_ground(drop, measured[0], measured[1]);
-  write_report(choice, ground_report(scene, measured[0], measured[1], fit));
+  write_report(choice, ground_report(scene, drop, measured[0], measured[1], fit));
   if (!fit.solutions.empty()) return 0;
   say("no ground gives both numbers");
   return exit_status(FailureKind::not_computed);

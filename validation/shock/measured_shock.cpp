@@ -495,8 +495,10 @@ class Measurement {
   MeasuredShock shock_;
 };
 
-/// The file's name without folder and extension: what stands where a probe's name would.
-std::string record_name(const MeasuredShock& shock) { return std::filesystem::path(shock.record.path).stem().string(); }
+/// The probe beside the record, which is where it was taken; without one the file's name without folder and extension.
+std::string record_name(const MeasuredShock& shock, const ShockRun* simulated) {
+  return simulated ? simulated->probes.front().name : std::filesystem::path(shock.record.path).stem().string();
+}
 
 /// Beside blow n, impact n of the simulated probe.
 const ShockRow* beside(const ShockRun* simulated, std::size_t blow) {
@@ -505,12 +507,19 @@ const ShockRow* beside(const ShockRun* simulated, std::size_t blow) {
   return blow < rows.size() ? &rows[blow] : nullptr;
 }
 
-std::vector<Pulse> pulses_of(const MeasuredShock& shock) {
+/// Those of the record, then those of the drop beside it.
+std::vector<Pulse> pulses_of(const MeasuredShock& shock, const ShockRun* simulated) {
   std::vector<Pulse> pulses;
   for (const MeasuredBlow& blow : shock.blows) {
-    pulses.push_back(
-        {record_name(shock), static_cast<int>(pulses.size()) + 1, blow.delta_v_size, blow.peak_size, std::nan("")});
+    pulses.push_back({.probe = record_name(shock, simulated),
+                      .impact = static_cast<int>(pulses.size()) + 1,
+                      .velocity = blow.delta_v_size,
+                      .peak = blow.peak_size,
+                      .restitution = std::nan(""),
+                      .model = "measured"});
   }
+  if (!simulated) return pulses;
+  for (const Pulse& pulse : pulses_of(*simulated)) pulses.push_back(pulse);
   return pulses;
 }
 
@@ -553,15 +562,15 @@ Grid blows_of(const MeasuredShock& shock, const ShockRun* simulated) {
 std::vector<NamedSpectrum> named_spectra(const MeasuredShock& shock, const ShockRun* simulated) {
   std::vector<NamedSpectrum> all;
   for (const Spectrum& spectrum : shock.spectra)
-    all.push_back(
-        {record_name(shock), "measured", shock.record.axes[static_cast<std::size_t>(spectrum.axis)], &spectrum});
+    all.push_back({record_name(shock, simulated), "measured",
+                   shock.record.axes[static_cast<std::size_t>(spectrum.axis)], &spectrum});
   if (!simulated) return all;
   const bool continuous = simulated->continuous.has_value();
   for (const Blows blows : {Blows::impact_1, Blows::first, Blows::all}) {
     const Spectrum* const found = simulated->spectrum(0, continuous, blows);
     if (found)
-      all.push_back(
-          {record_name(shock), continuous ? "continuous" : "discrete", std::string(1, "xyz"[found->axis]), found});
+      all.push_back({record_name(shock, simulated), continuous ? "continuous" : "discrete",
+                     std::string(1, "xyz"[found->axis]), found});
   }
   return all;
 }
@@ -624,9 +633,9 @@ std::vector<Column> measured_shock_columns() {
       {"width", "width", "s", "of the blow at a tenth of its peak"},
       {"pulse_duration", "T", "s", "of the half sine with this change of velocity and peak: π |ΔV|/(2 peak)"},
       word_column("condition", "B110", "mildest service condition of JESD22-B110B that covers both; or -"),
-      {"simulated_delta_v", "simulated", "m/s", "|ΔV| of the simulated probe in the impact of this number"},
-      {"simulated_peak_g", "simulated", "g", "its largest specific force"},
-      {"simulated_width", "simulated", "s", "its width at a tenth of the peak"}};
+      {"simulated_delta_v", "sim. |ΔV|", "m/s", "|ΔV| of the simulated probe in the impact of this number"},
+      {"simulated_peak_g", "sim. peak", "g", "its largest specific force"},
+      {"simulated_width", "sim. width", "s", "its width at a tenth of the peak"}};
   for (const std::size_t of : {3U, 7U, 8U, 13U}) columns.push_back(error_column(columns[of]));
   return columns;
 }
@@ -638,17 +647,21 @@ Report measured_shock_report(const MeasuredShock& shock, const ShockRequest& req
   report.head.push_back(fmt::format("{}: {} samples in {} s; {}", record.path, record.times.size(),
                                     significant(record.times.back(), 4), fmt::join(record.remarks, "; ")));
   const std::vector<NamedSpectrum> spectra = named_spectra(shock, simulated);
-  const std::vector<Pulse> pulses = pulses_of(shock);
+  const std::vector<Pulse> pulses = pulses_of(shock, simulated);
   const Grid blows = blows_of(shock, simulated), pulse_rows = pulse_grid(pulses, shown_digits, view.parts);
   report.grid = view.rows == ShockRows::pulses ? pulse_rows : blows;
   if (view.rows == ShockRows::spectra) {
     report.grid = spectrum_grid(spectra, shown_digits);
     report.digest = spectrum_digest({spectra}, shown_digits);
   }
-  if (view.rows == ShockRows::pulses || !view.parts.empty()) report.notes = pulse_notes(view.parts);
+  if (view.rows == ShockRows::pulses || !view.parts.empty()) report.notes = pulse_notes(view.parts, {});
   if (const std::string least = least_margin_words(pulse_rows, view.parts); !least.empty())
     report.notes.push_back(least);
   report.notes.insert(report.notes.end(), shock.findings.begin(), shock.findings.end());
+  if (simulated && simulated->continuous) {
+    for (const std::string& warning : simulated->continuous->planned.warnings)
+      report.notes.push_back("!: warning: beside it: " + warning);
+  }
   report.notes.emplace_back(
       "ΔV is the integral of the reading along the sensor's axes; gravity and turning while the blow lasts are in it");
   report.fields["model"] = "measured";
@@ -668,7 +681,7 @@ Picture measured_shock_picture(const MeasuredShock& shock, const ShockRequest& r
   for (PicturePanel& panel : spectrum_panels(named_spectra(shock, simulated), view.severity))
     picture.panels.push_back(std::move(panel));
   for (const FragilePart& part : view.parts) {
-    if (auto panel = boundary_panel(pulses_of(shock), part)) picture.panels.push_back(std::move(*panel));
+    if (auto panel = boundary_panel(pulses_of(shock, simulated), part)) picture.panels.push_back(std::move(*panel));
   }
   return picture;
 }

@@ -40,27 +40,37 @@ std::optional<AccelerationUnit> record_unit(const ShockCommandInput& input) {
   return static_cast<AccelerationUnit>(read_name_option("--unit", unit, unit_options));
 }
 
-/// The scene beside a record, run at its one probe; nothing where none is given.
-std::optional<ShockRun> run_beside(const ShockCommandInput& input, const ShockRequest& request) {
+/// The drop beside a record.
+ShockInput drop_beside(const ShockCommandInput& input) {
   ShockInput drop = input;
   if (std::string& unit = drop.scene.texts.at("--unit"); is_of_acceleration(unit)) unit.clear();
   if (!input.against.empty() && !input.scene.source.empty())
     throw BadInput("--against: a scene is given already; give one of them, not both");
   if (!input.against.empty()) drop.scene.source = input.against;
-  if (drop.scene.source.empty() && input.probes.empty()) return std::nullopt;
+  return drop;
+}
+
+/// The drop run at its one probe; nothing where none is given.
+std::optional<ShockRun> run_beside(const ShockInput& drop) {
+  if (drop.scene.source.empty() && drop.probes.empty()) return std::nullopt;
   const Scene scene = shock_scene(drop);
   const std::vector<Probe> probes = probes_of(drop);
-  if (probes.size() != 1)
+  if (probes.size() != 1) {
+    std::string names;
+    for (const Probe& probe : probes) names += (names.empty() ? ": " : ", ") + probe.name;
     throw BadInput(
-        fmt::format("--against: {} probes; one point of the body is where the record was taken", probes.size()));
-  ShockRequest simulated = request;
-  simulated.continuous = model_of(drop) == Model::continuous;
+        fmt::format("--probe: required, where on the body the record was taken: {}NAME:X,Y,Z, not {} points{}",
+                    probes.empty() ? "" : "a NAME of the scene's, or ", probes.size(), names));
+  }
+  ShockRequest simulated = request_of(drop);
   simulated.axis.reset();
   return run_shock(scene, probes, simulated);
 }
 
 int run_measured(const ShockCommandInput& input) {
-  ShockView view = shown_of(input);
+  const ShockInput drop = drop_beside(input);
+  const std::optional<ShockRun> beside = run_beside(drop);
+  ShockView view = shown_of(drop);
   check_files(input.output, plot_files(input.plot));
   PlotFile plot(input.plot);
   RecordRequest wanted{.path = input.measured, .rate = input.view.rate, .unit = record_unit(input)};
@@ -68,7 +78,6 @@ int run_measured(const ShockCommandInput& input) {
   for (std::string name; std::getline(names, name, ',');) wanted.columns.push_back(name);
   view.rate.reset();
   const MeasuredShock shock = measure_shock(read_accelerations(wanted), input.request);
-  const std::optional<ShockRun> beside = run_beside(input, input.request);
   const ShockRun* const simulated = beside ? &*beside : nullptr;
   write_report(input.output, measured_shock_report(shock, input.request, view, simulated));
   if (plot.is_wanted())

@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "validation/output/bad_input.hpp"
+#include "validation/output/number.hpp"
 #include "validation/run/shortfall.hpp"
 #include "validation/scene/failure.hpp"
 
@@ -51,11 +52,21 @@ Measured parted(std::string text) {
 constexpr const char* part_forms =
     "must be HZ:G, natural frequency and fragility, as 500:300 or 500Hz:300g; or G alone, the peak that it bears at "
     "its "
-    "place, as 300g; or a half sine that it bore, with its units, as 40g:11ms";
+    "place, as 300g; or a half sine that it bore, with its units, as 40g:11ms; each behind the name of a probe or not, "
+    "as camera:500:300";
 
 }  // namespace
 
 FragilePart read_part(const std::string& option, const std::string& text) {
+  if (const std::size_t end = text.find(':'); end != std::string::npos) {
+    // A frequency or a peak begins with a number, which no probe's name that is taken for one is.
+    const std::string name = text.substr(0, end);
+    if (double number = 0; is_probe_name(name) && !read_number(parted(name).number, number)) {
+      FragilePart part = read_part(option, text.substr(end + 1));
+      part.probe = name;
+      return part;
+    }
+  }
   const auto number = [&](const Measured& given) {
     return read_number_option(option, given.number, {1e-6, 1e9, false, "from 1e-6 to 1e9"});
   };
@@ -83,10 +94,10 @@ FragilePart read_part(const std::string& option, const std::string& text) {
 Argument part_argument(Argument::Reader read, const std::string& help, const std::string& group) {
   return {.name = "--part",
           .target = std::move(read),
-          .type = "HZ:G|G|G:MS",
+          .type = "[PROBE:]HZ:G|G|G:MS",
           .help =
-              "what the part at the probe bears: natural frequency and fragility (500:300, 500Hz:300g), its place's "
-              "peak alone (300g), or a half sine that it bore (40g:11ms): " +
+              "what the part at the probe (camera:500:300, one; 500:300, any) bears: natural frequency and fragility "
+              "(500:300, 500Hz:300g), its place's peak alone (300g), or a half sine that it bore (40g:11ms): " +
               help,
           .group = group};
 }
@@ -109,7 +120,24 @@ Scene shock_scene(const ShockInput& input) {
 }
 
 std::vector<Probe> probes_of(const ShockInput& input) {
-  return input.probes.empty() ? read_probes(scene_values(input.scene.source)) : read_probes("--probe", input.probes);
+  return read_probes("--probe", input.probes, read_probes(scene_values(input.scene.source)));
+}
+
+std::vector<FragilePart> parts_of(const std::vector<FragilePart>& given, const std::vector<Probe>& probes) {
+  std::vector<FragilePart> parts = given;
+  for (const FragilePart& part : given) {
+    if (!part.probe.empty()) static_cast<void>(probe_named(probes, part.probe, "--part " + part_text(part)));
+  }
+  if (!parts.empty()) return parts;
+  for (const Probe& probe : probes) {
+    if (probe.part.empty()) continue;
+    parts.push_back(read_part(probe.part_at + " =", probe.part));
+    if (parts.back().probe.empty()) parts.back().probe = probe.name;
+    if (!parts.back().is_at(probe.name))
+      throw BadInput(
+          fmt::format("{} = '{}': is at {}, not at {}", probe.part_at, probe.part, parts.back().probe, probe.name));
+  }
+  return parts;
 }
 
 ShockRequest request_of(const ShockInput& input) {
@@ -118,14 +146,14 @@ ShockRequest request_of(const ShockInput& input) {
   ShockRequest request = input.request;
   request.continuous = model_of(input) == Model::continuous;
   request.sensitivity = !input.no_sensitivity;
-  request.parts = input.parts;
+  request.parts = parts_of(input.parts, probes_of(input));
   return request;
 }
 
 ShockView shown_of(const ShockInput& input) {
   ShockView view = input.view;
   view.rows = input.rows.value_or(view.rows);
-  view.parts = input.parts;
+  view.parts = parts_of(input.parts, probes_of(input));
   return view;
 }
 

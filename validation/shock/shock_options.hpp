@@ -32,14 +32,19 @@ void add_shock_options(Command& command, ShockInput& input);
 [[nodiscard]] Model model_of(const ShockInput& input);
 /// @throws BadInput for a scene that sweeps something or keeps a history, too.
 [[nodiscard]] Scene shock_scene(const ShockInput& input);
-/// The probes of the flags, or else of the scene file.
+/// The probes of the flags, of which one may be a name of the scene file's, or else all of these.
 [[nodiscard]] std::vector<Probe> probes_of(const ShockInput& input);
+/// The parts that were given, or else those of the scene file's probes.
+/// @throws BadInput for one at a probe that is not there
+[[nodiscard]] std::vector<FragilePart> parts_of(const std::vector<FragilePart>& given,
+                                                const std::vector<Probe>& probes);
 [[nodiscard]] ShockRequest request_of(const ShockInput& input);
 /// What is shown, a record or a drop.
 [[nodiscard]] ShockView shown_of(const ShockInput& input);
 /// The same of a drop.  @throws BadInput for rows that its model does not have
 [[nodiscard]] ShockView view_of(const ShockInput& input);
-/// "HZ:G", "G" or "G:MS", the last with its units, the others with them or not.  @throws BadInput for anything else
+/// "HZ:G", "G" or "G:MS", the last with its units, the others with them or not, each behind "PROBE:" or not.
+/// @throws BadInput for anything else
 [[nodiscard]] FragilePart read_part(const std::string& option, const std::string& text);
 /// --part.  @param read  takes name and text, as read_part()
 /// @param help  what it is for

@@ -71,7 +71,8 @@ std::vector<Column> pulse_columns() {
        "the same under the blow's own history, which may have several humps; of a part known by a test the oscillator "
        "with its damage boundary"},
       word_column("part", "part", "whose margins these are, as --part takes it"),
-      {"restitution", "e", "", "of the impact, by the continuous model", false}};
+      {"restitution", "e", "", "of the impact, by the continuous model", false},
+      word_column("model", "model", "continuous, or measured: of a record")};
   for (const std::size_t of : {2U, 3U, 4U, 5U, 6U, 8U, 9U, 10U}) columns.push_back(error_column(columns[of]));
   return columns;
 }
@@ -103,9 +104,18 @@ Row pulse_row(const Pulse& pulse, int digits, const FragilePart* part) {
   row.push_back(part ? Cell(part_text(*part)) : Cell());
   row.emplace_back(pulse.restitution, 4);
   if (!std::isfinite(pulse.restitution)) row.back() = Cell();
+  row.emplace_back(pulse.model);
   row.insert(row.end(), errors.begin(), errors.end());
   return row;
 }
+
+namespace {
+
+bool are_mixed(const std::vector<Pulse>& pulses) {
+  return std::ranges::any_of(pulses, [&](const Pulse& pulse) { return pulse.model != pulses.front().model; });
+}
+
+}  // namespace
 
 Grid pulse_grid(const std::vector<Pulse>& pulses, int digits, const std::vector<FragilePart>& parts) {
   Grid grid{pulse_columns(), {}, 2};
@@ -115,18 +125,22 @@ Grid pulse_grid(const std::vector<Pulse>& pulses, int digits, const std::vector<
   });
   for (Column& column : grid.columns) {
     if (column.name == "part") column.shown = parts.size() > 1;
+    else if (column.name == "model") column.shown = are_mixed(pulses);
     else if (column.name == "margin_history") column.shown = has_history;
     else if (column.name.starts_with("margin") && parts.empty()) column.shown = false;
   }
   for (const Pulse& pulse : pulses) {
-    if (parts.empty()) grid.rows.push_back(pulse_row(pulse, digits, nullptr));
-    for (const FragilePart& part : parts) grid.rows.push_back(pulse_row(pulse, digits, &part));
+    const auto is_here = [&](const FragilePart& part) { return part.is_at(pulse.probe); };
+    if (std::ranges::none_of(parts, is_here)) grid.rows.push_back(pulse_row(pulse, digits, nullptr));
+    for (const FragilePart& part : parts) {
+      if (is_here(part)) grid.rows.push_back(pulse_row(pulse, digits, &part));
+    }
   }
   return grid;
 }
 
 std::string least_margin_words(const Grid& grid, const std::vector<FragilePart>& parts) {
-  constexpr std::size_t first = 8, count = 3;  // columns of margins
+  constexpr std::size_t first = 8, count = 3, model = 13;  // columns of margins, and of what they are by
   const Row* worst = nullptr;
   const auto margin_of = [&](const Row& row) {
     double least = std::nan("");
@@ -138,9 +152,11 @@ std::string least_margin_words(const Grid& grid, const std::vector<FragilePart>&
     if (std::isfinite(margin_of(row)) && (!worst || margin_of(row) < margin_of(*worst))) worst = &row;
   }
   if (parts.size() < 2 || !worst) return "";
-  return fmt::format("least margin of {} parts: {} of {} at {} in impact {}", parts.size(),
+  const bool is_mixed = std::ranges::any_of(
+      grid.rows, [&](const Row& row) { return row[model].value.text() != grid.rows.front()[model].value.text(); });
+  return fmt::format("least margin of {} parts: {} of {} at {} in impact {}{}", parts.size(),
                      significant(margin_of(*worst), 4), (*worst)[first + count].value.text(), (*worst)[0].value.text(),
-                     (*worst)[1].value.text());
+                     (*worst)[1].value.text(), is_mixed ? ", " + (*worst)[model].value.text() : "");
 }
 
 std::vector<Pulse> pulses_of(const ShockRun& run) {
@@ -155,7 +171,8 @@ std::vector<Pulse> pulses_of(const ShockRun& run) {
                         {blow.value.peak_size, blow.error.peak_size},
                         restitution_of(run, blow.impact),
                         blow.predictable,
-                        &blow});
+                        &blow,
+                        "continuous"});
     }
   }
   return pulses;
@@ -192,8 +209,16 @@ std::string boundary_words(const FragilePart& part) {
 
 }  // namespace
 
-std::vector<std::string> pulse_notes(const std::vector<FragilePart>& parts) {
+std::vector<std::string> pulse_notes(const std::vector<FragilePart>& parts, const std::vector<Probe>& probes) {
   std::vector<std::string> notes;
+  std::string unbound, names;
+  for (const FragilePart& part : parts) {
+    if (part.probe.empty()) unbound += (unbound.empty() ? "" : ", ") + part_text(part);
+  }
+  for (const Probe& probe : probes) names += (names.empty() ? "" : ", ") + probe.name;
+  if (!unbound.empty() && probes.size() > 1)
+    notes.push_back(fmt::format("{}: judged at each of {}; --part {}:{} is one at {} alone", unbound, names,
+                                probes.front().name, part_text(parts.front()), probes.front().name));
   for (const FragilePart& part : parts) notes.push_back(boundary_words(part));
   std::string ladder = "JESD22-B110B, half sines, 2AT/π, height without rebound:";
   for (const ServiceCondition& one : service_conditions()) {
@@ -245,9 +270,9 @@ Value pulse_fields(const Grid& grid, const std::vector<FragilePart>& parts) {
 }
 
 std::optional<PicturePanel> boundary_panel(const std::vector<Pulse>& pulses, const FragilePart& part) {
-  if (pulses.empty()) return std::nullopt;
+  if (std::ranges::none_of(pulses, [&](const Pulse& pulse) { return part.is_at(pulse.probe); })) return std::nullopt;
   PicturePanel panel{.columns = {{"velocity", "m/s", "change of velocity"}}};
-  panel.plot.x_label = "change of velocity [m/s]";
+  panel.plot.x_label = words_of(part) + ": change of velocity [m/s]";
   panel.plot.y_label = "peak [g]";
   panel.plot.logarithmic_x = panel.plot.logarithmic_y = true;
   double last = 0;
@@ -275,9 +300,11 @@ std::optional<PicturePanel> boundary_panel(const std::vector<Pulse>& pulses, con
   std::vector<std::pair<double, double>> later;
   for (const Pulse& pulse : pulses) {
     constexpr int most_marks = 4;  // a legend has an end
+    if (!part.is_at(pulse.probe)) continue;
     const std::pair point{pulse.velocity.value, pulse.peak.value / standard_gravity};
     if (pulse.predictable && pulse.impact <= most_marks)
-      add(fmt::format("{}, impact {}", pulse.probe, pulse.impact), FigureCurve::Style::marks, {point});
+      add(fmt::format("{}, impact {}{}", pulse.probe, pulse.impact, are_mixed(pulses) ? ", " + pulse.model : ""),
+          FigureCurve::Style::marks, {point});
     else later.push_back(point);
   }
   if (!later.empty()) add("later impacts, and those that cannot be predicted", FigureCurve::Style::points, later);

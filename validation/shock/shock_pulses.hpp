@@ -20,7 +20,8 @@ struct Pulse {
   Estimated velocity, peak;  ///< |ΔV| [m/s] and largest specific force [m/s²]
   double restitution = 0;    ///< of the impact; not finite where it is not known
   bool predictable = true;
-  const ShockRow* row = nullptr;  ///< that it is of; null: of a record
+  const ShockRow* row = nullptr;     ///< that it is of; null: of a record
+  std::string model = "continuous";  ///< or "measured"
 };
 /// By the continuous model, in the order of probes.
 [[nodiscard]] std::vector<Pulse> pulses_of(const ShockRun& run);
@@ -29,8 +30,9 @@ struct Pulse {
 [[nodiscard]] std::vector<Column> pulse_columns();
 /// The margins are empty without a part.
 [[nodiscard]] Grid pulse_grid(const std::vector<Pulse>& pulses, int digits, const std::vector<FragilePart>& parts);
-/// The service conditions and the damage boundary of each part.
-[[nodiscard]] std::vector<std::string> pulse_notes(const std::vector<FragilePart>& parts);
+/// The service conditions, the damage boundary of each part, and where the parts are of which nobody said it.
+[[nodiscard]] std::vector<std::string> pulse_notes(const std::vector<FragilePart>& parts,
+                                                   const std::vector<Probe>& probes);
 /// Which of several parts has the least margin, and in which row of the grid; empty for one.
 [[nodiscard]] std::string least_margin_words(const Grid& grid, const std::vector<FragilePart>& parts);
 /// `rows` of the grid, service conditions, damage boundary: of several parts a list of them.

@@ -190,8 +190,10 @@ Row row_of(const ShockRun& run, int impact, std::size_t probe) {
 Grid impacts_of(const ShockRun& run) {
   Grid grid{shock_columns(), {}, 2};
   const auto& shown = shown_of(run.continuous && !run.discrete.empty(), run.continuous.has_value());
+  const bool has_pad = run.continuous && (run.scene.world.ground.is_pad() || run.scene.pad.thickness);
   for (Column& column : grid.columns) {
     column.shown = std::find(shown.begin(), shown.end(), column.name) != shown.end();
+    if (column.name == "indentation") column.shown = has_pad;
     if (run.continuous) continue;
     for (const ShockQuantity& quantity : quantities) {  // nothing stands beside them to tell them from
       if (column.name == std::string("discrete_") + quantity.name) column.heading = quantity.symbol;
@@ -301,7 +303,9 @@ void add_spectrum_notes(const ShockRun& run, std::size_t probe, std::vector<std:
     }
     notes.push_back(words);
   }
-  if (run.envelopes.size() > probe && run.envelopes[probe]) {
+  // Beside spectra of other blows that bound says nothing.
+  const bool strikes_others = run.continuous && run.parted.from > 0 && run.parted.from <= 2;
+  if (run.envelopes.size() > probe && run.envelopes[probe] && !strikes_others) {
     notes.push_back(
         fmt::format("{}: the first two impacts of the discrete model, whatever the time between them: at "
                     "most {} m/s",
@@ -327,7 +331,7 @@ std::string severity_words(const ShockRun& run, std::size_t probe, double severi
 
 std::vector<std::string> notes_of(const ShockRun& run, const ShockView& view) {
   std::vector<std::string> notes;
-  if (view.rows == ShockRows::pulses || !view.parts.empty()) notes = pulse_notes(view.parts);
+  if (view.rows == ShockRows::pulses || !view.parts.empty()) notes = pulse_notes(view.parts, run.probes);
   if (run.continuous && view.rows == ShockRows::impacts) {
     const numeric::Ground& ground = run.scene.world.ground;
     notes.push_back(

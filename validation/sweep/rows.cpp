@@ -64,10 +64,10 @@ const std::vector<ProbeNumber>& probe_numbers() {
 }
 
 template <class Use>
-void for_each_probe_number(const RowLayout& layout, Use&& use) {
+void for_each_probe_number(const RowLayout& layout, std::size_t probe, Use&& use) {
   for (const ProbeNumber& number : probe_numbers()) {
     const bool is_known = layout.model == Model::continuous || !number.continuous_only;
-    if (is_known && (layout.part || !number.of_part)) use(number);
+    if (is_known && (layout.part(probe) || !number.of_part)) use(number);
   }
 }
 
@@ -132,8 +132,9 @@ std::vector<Column> scene_columns(const RowLayout& layout) {
     if (has_error(*asked.quantity, layout)) add(asked.column);
     else columns.push_back(asked.column);
   }
-  for (const Probe& probe : layout.probes) {
-    for_each_probe_number(layout, [&](const ProbeNumber& number) {
+  for (std::size_t i = 0; i < layout.probes.size(); ++i) {
+    const Probe& probe = layout.probes[i];
+    for_each_probe_number(layout, i, [&](const ProbeNumber& number) {
       const std::string name = number.prefix + probe.name;
       add({name, name, number.unit, number.meaning + probe.name});
       if (number.impact) columns.push_back({name + "_impact", name + "_impact", "", "number of that impact"});
@@ -322,8 +323,9 @@ void append_empty_row(const RowForm& form, std::optional<int> impacts, const cha
 
 /// The numbers of the probes, empty where nothing struck.
 void append_shocks(const RowForm& form) {
-  for (const LargestShock& shock : form.shocks) {
-    for_each_probe_number(form.layout, [&](const ProbeNumber& number) {
+  for (std::size_t i = 0; i < form.shocks.size(); ++i) {
+    const LargestShock& shock = form.shocks[i];
+    for_each_probe_number(form.layout, i, [&](const ProbeNumber& number) {
       const bool is_there = shock.impact > 0;
       if (is_there) form.out.number((shock.*number.value).value);
       else form.out.nothing();
@@ -375,8 +377,9 @@ void append_scene_row(const RowForm& form, const Run& run) {
     else form.out.nothing();
   });
   append_asked(form, run, true);
-  for (const LargestShock& shock : form.shocks) {
-    for_each_probe_number(form.layout, [&](const ProbeNumber& number) {
+  for (std::size_t i = 0; i < form.shocks.size(); ++i) {
+    const LargestShock& shock = form.shocks[i];
+    for_each_probe_number(form.layout, i, [&](const ProbeNumber& number) {
       if (form.errors && shock.impact > 0) form.out.error((shock.*number.value).error);
       else form.out.nothing();
     });
@@ -393,11 +396,25 @@ bool RowLayout::has(std::string_view quantity) const {
          });
 }
 
-std::string ranking_column(const RowLayout& layout, const Probe& probe, bool landing_alone) {
-  const std::string_view column = layout.part                         ? margin_column
+std::vector<FragilePart> RowLayout::parts() const {
+  std::vector<FragilePart> all;
+  for (const auto& part : part_at) {
+    const auto is_it = [&](const FragilePart& other) { return part_text(other) == part_text(*part); };
+    if (part && std::ranges::none_of(all, is_it)) all.push_back(*part);
+  }
+  return all;
+}
+
+std::size_t RowLayout::first_ranked() const {
+  const auto found = std::ranges::find_if(part_at, [](const auto& part) { return part.has_value(); });
+  return found == part_at.end() ? 0 : static_cast<std::size_t>(found - part_at.begin());
+}
+
+std::string ranking_column(const RowLayout& layout, std::size_t probe, bool landing_alone) {
+  const std::string_view column = layout.part(probe)                  ? margin_column
                                   : layout.model == Model::continuous ? peak_column
                                                                       : shock_column;
-  return std::string(landing_alone ? of_landing : "") + std::string(column) + probe.name;
+  return std::string(landing_alone ? of_landing : "") + std::string(column) + layout.probes[probe].name;
 }
 
 bool is_worst_least(std::string_view column) {
@@ -406,7 +423,7 @@ bool is_worst_least(std::string_view column) {
 }
 
 std::vector<LargestShock> LargestShock::of(const std::vector<ShockRow>& rows, const Terms& terms) {
-  std::vector<LargestShock> largest(terms.probes);
+  std::vector<LargestShock> largest(terms.layout.probes.size());
   // An error is the largest of what the hardest one may be; a margin is hard where it is small.
   const auto take = [](const Estimated& number, int number_of, bool is_small_hard, Estimated& so_far, int& impact) {
     const bool is_first = impact == 0;
@@ -419,9 +436,10 @@ std::vector<LargestShock> LargestShock::of(const std::vector<ShockRow>& rows, co
   };
   for (const ShockRow& row : rows) {
     LargestShock& so_far = largest[row.probe];
+    const FragilePart* const part = terms.layout.part(row.probe);
     const Estimated delta_v{row.value.delta_v_size, row.error.delta_v_size},
         peak_g = Estimated{row.value.peak_size, row.error.peak_size} * (1 / standard_gravity),
-        margin = terms.part ? margin_of(row, *terms.part, terms.has_peaks) : Estimated{};
+        margin = part ? margin_of(row, *part, terms.has_peaks) : Estimated{};
     take(delta_v, row.impact, false, so_far.delta_v, so_far.impact);
     if (take(peak_g, row.impact, false, so_far.peak_g, so_far.peak_impact))
       so_far.width = {row.value.width, row.error.width};

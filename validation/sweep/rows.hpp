@@ -39,14 +39,17 @@ struct RowLayout {
   std::vector<std::string> named{};   ///< columns asked for that these rows have anyway
   std::vector<Probe> probes{};        ///< with rows of scenes
   bool rests = false;                 ///< with rows of scenes: whether they tell the face that the body comes to lie on
-  std::optional<FragilePart> part{};  ///< at each probe, with columns of its margins
-  bool has_curve = false;             ///< whether the ground is a pad, with a column of how far its curve is used
-  std::string rank_by{};              ///< column by which a summary ranks attitudes; empty: as ranking_column() has it
+  std::vector<std::optional<FragilePart>> part_at{};  ///< of each probe, or none at all: with columns of its margins
+  bool has_curve = false;  ///< whether the ground is a pad, with a column of how far its curve is used
+  std::string rank_by{};   ///< column by which a summary ranks attitudes; empty: as ranking_column() has it
 
-  /// The part, or none.
-  [[nodiscard]] std::vector<FragilePart> parts() const {
-    return part ? std::vector{*part} : std::vector<FragilePart>{};
+  /// The part at the probe of this number; null: none.
+  [[nodiscard]] const FragilePart* part(std::size_t probe) const {
+    return probe < part_at.size() && part_at[probe] ? &*part_at[probe] : nullptr;
   }
+  [[nodiscard]] std::vector<FragilePart> parts() const;
+  /// The number of the probe by which a summary ranks: the first that has a part, else the first.
+  [[nodiscard]] std::size_t first_ranked() const;
   /// Whether rows have this number of impacts.
   [[nodiscard]] bool has(std::string_view quantity) const;
 };
@@ -83,7 +86,7 @@ inline constexpr std::string_view peak_column = "peak_g_", shock_column = "delta
 /// The column by which rows are ranked for a probe: its part's margin, else its largest specific force or, without
 /// forces, |ΔV|; on a ground without loss those of the first landing.  A summary takes the one that was asked for, else
 /// that of the first probe, else the largest force or impulse.
-[[nodiscard]] std::string ranking_column(const RowLayout& layout, const Probe& probe, bool landing_alone = false);
+[[nodiscard]] std::string ranking_column(const RowLayout& layout, std::size_t probe, bool landing_alone = false);
 /// Whether a column's least number is its worst: a margin.
 [[nodiscard]] bool is_worst_least(std::string_view column);
 
@@ -101,10 +104,9 @@ struct LargestShock {
 
   /// What tells the numbers of rows from each other.
   struct Terms {
-    std::size_t probes = 0;             ///< how many
-    const FragilePart* part = nullptr;  ///< null: none, and no margins
-    bool has_peaks = true;              ///< of the continuous model; without them a margin is that by |ΔV|
-    double landing_end = 0;             ///< as landing_end() has it [s]
+    const RowLayout& layout;  ///< of the probes and their parts
+    bool has_peaks = true;    ///< of the continuous model; without them a margin is that by |ΔV|
+    double landing_end = 0;   ///< as landing_end() has it [s]
   };
   /// Takes the hardest of rows of probes, the first of equal ones.
   [[nodiscard]] static std::vector<LargestShock> of(const std::vector<ShockRow>& rows, const Terms& terms);

@@ -98,7 +98,7 @@ Summary::Summary(const RowLayout& layout, const SweepPoints& points)
     : columns_(sweep_columns(layout)), first_(1 + layout.swept.size()),
       rank_by_(!layout.rank_by.empty() ? layout.rank_by
                : layout.probes.empty() ? ""
-                                       : ranking_column(layout, layout.probes.front())),
+                                       : ranking_column(layout, layout.first_ranked())),
       points_(&points),
       outcome_(static_cast<std::size_t>(std::ranges::find(columns_, "outcome", &Column::name) - columns_.begin())),
       numbers_(columns_.size()),

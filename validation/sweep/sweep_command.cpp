@@ -484,7 +484,7 @@ class SweepOutput {
         view.quantities.push_back(asked.column.name);
     }
     std::vector<std::string> others = plan_.layout.named;
-    for (const Probe& probe : plan_.layout.probes) {
+    for (std::size_t probe = 0; probe < plan_.layout.probes.size(); ++probe) {
       const std::string name = ranking_column(plan_.layout, probe);
       if (std::ranges::find(others, name) == others.end()) others.push_back(name);
     }

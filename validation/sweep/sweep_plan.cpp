@@ -390,19 +390,30 @@ void choose_probes(const SweepRequest& request, const SceneValues& values, Sweep
     throw BadInput(fmt::format("--probe {}: is for --rows scene; clatter shock has a point's numbers of each impact",
                                request.probes.front()));
   }
-  if (layout.rows == RowKind::scene)
-    layout.probes = request.probes.empty() ? read_probes(values) : read_probes("--probe", request.probes);
+  if (layout.rows == RowKind::scene) layout.probes = read_probes("--probe", request.probes, read_probes(values));
   for (const Probe& probe : layout.probes)
     plan.words.push_back(fmt::format("probe: {}, body frame", place_words(probe)));
   layout.has_curve = layout.model == Model::continuous && plan.scene.world.ground.is_pad();
-  if (!request.part) return;
-  const std::string given = "--part " + part_text(*request.part);
-  if (layout.probes.empty())
-    throw BadInput(given + ": needs --probe NAME:X,Y,Z with rows of scenes, or [[probe]], where the part is");
-  if (layout.model == Model::discrete && request.part->kind == FragilePart::Kind::at_place)
-    throw BadInput(given + ": needs peaks, which the continuous model has: a scene with a ground");
-  layout.part = request.part;
-  plan.words.push_back("part: " + words_of(*request.part));
+  if (!request.parts.empty() && layout.probes.empty())
+    throw BadInput(
+        fmt::format("--part {}: needs --probe NAME:X,Y,Z with rows of scenes, or [[probe]], where the part is",
+                    part_text(request.parts.front())));
+  const std::vector<FragilePart> parts = parts_of(request.parts, layout.probes);
+  layout.part_at.resize(layout.probes.size());
+  for (const FragilePart& part : parts) {
+    const std::string given = "--part " + part_text(part);
+    if (layout.model == Model::discrete && part.kind == FragilePart::Kind::at_place)
+      throw BadInput(given + ": needs peaks, which the continuous model has: a scene with a ground");
+    for (std::size_t i = 0; i < layout.probes.size(); ++i) {
+      std::optional<FragilePart>& here = layout.part_at[i];
+      if (!part.is_at(layout.probes[i].name)) continue;
+      if (here)
+        throw BadInput(fmt::format("{}: {} has one already, {}; clatter shock and report take several at one probe",
+                                   given, layout.probes[i].name, part_text(*here)));
+      here = part;
+    }
+    plan.words.push_back("part: " + words_of(part));
+  }
 }
 
 /// @throws BadInput for a probe whose columns have the names of others
@@ -453,9 +464,13 @@ void name_own_attitude(const SweepRequest& request, const SceneValues& values, s
 }  // namespace
 
 Arguments sweep_arguments(SweepRequest& request) {
-  const Argument::Reader take_part = [&part = request.part](const std::string& option, const std::string& text) {
-    part = read_part(option, text);
+  const Argument::Reader take_part = [&parts = request.parts](const std::string& option, const std::string& text) {
+    parts.push_back(read_part(option, text));
   };
+  Argument part = part_argument(
+      take_part,
+      "columns margin_NAME, the least over the impacts, by which attitudes are ranked; again for other probes", "");
+  part.repeats = true;
   return {
       whole_argument("--random", request.random, 1, static_cast<int>(most_scenes), "N",
                      "N scenes with random values, --set KEY=LOW:HIGH or LOW:HIGH:log"),
@@ -471,7 +486,7 @@ Arguments sweep_arguments(SweepRequest& request) {
        .type = "NAME,...",
        .help = "more columns of rows of scenes: QUANTITY_N of impact N, QUANTITY of each, hardest, "
                "hardest_QUANTITY"},
-      part_argument(take_part, "columns margin_NAME, the least over the impacts, by which attitudes are ranked", ""),
+      part,
       {.name = "--rank-by",
        .target = &request.rank_by,
        .type = "COLUMN",

@@ -36,8 +36,8 @@ struct SweepRequest {
   /// Percentiles and extremes in place of rows: of attitudes the hardest impact's number, impulse and corners without
   /// being asked, and by the continuous model no more than three digits and no growth of errors unless they are.
   bool summary = false;
-  std::optional<FragilePart> part;  ///< at each probe
-  std::string rank_by;              ///< column by which attitudes are ranked, with `summary`; empty: by what is hard
+  std::vector<FragilePart> parts;  ///< at the probe that each names or at each; none: those of the file's probes
+  std::string rank_by;             ///< column by which attitudes are ranked, with `summary`; empty: by what is hard
 };
 
 /// The options that fill it, but for values, points and flags.

@@ -217,9 +217,7 @@ bool SceneRunner::append_result(long long index, RowForm& form) {
 }
 
 LargestShock::Terms SceneRunner::terms_of(const Run& run, bool has_peaks) const {
-  const RowLayout& layout = plan_.layout;
-  return {.probes = layout.probes.size(),
-          .part = layout.part ? &*layout.part : nullptr,
+  return {.layout = plan_.layout,
           .has_peaks = has_peaks,
           .landing_end = run.impacts.empty() ? 0 : landing_end(scene_, run.impacts.front().value.approach_speed)};
 }

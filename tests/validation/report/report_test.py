@@ -32,7 +32,7 @@ def margins_of(part, velocity, peak):
 class Report(EmptyFolder):
     def test_the_page_has_every_part_in_itself_and_asks_for_nothing(self):
         path = self.path("phone.html")
-        found = run("report", "phone-damped", *FEW, *PROBE, "--part", "300:500", "--drops", "26", "--output", path)
+        found = run("report", "phone-damped", "--angle", "5", *FEW, *PROBE, "--part", "300:500", "--drops", "26", "--output", path)
         self.assertEqual((found.returncode, found.stdout), (0, ""), found.stderr)
         page = self.read("phone.html")
         for part in ("of 26 drops; least margin", "The drop as given", "Attitudes", "Shock at points", "continuous model", "Accuracy",
@@ -200,15 +200,88 @@ class Report(EmptyFolder):
         self.assertEqual([float(row["margin"]) for row in table], margins)
         self.run_program("report", *scenes, *options, *several, "--title", "Handset <A>", "--date", "2026-11-29", "--output", "both.html")
         page = self.read("both.html")
-        worst = "{floor}, e = {restitution}, {part}: least margin {margin:.3g}".format(**cases[0])
+        worst = "{floor}, e = {restitution}, {part} {verdict}, least margin {margin:.3g}".format(**cases[0])
         for words in ("Handset &lt;A&gt;</h1>", ">2026-11-29, clatter ", f"Worst of 8 cases: {worst}; "):
             self.assertIn(words, page)
-        headings = re.findall(r'<h2 class="floor">(\w+), e = ', page)
-        self.assertEqual(headings, list(dict.fromkeys(case["floor"] for case in cases)))
+        floors, parts, headings = set(), set(), []
+        for case in cases:  # the worst of each floor, and of each part
+            if case["floor"] not in floors or case["part"] not in parts:
+                headings.append(case["floor"])
+            floors.add(case["floor"]), parts.add(case["part"])
+        self.assertEqual(re.findall(r'<h2 class="case">(\w+), e = [\d.]+: a part .* (?:fails|survives)</h2>', page), headings)
         self.assertEqual(page.count("What the model leaves out"), 1, "both floors have the same there")
         for wrong, words in ((("--date", "2026-02-30"), "--date"), (("--date", "tomorrow"), "--date"), (("--floor-restitution", "0.7:0.3:0.1"), "0.7:0.3:0.1"),
                              (("--floor-restitution", "0.5:1.5:0.5"), "--floor-restitution"), (("--part", "1:2", "--part", "1:2g"), "given twice")):
             self.refused(words, "report", *scenes, *options, *wrong, "--format", "json")
+
+    def test_a_part_belongs_to_its_probe_by_flag_and_by_file(self):
+        scene = "[drop]\nclearance = 1\n[body]\nshape = 'box'\nsize = [0.1, 0.05, 0.01]\nmass = 0.1\n[run]\nimpacts = 1\n[ground]\nfloor = 'concrete'\n"
+        probes = "[[probe]]\nname = 'camera'\nplace = [0.048, 0.016, 0.0045]\n{}[[probe]]\nname = 'crystal'\nplace = [-0.02, 0, 0]\n{}"
+        self.write("bare.toml", scene + probes.format("", ""))
+        self.write("full.toml", scene + probes.format("part = '300:500'\n", "part = '1500g:2ms'\n"))
+        options = ("--no-sensitivity", "--frequencies", "100:3000:2", "--drops", "26", "--floor-restitution", "0.5")
+        by_flag = self.json_of("report", "bare.toml", *options, "--part", "camera:300:500", "--part", "crystal:1500g:2ms")
+        by_file = self.json_of("report", "full.toml", *options)
+        self.assertEqual(by_flag["cases"], [{**case, "floor": "bare"} for case in by_file["cases"]])
+        self.assertEqual({case["part"]: case["probe"] for case in by_file["cases"]}, {"camera:300:500": "camera", "crystal:1500g:2ms": "crystal"})
+        # Each is what it is at its place alone.
+        for case in by_file["cases"]:
+            probe, part = case["part"].split(":", 1)
+            alone = self.json_of("report", "bare.toml", *options, "--probe", probe, "--part", part)["answer"]
+            self.assertEqual({name: alone[name] for name in ("margin", "verdict", "attitude", "failing", "peak_g")},
+                             {name: case[name] for name in ("margin", "verdict", "attitude", "failing", "peak_g")})
+            self.assertIn(f"{case['part']} {case['verdict']}, least margin", by_file["message"])
+        rows = records(self.run_program("sweep", "full.toml", "--set", "drop.attitude=26", "--set", "run.digits=3", "--format", "csv").stdout)
+        self.assertEqual({name for name in rows[0] if name.startswith("margin_") and not name.endswith(("_impact", "_error"))},
+                         {"margin_camera", "margin_crystal"})
+        of_one = self.run_program("sweep", "bare.toml", "--part", "crystal:300g", "--set", "drop.angle_deg=3", "--set", "run.digits=3", "--format", "csv").stdout
+        self.assertEqual({name for name in records(of_one)[0] if name.startswith("margin_")}, {"margin_crystal", "margin_crystal_impact", "margin_crystal_error"})
+        self.run_program("report", "full.toml", *options, "--output", "page.html")
+        page = self.read("page.html")
+        self.assertEqual(sorted(re.findall(r'<h2 class="case">A part.*? at (\w+) ', page)), ["camera", "crystal"])
+        self.assertNotIn("delta_v", page.split("Commands that give")[0])
+        self.run_program("report", "full.toml", *options, "--short", "--output", "short.html")
+        self.assertNotIn("<h2>Attitudes", self.read("short.html"))
+        self.assertEqual(self.read("short.html").count("The body as it touches"), 2)
+        # An unbound one goes to the first, and says so.
+        unbound = self.json_of("report", "bare.toml", *options, "--part", "300:500")
+        self.assertEqual(unbound["answer"]["margin"], next(case["margin"] for case in by_file["cases"] if case["probe"] == "camera"))
+        self.assertIn("The part 300:500 is judged at camera, the first probe: --part crystal:300:500", " ".join(unbound["answer"]["notes"]))
+        self.refused("no probe is named crysta; did you mean crystal?", "report", "bare.toml", *options, "--part", "crysta:300g", "--format", "json")
+        self.write("bad.toml", scene + probes.format("", "part = '15q'\n"))
+        self.refused("bad.toml:17:8: probe.1.part", "report", "bad.toml", *options, "--format", "json")
+
+    def test_attitudes_of_several_cases_are_rows_behind_scene_e_and_part(self):
+        body = "[drop]\nclearance = 1\nangle_deg = 0\n[body]\nshape = 'box'\nsize = [0.1, 0.05, 0.01]\nmass = 0.1\n[run]\nimpacts = 1\n[ground]\n"
+        self.write("hard.toml", body + "floor = 'concrete'\nrestitution = 0.4\n")
+        self.write("soft.toml", body + "stiffness = 1e7\nthickness = 0.004\nrestitution = 0.6\n")
+        options = (*PROBE, "--no-sensitivity", "--frequencies", "100:3000:2", "--drops", "26", "--part", "300:500")
+        rows = records(self.run_program("report", "hard.toml", "soft.toml", *options, "--rows", "attitude", "--format", "csv").stdout)
+        self.assertEqual(len(rows), 2 * 26)
+        self.assertEqual({(row["floor"], float(row["restitution"]), row["part"]) for row in rows}, {("hard", 0.4, "300:500"), ("soft", 0.6, "300:500")})
+        cases = records(self.run_program("report", "hard.toml", "soft.toml", *options, "--format", "csv").stdout)
+        self.assertEqual({(case["floor"], float(case["restitution"])) for case in cases}, {("hard", 0.4), ("soft", 0.6)})
+        for case in cases:
+            own = [row for row in rows if row["floor"] == case["floor"]]
+            self.assertAlmostEqual(min(float(row["margin"]) for row in own) / float(case["margin"]), 1, delta=6e-3)
+        # The springs go further than half the pad's thickness: headline, table and CSV say so.
+        soft = next(case for case in cases if case["floor"] == "soft")
+        self.assertAlmostEqual(float(soft["depth_percent"]), float(soft["depth_mm"]) / 4 * 100, delta=1e-6 * float(soft["depth_percent"]))
+        self.assertGreater(float(soft["depth_percent"]), 50)
+        answer = self.json_of("report", "soft.toml", *options)
+        self.assertIn("too deep for a bed of springs", answer["message"])
+        self.assertNotIn("The drop as given", answer["message"], "an angle of the file is no wish")
+        ranged = self.json_of("report", "soft.toml", *options, "--floor-restitution", "0.4,0.6")
+        self.assertEqual(len(ranged["cases"]), 2)
+        self.write("none.toml", body + "floor = 'concrete'\n[[probe]]\nname = 'camera'\nplace = [0.048, 0.016, 0.0045]\n")
+        self.write("some.toml", self.read("none.toml") + "part = '300:500'\n")
+        mixed = self.json_of("report", "none.toml", "some.toml", "--no-sensitivity", "--frequencies", "100:3000:2", "--drops", "26",
+                             "--floor-restitution", "0.4:0.6:0.2")["cases"]
+        self.assertEqual([case["floor"] for case in mixed], ["some", "some", "none", "none"])
+        self.assertLess(mixed[0]["margin"], mixed[1]["margin"])
+        self.assertGreater(mixed[2]["peak_g"], mixed[3]["peak_g"])
+        self.run_program("report", "soft.toml", *options, "--floor-restitution", "0.4,0.6", "--short", "--output", "page.html")
+        self.assertIn("k_G is the same at each e", self.read("page.html"))
 
     def test_without_a_file_nothing_is_written(self):
         self.refused("--output", "report", "phone-damped")

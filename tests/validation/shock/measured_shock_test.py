@@ -57,7 +57,7 @@ BAD = {
     "an empty file": ("", (), "no rows of numbers"),
     "gravity alone": ("t,a (g)\n" + "".join(f"{i},1\n" for i in range(50)), (), "no blow"),
     "a third axis of one": ("t,a (g)\n" + rows(TIMES, PULSE), ("--axis", "z"), "the record has 1 axes"),
-    "a scene without a probe": ("t,a (g)\n" + rows(TIMES, PULSE), ("--against", "phone-damped"), "0 probes"),
+    "a scene without a probe": ("t,a (g)\n" + rows(TIMES, PULSE), ("--against", "phone-damped"), "--probe: required"),
 }
 
 
@@ -124,6 +124,31 @@ class Measured(EmptyFolder):
         (row,) = records(result.stdout)
         for name in ("delta_v", "peak_g", "width"):
             self.assertLess(abs(float(row[name]) / float(row[f"simulated_{name}"]) - 1), 1e-3, row)
+
+    def test_the_drop_beside_a_record_has_its_pulses_and_margins_under_the_probe_s_name(self):
+        self.write("drop.toml", "[drop]\nangle_deg = 0\nspeed = 2\n[body]\nshape = 'box'\nsize = [0.1, 0.05, 0.02]\nmass = 0.1\n[ground]\n"
+                   "stiffness = 1e7\ndamping = 1e6\nthickness = 0.002\n[run]\nimpacts = 1\n"
+                   "[[probe]]\nname = 'camera'\nplace = [0.03, 0, 0]\npart = '300:100'\n[[probe]]\nname = 'crystal'\nplace = [0, 0, 0]\n")
+        options = ("--against", "drop.toml", "--probe", "camera", "--no-sensitivity", "--frequencies", "100:1000:2")
+        found = self.measure("t (s),a (g)\n" + rows(TIMES, PULSE), *options)
+        beside = json.loads(run("shock", "drop.toml", *options[2:], "--format", "json", cwd=self.folder).stdout)["pulses"]["blows"]
+        blows = found["pulses"]["blows"]
+        self.assertEqual([(blow["probe"], blow["model"], blow["part"]) for blow in blows],
+                         [("camera", "measured", "camera:300:100"), ("camera", "continuous", "camera:300:100")])
+        self.assertEqual(blows[1], beside[0])
+        self.assertEqual({one["probe"] for one in found["spectra"]}, {"camera"})
+        shown = run("shock", "--measured", "a.csv", *options, "--rows", "pulse", cwd=self.folder).stdout
+        self.assertIn("no model beyond half", shown)
+        self.assertIn("measured", shown)
+        table = run("shock", "--measured", "a.csv", *options, cwd=self.folder).stdout
+        for heading in ("sim. |ΔV|", "sim. peak", "sim. width"):
+            self.assertIn(heading, table)
+        self.run_program("shock", "--measured", "a.csv", *options, "--plot", "a.svg")
+        self.assertIn("camera, impact 1, continuous", self.read("a.svg"))
+        several = run("shock", "--measured", "a.csv", "--against", "drop.toml", cwd=self.folder)
+        self.assertEqual((several.returncode, several.stderr.count("\n")), (2, 1))
+        self.assertIn("--probe: required, where on the body the record was taken: a NAME of the scene's, or NAME:X,Y,Z, not 2 points: camera, crystal",
+                      several.stderr)
 
     def test_blows_of_three_axes_are_told_apart(self):
         times = np.arange(5000) / 1e4

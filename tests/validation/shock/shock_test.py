@@ -1,8 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """`clatter shock` and `clatter shock --ground` as their users meet them: probes, tables, JSON, bad input."""
 
+import json
 import math
 import random
+import re
 import unittest
 
 import numpy as np
@@ -31,7 +33,7 @@ BAD_FILES = (  # text, place, words
     ("[[probe]]\n[[probe]]\nname = 'a'\nplace = [1, 2, 3]\n", "1:", "name and place"))
 BAD_GROUND = {
     **{f"{' '.join(FLAT)} {options}": words for options, words in {
-        "--measured-e 0.5": "two of", "--measured-e 0.5 --contact-time 1e-3 --peak-force 9": "two of", "--measured-e 1.5 --contact-time 1e-3": "--measured-e",
+        "--measured-e 0.5": "--measured-e 0.5: needs a second number", "--contact-time 1e-3": "--measured-e E", "--measured-e 0.5 --contact-time 1e-3 --peak-force 9": "two of", "--measured-e 1.5 --contact-time 1e-3": "--measured-e",
         "--measured-e 0.5 --contact-time 0": "--contact-time", "--stiffness 1e9 --measured-e 0.5 --contact-time 1e-3": "--stiffness",
         "--peak-force 5 --floor steel": "exclude",
         **{f"{STEEL} {other} 0.5": "--measured-e alone" for other in ("--contact-time", "--peak-force", "--indentation")}}.items()},
@@ -105,6 +107,9 @@ class Shock(EmptyFolder):
         for row in found["impacts"]:
             self.assertIsNotNone(row["delta_v"])
             self.assertIsNone(row["discrete_delta_v"])
+        bound = "whatever the time between them"  # of the discrete model's first two blows, which are others here
+        self.assertNotIn(bound, re.sub(r"\s+", " ", run("shock", *scene, *PROBE, "--frequencies", "100:200:2", "--no-sensitivity").stdout))
+        self.assertIn(bound, re.sub(r"\s+", " ", run("shock", "phone-damped", *PROBE, *FEW).stdout))
         same = shock("phone-damped", *PROBE, *FEW)
         self.assertNotIn("parted", same)
         self.assertTrue(all(row["discrete_delta_v"] for row in same["impacts"]))
@@ -228,6 +233,34 @@ class Ground(unittest.TestCase):
                                "--impacts", "1", "--digits", "8")
         after = again["impacts"][0]["velocity_after"][2]
         self.assertAlmostEqual(after / 2, 0.5, delta=1e-5)
+
+    def test_a_pad_from_two_numbers_says_how_deep_the_drop_goes_and_gives_a_curve_of_its_stiffness(self):
+        drop = ("--body", "box", "--size", "0.16x0.08x0.02", "--mass", "0.25", "--clearance", "1.2", "--angle", "0", "--area", "projected")
+        found = json_of("shock", "--ground", *drop, "--measured-e", "0.4", "--contact-time", "4e-3", "--thickness", "0.005")
+        one = found["solutions"][0]
+        # Energy: what is stored and lost on the way to the greatest depth is m v^2/2 (and m g times it); without loss k A depth^2/2.
+        free = math.sqrt(0.25 * 2 * 9.81 * 1.2 / (one["stiffness"] * 0.16 * 0.08))
+        self.assertTrue(0.4 * free < one["depth"] < 1.1 * free, (one["depth"], free))
+        self.assertAlmostEqual(one["depth_percent"], 100 * one["depth"] / 0.005, delta=1e-9 * one["depth_percent"])
+        pairs = json.loads(found["pad"]["curve"])
+        self.assertAlmostEqual(pairs[-1][1] / (pairs[-1][0] * 0.005 * one["stiffness"]), 1, delta=1e-5)
+        table = run("shock", "--ground", *drop, "--measured-e", "0.4", "--contact-time", "4e-3", "--thickness", "0.005").stdout
+        self.assertIn("no model beyond half", table)
+        self.assertIn(f"curve = {found['pad']['curve']}", table)
+        same = json_of("shock", "--ground", *drop, "--restitution", "0.4", "--contact-time", "4e-3")["solutions"][0]
+        self.assertEqual(same["stiffness"], one["stiffness"])
+        self.assertIn("its restitution, --measured-e E", run("shock", "--ground", *drop, "--contact-time", "4e-3").stderr)
+
+    def test_a_bound_part_has_rows_at_its_probe_alone_and_other_blows_are_not_bounded(self):
+        probes = ("--probe", "camera:0.05,0.02,0.004", "--probe", "crystal:-0.03,0,0")
+        scene = ("phone-damped", "--impacts", "1", "--no-sensitivity", "--frequencies", "100:3000:2", *probes)
+        blows = json_of("shock", *scene, "--part", "camera:300:500", "--part", "crystal:40g:11ms")["pulses"]["blows"]
+        self.assertEqual([(blow["probe"], blow["part"]) for blow in blows], [("camera", "camera:300:500"), ("crystal", "crystal:40g:11ms")])
+        every = json_of("shock", *scene, "--part", "300:500")
+        self.assertEqual([blow["probe"] for blow in every["pulses"]["blows"]], ["camera", "crystal"])
+        self.assertEqual(every["pulses"]["blows"][0]["margin_half_sine"], blows[0]["margin_half_sine"])
+        self.assertIn("300:500: judged at each of camera, crystal", run("shock", *scene, "--part", "300:500").stdout)
+        self.assertIn("no probe is named crysta; did you mean crystal?", run("shock", *scene, "--part", "crysta:300g").stderr)
 
     def test_numbers_that_no_ground_gives_are_status_3(self):
         found = run("shock", "--ground", *FLAT, "--contact-time", "5e-4", "--peak-force", "1")

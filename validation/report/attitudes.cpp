@@ -1,0 +1,339 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "validation/report/attitudes.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+#include <thread>
+
+#include "validation/output/number.hpp"
+#include "validation/run/discrete_scene.hpp"
+#include "validation/scene/body_properties.hpp"
+#include "validation/scene/failure.hpp"
+#include "validation/scene/keys.hpp"
+#include "validation/scene/orientation.hpp"
+#include "validation/shock/shock_run.hpp"
+#include "validation/sweep/points.hpp"
+#include "validation/sweep/summary.hpp"
+#include "validation/sweep/sweep_run.hpp"
+
+namespace clatter::validation {
+namespace {
+
+/// Which way is down in the axes of a body of this attitude.
+Vector3 down_of(const Eigen::Quaterniond& attitude) { return -(attitude.conjugate() * Vector3::UnitZ()); }
+
+/// The sweep of a box's attitudes by the same scene, to digits enough for a statistic; flags of the drop's own attitude
+/// stay out.
+/// @param rank_by  column; empty: as the sweep has it
+SweepRequest sweep_of(const ReportInput& input, const Attitudes& attitudes, const std::string& rank_by) {
+  SweepRequest request{.file = input.scene.source,
+                       .text = {},
+                       .sets = {"drop.attitude=26", "run.digits=3"},
+                       .probes = input.probes,
+                       .random = attitudes.drops,
+                       .seed = {},
+                       .scatter = attitudes.scatter,
+                       .model = model_of(input),
+                       .rows = {},
+                       .columns = {},
+                       .no_errors = true,
+                       .summary = true,
+                       .parts = input.parts,
+                       .rank_by = rank_by};
+  if (request.file.empty()) request.text = "";
+  for (const SceneOverride& given : overrides_of(input.scene)) {
+    if (!turns_body(given.key) && given.key != "run.errors" && given.key != "run.digits")
+      request.sets.push_back(given.key + "=" + given.text);
+  }
+  return request;
+}
+
+std::string sweep_command_of(const SweepRequest& request) {
+  std::string words = "clatter sweep " + shell_word(request.file) + " --model " + name_of(*request.model);
+  for (const std::string& set : request.sets) words += " --set " + shell_word(set);
+  for (const std::string& probe : request.probes) words += " --probe " + shell_word(probe);
+  for (const FragilePart& part : request.parts) words += " --part " + shell_word(part_text(part));
+  if (!request.rank_by.empty()) words += " --rank-by " + shell_word(request.rank_by);
+  return words + fmt::format(" --random {} --scatter {} --no-errors --summary", *request.random, *request.scatter);
+}
+
+/// How far off an attitude of a box, by number from 0, a direction is [°].
+double degrees_off(const Scene& scene, int number, const Vector3& down) {
+  const std::vector<double> q = orientation_attitude(number + 1, scene.body.size);
+  const Vector3 level = down_of(Eigen::Quaterniond(q[0], q[1], q[2], q[3]));
+  return std::atan2(down.cross(level).norm(), down.dot(level)) * 180 / std::numbers::pi;
+}
+
+/// "face", "edge" or "corner": those of 1 to 3 axes.
+std::size_t axes_of_attitude(int number) {
+  const std::array<int, 3> signs = orientation_signs(number + 1);
+  return static_cast<std::size_t>(std::ranges::count_if(signs, [](int sign) { return sign != 0; }));
+}
+constexpr const char* part_names[] = {"", "face", "edge", "corner"};
+
+/// The worst blow of a drop of the sweep, as the sweep itself computes it; without a probe that of the largest force.
+std::optional<Blow> blow_of(const SweepPlan& plan, const SweepBody& body, long long point, const Ranking& ranking) {
+  Scene scene = plan.scene;
+  std::vector<double> values;
+  plan.points.at(point, values);
+  plan.put_point(values, scene);
+  const std::vector<Probe>& probes = plan.layout.probes;
+  if (!ranking.has_peaks) {
+    const ShockRun run = run_shock(scene, probes, {.continuous = false, .sensitivity = false, .count = 2});
+    return worst_blow(run.discrete, *run.discrete_run, scene, ranking);
+  }
+  if (!probes.empty()) {
+    const ContinuousShock shock =
+        continuous_shock(scene, *body.solid, places_from(body_properties(scene, Model::continuous).centre, probes),
+                         {.parts = plan.layout.parts()});
+    return worst_blow(shock.rows, run_of(shock.planned.run), scene, ranking);
+  }
+  const Run run = run_of(run_to_digits(scene, *body.solid).run);
+  if (run.impacts.empty()) return std::nullopt;
+  const auto hardest =
+      std::ranges::max_element(run.impacts, {}, [](const Impact& one) { return one.value.peak_force; });
+  return Blow{.impact = hardest->n, .value = hardest->value.peak_force, .depth = hardest->value.indentation};
+}
+
+/// The worst blows of the worst drop of each attitude.
+void find_blows(const SweepPlan& plan, const SweepBody& body, int threads, const Ranking& ranking, AllAttitudes& all) {
+  std::vector<std::optional<std::size_t>> worst(orientation_count);
+  for (std::size_t i = 0; i < all.drops.size(); ++i) {
+    std::optional<std::size_t>& so_far = worst[static_cast<std::size_t>(all.drops[i].attitude)];
+    if (!so_far || all.is_worse(all.drops[i].value, all.drops[*so_far].value)) so_far = i;
+  }
+  for (const auto& one : worst) {
+    if (one) all.worst_of.push_back(*one);
+  }
+  all.blows.resize(all.worst_of.size());
+  std::atomic<std::size_t> next = 0;
+  const auto work = [&] {
+    for (std::size_t i = next++; i < all.blows.size(); i = next++) {
+      // A drop that has a number in the sweep has no failure here.
+      static_cast<void>(
+          failure_of_scene([&] { all.blows[i] = blow_of(plan, body, all.drops[all.worst_of[i]].point, ranking); }));
+    }
+  };
+  std::vector<std::jthread> crew;
+  for (int i = 1; i < threads; ++i) crew.emplace_back(work);
+  work();
+}
+
+}  // namespace
+
+bool turns_body(const std::string& key) { return key == "drop.attitude" || are_alternatives(key, "drop.attitude"); }
+
+std::string scene_words(const ReportInput& input, const std::vector<double>& attitude) {
+  std::vector<SceneOverride> flags = overrides_of(input.scene);
+  if (!attitude.empty()) std::erase_if(flags, [](const SceneOverride& flag) { return turns_body(flag.key); });
+  return (input.scene.source.empty() ? "" : " " + shell_word(input.scene.source)) + flag_words(flags) +
+         (attitude.empty() ? "" : fmt::format(" --attitude={}", fmt::join(attitude, ",")));
+}
+
+std::string probe_words(const ReportInput& input) {
+  std::string words;
+  for (const std::string& probe : input.probes) words += " --probe " + shell_word(probe);
+  for (const FragilePart& part : input.parts) words += " --part " + shell_word(part_text(part));
+  return words;
+}
+
+std::string name_of_drop(const Scene& scene, int number, const Vector3& down) {
+  return fmt::format("{} {} down, {}° off", part_names[axes_of_attitude(number)], orientation_name(number + 1),
+                     significant(degrees_off(scene, number, down), 2));
+}
+
+Ranking ranking_of(std::string_view column, const std::vector<Probe>& probes, const ReportInput& input) {
+  Ranking ranking{.has_peaks = model_of(input) == Model::continuous};
+  for (std::size_t i = 0; i < probes.size(); ++i) {
+    if (column.ends_with("_" + probes[i].name)) ranking.probe = i;
+  }
+  if (!probes.empty() && input.part() && input.part()->is_at(probes[ranking.probe].name)) ranking.part = input.part();
+  ranking.landing_alone = column.starts_with(of_landing);
+  if (ranking.landing_alone) column.remove_prefix(of_landing.size());
+  const bool is_velocity = column.starts_with(shock_column) || !ranking.has_peaks;
+  ranking.by = column.starts_with(peak_column)    ? Ranking::By::peak
+               : column.starts_with(shock_column) ? Ranking::By::velocity
+               : ranking.part                     ? Ranking::By::margin
+               : is_velocity                      ? Ranking::By::velocity
+                                                  : Ranking::By::peak;
+  return ranking;
+}
+
+std::optional<AllAttitudes> all_attitudes(const ReportInput& input, const Scene& given, const Attitudes& attitudes,
+                                          const std::string& rank_by, const CooperativeInterrupt& interrupt) {
+  const SweepRequest request = sweep_of(input, attitudes, rank_by);
+  SweepPlan plan = read_sweep_plan(request);
+  plan.packed = true;
+  const SweepBody body = plan.body_values.empty() ? make_sweep_body(plan, plan.scene) : SweepBody{};
+  Summary summary(plan.layout, plan.points);
+  const std::optional<std::size_t> ranking = summary.ranking();
+  if (!ranking) return {};
+  AllAttitudes all;
+  const std::vector<Column> columns = sweep_columns(plan.layout);
+  all.column = columns[*ranking];
+  const auto place_of = [&](const std::string& name) {
+    return static_cast<std::size_t>(std::ranges::find(columns, name, &Column::name) - columns.begin());
+  };
+  const std::string& by = all.column.name;
+  const Ranking ranks = ranking_of(by, plan.layout.probes, input);
+  const std::string beyond = by.starts_with(of_landing) ? by.substr(of_landing.size()) : "";
+  const std::size_t curve = place_of("curve_depth"), beyond_value = place_of(beyond),
+                    beyond_impact = place_of(beyond + "_impact"),
+                    peak = plan.layout.probes.empty()
+                               ? columns.size()
+                               : place_of(std::string(peak_column) + plan.layout.probes[ranks.probe].name);
+  RangeQueue queue({0, plan.points.count()}, range_size(plan));
+  SweepHooks hooks;
+  Progress progress;
+  std::vector<PackedCell> row(columns.size());
+  std::vector<double> values;
+  const auto number = [&](std::size_t place) { return place < row.size() ? row[place].number : std::nan(""); };
+  hooks.write = [&](const RangeRows& rows) {
+    summary.add(rows.text);
+    for (PackedRows packed(rows.text); packed.next(row);) {
+      if (!std::isfinite(row[*ranking].number)) continue;
+      SweptDrop drop{.point = static_cast<long long>(row.front().number), .value = row[*ranking].number};
+      plan.points.at(drop.point, values);
+      drop.down = down_of(Eigen::Quaterniond(values[0], values[1], values[2], values[3]));
+      drop.attitude = static_cast<int>(plan.points.attitude_of(drop.point));
+      drop.curve_depth = number(curve);
+      drop.peak_g = number(peak);
+      drop.beyond_value = number(beyond_value);
+      drop.beyond_impact = std::isfinite(number(beyond_impact)) ? static_cast<int>(number(beyond_impact)) : 0;
+      all.drops.push_back(drop);
+    }
+    const auto done = static_cast<std::size_t>(queue.taken()), of = static_cast<std::size_t>(plan.points.count());
+    progress.show(fmt::format("attitudes: {}{}", progress_bar(done, of), progress.time_left(done, of)));
+  };
+  hooks.tick = [] {};
+  hooks.stop = [&] { return interrupt.requested(); };
+  Ranks processes;
+  const int threads = thread_count(input.threads, processes);
+  run_on_threads(queue, threads, runners_of(plan, body), hooks);
+  if (interrupt.requested() || all.drops.empty()) return {};
+  find_blows(plan, body, threads, ranks, all);
+  all.worst = *std::ranges::min_element(all.worst_of, [&](std::size_t one, std::size_t other) {
+    return all.is_worse(all.drops[one].value, all.drops[other].value);
+  });
+  const SweptDrop& worst = all.drops[all.worst];
+  all.scene = given;
+  plan.points.at(worst.point, values);
+  all.scene.orientation.reset();
+  all.scene.tilt_deg = 0;
+  all.scene.attitude.assign(values.begin(), values.end());
+  all.scene.settle();
+  all.scene.settle_restitution();
+  all.name = name_of_drop(all.scene, worst.attitude, worst.down);
+  all.report = plan.report();
+  summary.fill(
+      all.report, [&](long long index) { return plan.command_of(index); },
+      [&](long long place) { return plan.attitude_name(place); });
+  all.report.commands.clear();
+  if (!request.file.empty()) all.command = sweep_command_of(request);
+  return all;
+}
+
+std::string ranked_words(const Column& ranking) {
+  std::string_view name = ranking.name;
+  const bool is_landing = name.starts_with(of_landing);
+  if (is_landing) name.remove_prefix(of_landing.size());
+  std::string words(name);
+  for (const auto& [column, its_words] :
+       {std::pair{margin_column, "margin of"}, {peak_column, "peak at"}, {shock_column, "|ΔV| of"}}) {
+    if (name.starts_with(column)) words = fmt::format("{} {}", its_words, name.substr(column.size()));
+  }
+  return words + (is_landing ? ", first landing" : "") + (ranking.unit.empty() ? "" : " [" + ranking.unit + "]");
+}
+
+std::vector<Column> attitude_columns() {
+  return {word_column("attitude", "down", "part of the box that points down"),
+          {"off_deg", "off", "°", "how far its worst drop is off that"},
+          {"impact", "impact", "", "whose blow is the worst of that drop"},
+          {"peak_g", "peak", "g", "largest specific force at the probe in that blow"},
+          {"delta_v", "|ΔV|", "m/s", "change of the probe's velocity in it"},
+          {"margin", "margin", "", "of the part in it: at 1 and below it fails"},
+          {"depth_mm", "depth", "mm", "of the body's deepest point in it"},
+          {"depth_percent", "of pad", "%", "the same in parts of the pad's thickness"},
+          {"worst", "worst", "", "what the drops are ranked by, of that drop"},
+          {"mildest", "mildest", "", "the same of the mildest of its drops"},
+          {"largest_peak_g", "any peak", "g", "largest specific force at the probe in any blow of any of them"},
+          {"drops", "drops", "", "of this attitude"}};
+}
+
+Grid attitudes_grid(const AllAttitudes& all) {
+  const bool has_peaks = std::ranges::any_of(all.blows, [](const auto& blow) { return blow && blow->peak_g > 0; });
+  const bool has_margin = std::ranges::any_of(all.blows, [](const auto& blow) { return blow && blow->margin; });
+  const bool has_velocity = std::ranges::any_of(all.blows, [](const auto& blow) { return blow && blow->velocity > 0; });
+  const bool has_depth = std::ranges::any_of(all.blows, [](const auto& blow) { return blow && blow->depth; });
+  // Whether the blow's own numbers have what is ranked by.
+  const bool is_of_blow = std::ranges::all_of(all.worst_of, [&, i = std::size_t{0}](std::size_t drop) mutable {
+    const std::optional<Blow>& blow = all.blows[i++];
+    return !blow || blow->value == all.drops[drop].value;
+  });
+  const auto& pad = all.scene.pad.thickness;
+  const bool has_share = has_depth && pad;
+  Grid grid{attitude_columns(), {}, 1};
+  for (Column& column : grid.columns) {
+    if (column.name == "worst" || column.name == "mildest") {
+      column.unit = all.column.unit;
+      column.meaning =
+          ranked_words(all.column) + (column.name == "worst" ? " of that drop" : " of the mildest of them");
+    }
+    column.shown = column.name == "peak_g"           ? has_peaks
+                   : column.name == "delta_v"        ? has_velocity
+                   : column.name == "margin"         ? has_margin
+                   : column.name == "depth_mm"       ? has_depth
+                   : column.name == "depth_percent"  ? has_share
+                   : column.name == "worst"          ? !is_of_blow
+                   : column.name == "largest_peak_g" ? has_peaks && !all.is_ranked_by_peak()
+                                                     : true;
+  }
+  std::vector<std::size_t> order(all.worst_of.size());
+  std::iota(order.begin(), order.end(), 0U);
+  std::array<double, 4> worst_of_kind;
+  worst_of_kind.fill(std::nan(""));
+  const auto drop = [&](std::size_t i) -> const SweptDrop& { return all.drops[all.worst_of[i]]; };
+  for (const std::size_t i : order) {
+    double& so_far = worst_of_kind[axes_of_attitude(drop(i).attitude)];
+    if (!std::isfinite(so_far) || all.is_worse(drop(i).value, so_far)) so_far = drop(i).value;
+  }
+  std::ranges::stable_sort(order, [&](std::size_t a, std::size_t b) {
+    const std::size_t one = axes_of_attitude(drop(a).attitude), other = axes_of_attitude(drop(b).attitude);
+    if (one != other && worst_of_kind[one] != worst_of_kind[other])
+      return all.is_worse(worst_of_kind[one], worst_of_kind[other]);
+    return one != other ? one < other : all.is_worse(drop(a).value, drop(b).value);
+  });
+  for (const std::size_t i : order) {
+    const std::optional<Blow>& blow = all.blows[i];
+    const SweptDrop& worst = drop(i);
+    double mildest = worst.value, largest_peak = std::nan("");
+    const auto drops = all.count([&](const SweptDrop& one) { return one.attitude == worst.attitude; });
+    for (const SweptDrop& one : all.drops) {
+      if (one.attitude != worst.attitude) continue;
+      if (all.is_worse(mildest, one.value)) mildest = one.value;
+      largest_peak = std::fmax(largest_peak, one.peak_g);
+    }
+    const auto cell = [&](bool there, double value) { return there ? Cell(value, 3) : Cell(); };
+    const bool is_deep = blow && blow->depth;
+    grid.rows.push_back(
+        {Cell(fmt::format("{} {}", part_names[axes_of_attitude(worst.attitude)], orientation_name(worst.attitude + 1))),
+         Cell(degrees_off(all.scene, worst.attitude, worst.down), 2), blow ? Cell(blow->impact) : Cell(),
+         cell(blow && has_peaks, blow ? three_digits(blow->peak_g) : 0),
+         cell(blow && has_velocity, blow ? blow->velocity : 0),
+         cell(blow && blow->margin, blow && blow->margin ? blow->margin->value : 0),
+         cell(is_deep, is_deep ? 1e3 * *blow->depth : 0),
+         cell(is_deep && has_share, is_deep && has_share ? 100 * *blow->depth / *pad : 0), Cell(worst.value, 3),
+         Cell(mildest, 3), cell(std::isfinite(largest_peak), three_digits(largest_peak)),
+         Cell(static_cast<int>(drops))});
+  }
+  return grid;
+}
+
+}  // namespace clatter::validation

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The drops of a report in all attitudes: a sweep, ranked, and the worst blow of each face, edge and corner.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "validation/output/interrupt.hpp"
+#include "validation/output/report.hpp"
+#include "validation/report/report_input.hpp"
+#include "validation/report/verdict.hpp"
+#include "validation/sweep/rows.hpp"
+
+namespace clatter::validation {
+
+/// Whether the key turns the body, in place of or beside its Euler parameters.
+[[nodiscard]] bool turns_body(const std::string& key);
+
+/// What was typed, with which every command begins: the scene and its flags.
+/// @param attitude  Euler parameters in place of the scene's own; empty: those
+[[nodiscard]] std::string scene_words(const ReportInput& input, const std::vector<double>& attitude);
+
+[[nodiscard]] std::string probe_words(const ReportInput& input);
+
+/// One of the drops in all attitudes.
+struct SweptDrop {
+  long long point = 0;
+  int attitude = 0;  ///< of a box, by number, from 0
+  Vector3 down = Vector3::Zero();
+  double value = 0;         ///< that it is ranked by
+  double beyond_value = 0;  ///< the same with the impacts that the ranking leaves out, or NaN
+  int beyond_impact = 0;
+  double curve_depth = 0;  ///< depth over that of the pad's last point, or NaN
+  double peak_g = 0;       ///< the largest specific force at the ranking's probe in any of its blows, or NaN
+};
+
+/// What the drops in all attitudes give.
+struct AllAttitudes {
+  std::vector<SweptDrop> drops;
+  std::size_t worst = 0;
+  Column column;                           ///< by which they are ranked
+  std::vector<std::size_t> worst_of;       ///< of each attitude that has a drop: its worst one
+  std::vector<std::optional<Blow>> blows;  ///< of those: the worst of each
+  Scene scene;                             ///< of the worst
+  std::string name;                        ///< of its attitude: "corner -x-y+z down, 3.2° off"
+  Report report;                           ///< percentiles, and in its fields the largest of each attitude
+  std::string command;                     ///< empty: no file that a command could name
+
+  [[nodiscard]] bool is_least_worst() const { return is_worst_least(column.name); }
+  [[nodiscard]] bool is_ranked_by_peak() const { return column.name.starts_with(peak_column); }
+  [[nodiscard]] bool is_worse(double one, double other) const { return is_least_worst() ? one < other : one > other; }
+  [[nodiscard]] std::ptrdiff_t count(auto&& wanted) const { return std::ranges::count_if(drops, wanted); }
+};
+
+/// "corner -x-y+z down, 3.2° off", of a box's attitude by number, from 0.
+[[nodiscard]] std::string name_of_drop(const Scene& scene, int number, const Vector3& down);
+
+/// What the ranking of a sweep's column says of blows: of the probe that the column names, else of the first.
+[[nodiscard]] Ranking ranking_of(std::string_view column, const std::vector<Probe>& probes, const ReportInput& input);
+
+/// @param given  the drop whose attitude they change
+/// @param rank_by  column; empty: as the sweep has it
+/// @throws BadInput as read_sweep_plan; nothing if it was interrupted, or no drop has a number to rank it by.
+[[nodiscard]] std::optional<AllAttitudes> all_attitudes(const ReportInput& input, const Scene& given,
+                                                        const Attitudes& attitudes, const std::string& rank_by,
+                                                        const CooperativeInterrupt& interrupt);
+
+/// "margin of camera, first landing [g]": what drops are ranked by, for a reader.
+[[nodiscard]] std::string ranked_words(const Column& ranking);
+
+/// The columns of the table of faces, edges and corners, whatever a report has of them.
+[[nodiscard]] std::vector<Column> attitude_columns();
+
+/// Each face, edge and corner by the worst blow of its worst drop, the worst kind first and in it the worst attitude.
+[[nodiscard]] Grid attitudes_grid(const AllAttitudes& all);
+
+}  // namespace clatter::validation

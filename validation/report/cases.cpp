@@ -1,0 +1,260 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "validation/report/cases.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "validation/output/bad_input.hpp"
+#include "validation/output/number.hpp"
+#include "validation/sweep/points.hpp"
+
+namespace clatter::validation {
+namespace {
+
+/// The flags whose texts may be several values of e, as those of a sweep: 0.3:0.7:0.1, or 0.3,0.5.
+constexpr const char* ranged_flags[] = {"--restitution", "--floor-restitution"};
+
+/// "change of velocity" for delta_v.
+std::string deciding_name(const std::string& name) {
+  return name == "delta_v" ? "change of velocity" : name == "history" ? "humps" : name;
+}
+
+bool differ(const std::vector<const ReportCase*>& cases, auto&& value) {
+  return std::ranges::any_of(cases, [&](const ReportCase* one) { return value(*one) != value(*cases.front()); });
+}
+
+std::vector<Column> columns_of_case() {
+  return {word_column("floor", "scene", "file whose drop it is"),
+          {"restitution", "e", "", "that was given, of the ground or, without one, of impacts"},
+          word_column("part", "part", "what bears it, as --part takes it")};
+}
+
+/// What tells a case from others, in these columns.
+Row cells_of_case(const ReportCase& one) {
+  const auto part = one.input.part();
+  const auto e = one.given_restitution();
+  return {Cell(one.floor()), e ? Cell(*e, shortest(*e)) : Cell(), part ? Cell(part_text(*part)) : Cell()};
+}
+
+void show_columns_of_case(const std::vector<const ReportCase*>& cases, Grid& grid) {
+  for (Column& column : grid.columns) {
+    if (column.name == "floor") column.shown = differ(cases, [](const ReportCase& one) { return one.floor(); });
+    if (column.name == "restitution")
+      column.shown = differ(cases, [](const ReportCase& one) { return one.given_restitution(); });
+    if (column.name == "part")
+      column.shown =
+          differ(cases, [](const ReportCase& one) { return one.input.part() ? part_text(*one.input.part()) : ""; });
+  }
+}
+
+}  // namespace
+
+std::vector<ReportCase> cases_of(const ReportInput& given) {
+  std::vector<ReportInput> inputs{given};
+  const auto multiply = [&](std::size_t count, auto&& set) {
+    std::vector<ReportInput> more;
+    for (const ReportInput& input : inputs) {
+      for (std::size_t i = 0; i < count; ++i) set(i, more.emplace_back(input));
+    }
+    if (count > 0) inputs = std::move(more);
+  };
+  multiply(given.scenes.size(), [&](std::size_t i, ReportInput& input) { input.scene.source = given.scenes[i]; });
+  const char* ranged = nullptr;
+  for (const char* const flag : ranged_flags) {
+    const std::string& text = given.scene.texts.at(flag);
+    if (text.find_first_of(":,") == std::string::npos) continue;
+    if (ranged) throw BadInput(fmt::format("{} {}: {} has several values already", flag, text, ranged));
+    ranged = flag;
+    const SweepAxis axis = read_grid_axis(flag, text, false);
+    if (axis.count > 100) throw BadInput(fmt::format("{} {}: more than 100 values", flag, text));
+    multiply(static_cast<std::size_t>(axis.count), [&](std::size_t i, ReportInput& input) {
+      input.scene.texts[flag] = shortest(axis.at(static_cast<long long>(i)));
+    });
+  }
+  std::vector<ReportInput> of_parts;
+  for (const ReportInput& input : inputs) {
+    const std::vector<FragilePart> parts = parts_of(input.parts, probes_of(input));
+    if (parts.empty()) of_parts.push_back(input);
+    for (const FragilePart& part : parts) of_parts.emplace_back(input).parts = {part};
+  }
+  std::vector<ReportCase> cases;
+  for (ReportInput& input : of_parts) {
+    const bool is_turned = gives_attitude(input);
+    if (!is_turned && looks_at_all(input)) input.scene.texts["--orientation"] = "1";  // some one: the sweep has its own
+    const Scene scene = shock_scene(input);
+    require_worst_attitudes(input, scene);
+    if (!input.parts.empty() && probes_of(input).empty())
+      throw BadInput("--part: needs --probe NAME:X,Y,Z, or [[probe]], where the part is");
+    cases.push_back(
+        {input, ranged ? input.scene.texts.at(ranged) : "", view_of(input), is_turned, scene, given.scenes.size() > 1});
+  }
+  return cases;
+}
+
+std::string ReportCase::name() const {
+  std::string words = names_floor ? floor() : "";
+  const auto add = [&](const std::string& more) { words += (words.empty() ? "" : ", ") + more; };
+  if (!restitution.empty()) add("e = " + restitution);
+  if (const auto part = input.part()) add(part_text(*part));
+  return words;
+}
+
+std::string ReportCase::heading() const {
+  const auto part = input.part();
+  if (!part) return name();
+  std::string words = names_floor ? floor() : "";
+  if (!restitution.empty()) words += (words.empty() ? "e = " : ", e = ") + restitution;
+  if (!words.empty()) words += ": ";
+  const std::optional<Blow>& blow = found.answer.blow;
+  words += words_of(*part);
+  if (blow && blow->margin) words += blow->margin->value > 1 ? " survives" : " fails";
+  if (words.starts_with("a part")) words.front() = 'A';
+  return words;
+}
+
+std::optional<double> ReportCase::given_restitution() const {
+  return model_of(input) == Model::continuous ? given.ground_restitution : given.impact.restitution;
+}
+
+Grid cases_grid(const std::vector<const ReportCase*>& cases) {
+  Grid grid{case_columns(), {}, 3};
+  show_columns_of_case(cases, grid);
+  for (const ReportCase* one : cases) {
+    const Value& answer = *one->found.report.fields.find("answer");
+    const auto of = [&](const char* name, double unit = 1) {
+      const Value* const value = answer.find(name);
+      const double* const number = value ? value->number() : nullptr;
+      return !value ? Cell() : number ? Cell(unit * *number, 3) : Cell(*value);
+    };
+    const auto& pad = one->found.scene.pad.thickness;
+    Row row = cells_of_case(*one);
+    for (const char* name : {"verdict", "margin", "attitude", "probe", "impact", "peak_g", "delta_v"})
+      row.push_back(of(name));
+    row.push_back(of("depth", 1e3));
+    row.push_back(pad ? of("depth", 100 / *pad) : Cell());
+    row.push_back(of("decided_by"));
+    if (!row.back().value.is_nothing()) row.back().shown = deciding_name(row.back().value.text());
+    row.push_back(of("failing"));
+    row.push_back(of("drops"));
+    grid.rows.push_back(std::move(row));
+  }
+  const auto any = [&](auto&& holds) {
+    return std::ranges::any_of(cases, [&](const ReportCase* one) { return holds(*one); });
+  };
+  const bool has_part = any([](const ReportCase& one) { return one.input.part().has_value(); });
+  for (Column& column : grid.columns) {
+    if (column.name == "part") column.shown = has_part;
+    if (column.name == "verdict" || column.name == "margin" || column.name == "decided_by" || column.name == "failing")
+      column.shown = has_part;
+    if (column.name == "probe")
+      column.shown = any([](const ReportCase& one) { return one.found.run.probes.size() > 1; });
+    if (column.name == "depth_mm")
+      column.shown = any(
+          [](const ReportCase& one) { return one.found.scene.world.ground.is_pad() || one.found.scene.pad.thickness; });
+    if (column.name == "depth_percent")
+      column.shown = any([](const ReportCase& one) { return one.found.scene.pad.thickness.has_value(); });
+  }
+  return grid;
+}
+
+std::vector<const ReportCase*> ranked(const std::vector<ReportCase>& cases) {
+  std::vector<const ReportCase*> order;
+  for (const ReportCase& one : cases) order.push_back(&one);
+  std::ranges::stable_sort(order, [](const ReportCase* one, const ReportCase* other) {
+    const Ranking &mine = one->found.ranking, &theirs = other->found.ranking;
+    if (mine.by != theirs.by) return mine.by < theirs.by;
+    const bool is_known = std::isfinite(one->value());
+    return is_known && std::isfinite(other->value()) ? mine.is_worse(one->value(), other->value())
+                                                     : is_known && !std::isfinite(other->value());
+  });
+  return order;
+}
+
+std::vector<const ReportCase*> worst_cases(const std::vector<const ReportCase*>& order) {
+  std::vector<const ReportCase*> worst;
+  const auto part = [](const ReportCase* one) { return one->input.part() ? part_text(*one->input.part()) : ""; };
+  for (const ReportCase* one : order) {
+    const bool is_known_floor =
+        std::ranges::any_of(worst, [&](const ReportCase* other) { return other->floor() == one->floor(); });
+    const bool is_known_part =
+        std::ranges::any_of(worst, [&](const ReportCase* other) { return part(other) == part(one); });
+    if (!is_known_floor || !is_known_part) worst.push_back(one);
+  }
+  return worst;
+}
+
+Report joined_report(const std::vector<const ReportCase*>& order) {
+  const Findings& worst = order.front()->found;
+  const Grid cases = cases_grid(order);
+  Report report = worst.report;
+  report.grid = cases;
+  std::string words;
+  for (const ReportCase* one : worst_cases(order)) {
+    const std::optional<Blow>& blow = one->found.answer.blow;
+    words += (words.empty() ? "" : "; ") + one->name();
+    if (blow && blow->margin)
+      words += fmt::format(" {}, {} margin {}", blow->margin->value > 1 ? "survives" : "fails",
+                           one->found.ranking.by == Ranking::By::margin ? "least" : "with", said(blow->margin->value));
+    else words += ": " + (blow ? one->found.lead : one->found.answer.words);
+  }
+  report.notes = {fmt::format("Worst of {} cases: {}", order.size(), words), worst.lead};
+  if (const std::string fixed = fixed_words(order); !fixed.empty()) report.notes.push_back(fixed);
+  report.fields["message"] = report.notes.front();
+  report.fields["cases"] = row_objects(cases);
+  return report;
+}
+
+std::string fixed_words(const std::vector<const ReportCase*>& cases) {
+  const auto is_of_springs = [](const ReportCase* one) {
+    const numeric::Ground& ground = one->given.world.ground;
+    return !one->restitution.empty() && one->given.ground_restitution && !ground.is_half_space() && !ground.is_pad();
+  };
+  if (std::ranges::none_of(cases, is_of_springs)) return "";
+  return "k_G is the same at each e: where it was found from a contact time, that time is kept only at the e that was "
+         "measured with it (clatter shock --ground --measured-e E gives k_G at another)";
+}
+
+std::vector<Column> case_attitude_columns() { return with_more(columns_of_case(), attitude_columns()); }
+
+Grid attitudes_of_cases(const std::vector<const ReportCase*>& cases) {
+  Grid grid{case_attitude_columns(), {}, columns_of_case().size() + 1};
+  show_columns_of_case(cases, grid);
+  const std::size_t first = columns_of_case().size();
+  for (std::size_t i = first; i < grid.columns.size(); ++i) grid.columns[i].shown = false;
+  for (const ReportCase* one : cases) {
+    if (!one->found.all)
+      throw BadInput("--rows attitude: is for a box, whose worst attitudes are looked for, and not with --drops 0");
+    const Grid own = attitudes_grid(*one->found.all);
+    for (std::size_t i = 0; i < own.columns.size(); ++i) {
+      if (own.columns[i].shown) grid.columns[first + i] = own.columns[i];
+    }
+    for (const Row& attitude : own.rows) {
+      Row row = cells_of_case(*one);
+      row.insert(row.end(), attitude.begin(), attitude.end());
+      grid.rows.push_back(std::move(row));
+    }
+  }
+  return grid;
+}
+
+std::vector<Column> case_columns() {
+  return with_more(
+      columns_of_case(),
+      {word_column("verdict", "verdict", "whether the part survives all drops, or fails in one: by the margin"),
+       {"margin", "margin", "", "the least of all drops: at 1 and below the part fails"},
+       word_column("attitude", "down", "how the body is turned in that drop"),
+       word_column("probe", "at", "name of the point"),
+       {"impact", "impact", "", "whose blow has it"},
+       {"peak_g", "peak", "g", "largest specific force at the probe in that blow"},
+       {"delta_v", "|ΔV|", "m/s", "change of the probe's velocity in it"},
+       {"depth_mm", "depth", "mm", "of the body's deepest point in it"},
+       {"depth_percent", "of pad", "%", "the same in parts of the pad's thickness"},
+       word_column("decided_by", "by",
+                   "what decides the margin: change of velocity, peak, or the humps of its history"),
+       {"failing", "failing", "", "drops that the part does not survive"},
+       {"drops", "drops", "", "of the case"}});
+}
+
+}  // namespace clatter::validation
