@@ -507,7 +507,7 @@ const ShockRow* beside(const ShockRun* simulated, std::size_t blow) {
   return blow < rows.size() ? &rows[blow] : nullptr;
 }
 
-/// Those of the record, then those of the drop beside it.
+/// The rows of the record come first, then those of the drop beside it.
 std::vector<Pulse> pulses_of(const MeasuredShock& shock, const ShockRun* simulated) {
   std::vector<Pulse> pulses;
   for (const MeasuredBlow& blow : shock.blows) {
