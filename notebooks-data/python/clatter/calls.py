@@ -115,7 +115,7 @@ def simulate(scene: Scene | float | None = None, *, history: bool = False, progr
     run = Simulation(report, None if arrays is None else History(arrays))
     left_out = [f"{name}: the discrete model's alone, which simulate() leaves out" for name, value in changes.items()
                 if value is not None and (KEYS[name].key.startswith("impact.") or not KEYS[name].is_continuous)]
-    _warn([*_reservations(run.shortfall, run.outcome, len(run)), *left_out, *run._data["warnings"]])
+    _warn([*_reservations(run.shortfall, run.outcome, len(run)), *left_out])
     return run
 
 
