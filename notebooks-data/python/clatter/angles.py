@@ -124,7 +124,7 @@ class Angles:
         return f"Angles for {len(self)} values of θ, {self.theta_deg[0]}° to {self.theta_deg[-1]}°; to_text() shows them"
 
     def __repr__(self) -> str:
-        return shown_text(self.to_text()) if len(self) <= _MOST_ROWS_SHOWN else self._summary()
+        return shown_text(self.to_text(), len(self)) if len(self) <= _MOST_ROWS_SHOWN else self._summary()
 
     def _repr_html_(self) -> str:
         return shown_html(self._report.html()) if len(self) <= _MOST_ROWS_SHOWN else f"<p>{self._summary()}</p>"
