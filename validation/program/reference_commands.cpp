@@ -89,7 +89,8 @@ void add_orientations(Report& report) {
 /// What the list of keys has no row for: a table that a file may have several of.
 const char* const probes_words =
     "Tables [[probe]] of a file, each with name = \"camera\" and place = [0.05, 0.02, 0.009] in m, body frame, are the "
-    "points of clatter shock, report and sweep; flag --probe NAME:X,Y,Z.  Its part = \"500:300\" is what the part there "
+    "points of clatter shock, report and sweep; flag --probe NAME:X,Y,Z.  Its part = \"500:300\" is what the part "
+    "there "
     "bears, flag --part NAME:500:300.";
 
 Report keys_report() {
