@@ -149,7 +149,7 @@ std::vector<std::string> depth_warnings(const Body& body, const Ground& ground,
          << ", more than a tenth of its least extent, " << extent << " m: a "
          << (ground.is_half_space() ? "half-space" : "bed of springs") << " is no model of that";
   }
-  return text.view().empty() ? std::vector<std::string>{} : std::vector{text.str()};
+  return text.str().empty() ? std::vector<std::string>{} : std::vector{text.str()};
 }
 
 /// The input has been checked: a value that leaves the domain of a formula during the run is no fault of the input.
