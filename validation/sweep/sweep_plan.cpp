@@ -572,6 +572,7 @@ Report SweepPlan::report() const {
     report.head.insert(report.head.begin(), doubts);
   report.fields["model"] = name;
   report.fields["scene"] = scene_value(scene);
+  if (scene.until_rest) report.fields["scene"]["run"]["until_rest"] = true;  // else going on would mix two sweeps
   forget(unsettled, report.fields["scene"]);
   if (body_values.empty()) report.fields["body"] = body_value(scene, model);
   report.fields["sweep"] = words;

@@ -108,6 +108,12 @@ class SameAsTheOtherCommands(Folder):
                 self.check(swept, rows_of("sequence", "--angle", str(angle), "--gravity", "9.81", *impacts, *flags.split()), "drop.angle_deg", angle)
         self.assertIn("tail", [row["n"] for row in swept])
 
+    def test_the_head_says_whether_drops_go_on_to_rest(self):  # by which a sweep that goes on knows its own file
+        flags = ("--model", "discrete", "--set", "drop.angle_deg=10:20:10", "--set", "impact.restitution=0.5")
+        heads = [[line for line in self.sweep(self.scene, *flags, "--set", f"run.until_rest={rest}", "--set", "run.impacts=3").splitlines()
+                  if line.startswith("# scene")] for rest in ("true", "false")]
+        self.assertNotEqual(*heads)
+
     def test_a_box_is_that_of_sequence(self):
         swept = records(self.sweep(PHONE, "--model", "discrete", "--set", "drop.angle_deg=10:20:10", "--rows", "impact"))
         self.check(swept, rows_of("sequence", PHONE, "--angle", "20"), "drop.angle_deg", 20)
