@@ -136,20 +136,21 @@ std::vector<std::string> depth_warnings(const Body& body, const Ground& ground,
       std::ranges::max_element(impacts, {}, [](const ImpactRecord& row) { return row.value.indentation; });
   const double depth = deepest == impacts.end() ? 0 : deepest->value.indentation;
   const auto impact = deepest - impacts.begin() + 1;
+  if (!(depth > 0) && sunk.empty()) return {};
   if (!sunk.empty()) {
     text << "the whole body sinks below the ground in impact " << sunk << ": a foundation below it is no model of that";
   } else if (ground.is_pad()) {
     if (!(depth > ground.kinks.back().depth)) return {};
     text << "the body goes into the pad in impact " << impact << " by " << depth
          << " m, beyond the last point of its curve, " << ground.kinks.back().depth << " m";
-  } else if (depth > 0) {
+  } else {
     const double extent = least_extent(body);
     if (!(depth > deep_part * extent)) return {};
     text << "the body goes " << depth << " m into the ground in impact " << impact
          << ", more than a tenth of its least extent, " << extent << " m: a "
          << (ground.is_half_space() ? "half-space" : "bed of springs") << " is no model of that";
   }
-  return text.str().empty() ? std::vector<std::string>{} : std::vector{text.str()};
+  return {text.str()};
 }
 
 /// The input has been checked: a value that leaves the domain of a formula during the run is no fault of the input.

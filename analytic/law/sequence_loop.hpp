@@ -110,9 +110,9 @@ class SequenceLoop {
 
   /// Notes the next row where an impulse ratio pushes along the slip before or after its impact, as no friction does.
   /// @param before, after  tangential impulse times slip, over the size of the impulse
-  void note_push(FrictionKind friction, double before, double after) {
+  void note_push(double before, double after) {
     constexpr double rounding = 1e-12;  // of the slip, beside the speed of the first impact
-    if (friction == FrictionKind::impulse_ratio && unphysical_.first_along == 0 && std::fmax(before, after) > rounding)
+    if (unphysical_.first_along == 0 && std::fmax(before, after) > rounding)
       unphysical_.first_along = result_.rows.size() + 1;
   }
 

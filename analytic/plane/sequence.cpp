@@ -114,9 +114,10 @@ class Run : public SequenceLoop<Sequence, ErrorGrowth> {
                          row.impact.tangential_impulse, damping_loss(law_, row.impact.approach_speed)});
     }
     note_energy(row.impact.energy_loss, 1e-14);
-    const double along = row.impact.tangential_impulse;
-    const double push = along == 0 ? 0 : std::copysign(1, along);
-    note_push(law_.friction, push * row.impact.slip_before, push * row.impact.slip_after);
+    if (law_.friction == FrictionKind::impulse_ratio && row.impact.tangential_impulse != 0) {
+      const double push = std::copysign(1, row.impact.tangential_impulse);
+      note_push(push * row.impact.slip_before, push * row.impact.slip_after);
+    }
     if (growth_) growth_->strike(motion_, law_, row);
     result_.rows.push_back(row);
     return strike;

@@ -291,8 +291,7 @@ class ImpactCauses {
   }
 
   void add_friction() {
-    const bool has_friction = law_.law.friction == analytic::FrictionKind::coulomb;
-    const double asked = has_friction ? law_.law.friction_value : 0;
+    const double asked = has_friction() ? law_.law.friction_value : 0;
     const Change coulomb = [](Reference&, DeclaredLaw& law, double value) {
       law.law.friction = analytic::FrictionKind::coulomb;
       law.law.friction_value = value;

@@ -54,7 +54,8 @@ TableColumns table_columns(const Grid& grid, const RowSource& rows, const Writte
     for (TableColumn& column : columns) {
       const std::string text = cell_text(row, column.place, written);
       column.width = std::max(column.width, display_width(text));
-      std::istringstream words(column.words ? text : "");
+      if (!column.words) continue;
+      std::istringstream words(text);
       for (std::string word; words >> word;) column.longest_word = std::max(column.longest_word, display_width(word));
     }
   }

@@ -388,9 +388,9 @@ ParsedLine parse_line(const std::vector<Command>& commands, const std::vector<st
   if (show_version) return {.text = std::string("clatter ") + version + "\n"};
   const auto chosen = app.get_subcommands();
   if (chosen.empty()) throw BadInput("a command is required; clatter --help lists them");
-  for (const auto& [argument, first, option] : waiting) {
-    for (const std::string& text : option->results())
-      std::get<Argument::Reader>(argument->target)(argument->name, text);
+  for (const WaitingText& waits : waiting) {
+    for (const std::string& text : waits.option->results())
+      std::get<Argument::Reader>(waits.argument->target)(waits.argument->name, text);
   }
   return {.command = &called, .note = note};
 }

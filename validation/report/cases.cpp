@@ -93,23 +93,20 @@ std::vector<ReportCase> cases_of(const ReportInput& given) {
   return cases;
 }
 
-std::string ReportCase::name() const {
+std::string ReportCase::name(const std::string& of_part, const char* between) const {
   std::string words = names_floor ? floor() : "";
-  const auto add = [&](const std::string& more) { words += (words.empty() ? "" : ", ") + more; };
-  if (!restitution.empty()) add("e = " + restitution);
-  if (const auto part = input.part()) add(part_text(*part));
-  return words;
+  if (!restitution.empty()) words += (words.empty() ? "e = " : ", e = ") + restitution;
+  return words + (words.empty() || of_part.empty() ? "" : between) + of_part;
 }
+
+std::string ReportCase::name() const { return name(input.part() ? part_text(*input.part()) : "", ", "); }
 
 std::string ReportCase::heading() const {
   const auto part = input.part();
   if (!part) return name();
-  std::string words = names_floor ? floor() : "";
-  if (!restitution.empty()) words += (words.empty() ? "e = " : ", e = ") + restitution;
-  if (!words.empty()) words += ": ";
+  std::string words = name(words_of(*part), ": ");
   const std::optional<Blow>& blow = found.answer.blow;
-  words += words_of(*part);
-  if (blow && blow->margin) words += blow->margin->value > 1 ? " survives" : " fails";
+  if (blow && blow->margin) words += fmt::format(" {}", blow->margin->verdict());
   if (words.starts_with("a part")) words.front() = 'A';
   return words;
 }
@@ -195,7 +192,7 @@ Report joined_report(const std::vector<const ReportCase*>& order) {
     const std::optional<Blow>& blow = one->found.answer.blow;
     words += (words.empty() ? "" : "; ") + one->name();
     if (blow && blow->margin)
-      words += fmt::format(" {}, {} margin {}", blow->margin->value > 1 ? "survives" : "fails",
+      words += fmt::format(" {}, {} margin {}", blow->margin->verdict(),
                            one->found.ranking.by == Ranking::By::margin ? "least" : "with", said(blow->margin->value));
     else words += ": " + (blow ? one->found.lead : one->found.answer.words);
   }

@@ -34,6 +34,9 @@ struct ReportCase {
   [[nodiscard]] double value() const {
     return found.answer.blow ? found.answer.blow->value : std::numeric_limits<double>::quiet_NaN();
   }
+
+ private:
+  [[nodiscard]] std::string name(const std::string& of_part, const char* between) const;
 };
 
 [[nodiscard]] std::vector<ReportCase> cases_of(const ReportInput& given);

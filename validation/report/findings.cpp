@@ -76,7 +76,7 @@ Answer answer_of(const ShockRun& run, const Ranking& ranking) {
     if (const std::string deep = depth_words(run.scene, *blow.depth); !deep.empty()) answer.words += "; " + deep;
   }
   if (!blow.margin) return answer;
-  answer.fields["verdict"] = blow.margin->value > 1 ? "survives" : "fails";
+  answer.fields["verdict"] = blow.margin->verdict();
   answer.fields["margin"] = blow.margin->value;
   answer.fields["decided_by"] = std::array{"delta_v", "peak", "history"}[static_cast<std::size_t>(blow.margin->by)];
   if (ranking.part->kind == FragilePart::Kind::oscillator)
@@ -284,9 +284,9 @@ std::optional<Findings> findings_of(const ReportInput& input, const Scene& given
       fields["as_given"] = own.fields;
     }
   } else if (found.answer.blow && found.answer.blow->margin) {
-    const double margin = found.answer.blow->margin->value;
-    found.lead = fmt::format("{} {}, margin {}: {}", probes[ranking.probe].name, margin > 1 ? "survives" : "fails",
-                             said(margin), found.answer.words);
+    const BlowMargin& margin = *found.answer.blow->margin;
+    found.lead = fmt::format("{} {}, margin {}: {}", probes[ranking.probe].name, margin.verdict(), said(margin.value),
+                             found.answer.words);
   }
   if (const std::string overlap = overlap_words(scene, found.run); !overlap.empty()) {
     found.lead += "; " + overlap;

@@ -59,6 +59,8 @@ struct BlowMargin {
   enum class By { velocity, peak, history };
   double value = 0;
   By by = By::peak;  ///< what decides it
+
+  [[nodiscard]] const char* verdict() const { return value > 1 ? "survives" : "fails"; }
 };
 /// @param response  largest acceleration of the part's oscillator under the blow itself [m/s²]; 0: not known
 [[nodiscard]] BlowMargin blow_margin(const FragilePart& part, double velocity, double acceleration,

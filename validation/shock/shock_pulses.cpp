@@ -140,23 +140,27 @@ Grid pulse_grid(const std::vector<Pulse>& pulses, int digits, const std::vector<
 }
 
 std::string least_margin_words(const Grid& grid, const std::vector<FragilePart>& parts) {
-  constexpr std::size_t first = 8, count = 3, model = 13;  // columns of margins, and of what they are by
-  const Row* worst = nullptr;
+  const auto of = [&](const Row& row, const char* name) -> const Value& {
+    return row[static_cast<std::size_t>(std::ranges::find(grid.columns, name, &Column::name) - grid.columns.begin())]
+        .value;
+  };
   const auto margin_of = [&](const Row& row) {
     double least = std::nan("");
-    for (std::size_t i = first; i < first + count; ++i)
-      if (const double* const number = row[i].value.number()) least = std::fmin(least, *number);
+    for (const char* const name : {"margin_rectangle", "margin_half_sine", "margin_history"})
+      if (const double* const number = of(row, name).number()) least = std::fmin(least, *number);
     return least;
   };
+  const Row* worst = nullptr;
   for (const Row& row : grid.rows) {
     if (std::isfinite(margin_of(row)) && (!worst || margin_of(row) < margin_of(*worst))) worst = &row;
   }
   if (parts.size() < 2 || !worst) return "";
-  const bool is_mixed = std::ranges::any_of(
-      grid.rows, [&](const Row& row) { return row[model].value.text() != grid.rows.front()[model].value.text(); });
+  const std::string model = of(*worst, "model").text();
+  const bool is_mixed =
+      std::ranges::any_of(grid.rows, [&](const Row& row) { return of(row, "model").text() != model; });
   return fmt::format("least margin of {} parts: {} of {} at {} in impact {}{}", parts.size(),
-                     significant(margin_of(*worst), 4), (*worst)[first + count].value.text(), (*worst)[0].value.text(),
-                     (*worst)[1].value.text(), is_mixed ? ", " + (*worst)[model].value.text() : "");
+                     significant(margin_of(*worst), 4), of(*worst, "part").text(), of(*worst, "probe").text(),
+                     of(*worst, "n").text(), is_mixed ? ", " + model : "");
 }
 
 std::vector<Pulse> pulses_of(const ShockRun& run) {

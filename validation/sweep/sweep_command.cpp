@@ -464,9 +464,12 @@ class SweepOutput {
   void write_hdf5(const std::string& path) {
     ColumnFileHead head = column_head();
     std::vector<PackedCell> row(head.columns.size());
-    file_->with_rows([&](std::string_view rows) {
-      for (PackedRows packed(rows); packed.next(row);) ++head.rows;
-    });
+    if (plan_.layout.rows == RowKind::scene) head.rows = plan_.points.count();
+    else {
+      file_->with_rows([&](std::string_view rows) {
+        for (PackedRows packed(rows); packed.next(row);) ++head.rows;
+      });
+    }
     const std::unique_ptr<ColumnFile> columns = open_hdf5(path, head);
     file_->with_rows([&](std::string_view rows) {
       for (PackedRows packed(rows); packed.next(row);) columns->add(row);

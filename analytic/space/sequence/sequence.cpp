@@ -509,8 +509,10 @@ class Run : public SequenceLoop<Sequence, ErrorGrowth> {
     find_departures(drop_, row, state_, touches_);
     result_.total_normal_impulse += row.impact.impulse.z();
     note_energy(row.impact.energy_loss, 1e-12);
-    const Vector3 push = Vector3(row.impact.impulse.x(), row.impact.impulse.y(), 0).normalized();
-    note_push(drop_.law.friction, push.dot(row.impact.contact_before), push.dot(row.impact.contact_after));
+    if (drop_.law.friction == FrictionKind::impulse_ratio) {
+      const Vector2 push = row.impact.impulse.head<2>().normalized();
+      note_push(push.dot(row.impact.contact_before.head<2>()), push.dot(row.impact.contact_after.head<2>()));
+    }
     if (growth_) {
       growth_->strike([&](const State& before) { return struck_again(body_, drop_.law, row, before); }, derivatives,
                       row);

@@ -28,7 +28,7 @@ _CUT_SHORT = {"evaluation-limit", "step-too-small", "not-representable", "flight
 def _warn(reservations: Iterable[str]) -> None:
     """Of the line that calls a function of this file."""
     for words in reservations:
-        warnings.warn(words.removeprefix("warning: "), ClatterWarning, stacklevel=4)
+        warnings.warn(words, ClatterWarning, stacklevel=4)
 
 
 def _reservations(shortfall: str | None, outcome: str, impacts: int) -> list[str]:

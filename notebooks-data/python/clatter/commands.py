@@ -65,7 +65,7 @@ def _run(command: str, scene: Scene | float | None, changes: Mapping[str, Any], 
     if said and report is not None and command != "report" and not report.rows():
         raise NotComputed("; ".join(said))
     for reason in said:
-        warnings.warn(reason, ClatterWarning, stacklevel=4)
+        warnings.warn(reason.removeprefix("warning: "), ClatterWarning, stacklevel=4)
     return report
 
 
