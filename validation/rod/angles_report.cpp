@@ -406,7 +406,10 @@ Range2 range_of(const AnglesRequest& request) {
 Report angles_report(const AnglesRequest& request) {
   Report report = angles_frame(request);
   add_rows(request, 0, request.count, report.grid);
-  const std::vector<std::vector<double>> rows = curve_rows(request);
+  // Without gravity a rod that has turned past upright does not come down again, which makes the windows.
+  const bool may_have_windows = request.rod.gravity_number > 0;
+  const std::vector<std::vector<double>> rows =
+      may_have_windows ? curve_rows(request) : std::vector<std::vector<double>>{};
   for (const bool third : {false, true}) {
     const std::string windows = request.as_printed && third ? "" : narrow_windows(request, rows, third);
     if (!windows.empty()) report.notes.push_back(windows);

@@ -154,8 +154,11 @@ Report ground_report(const Scene& scene, const MeasuredDrop& drop, const Measure
   for (Column& column : report.grid.columns) {
     if (column.name == "depth_percent") column.shown = scene.pad.thickness.has_value();
   }
-  for (const FittedGround& ground : fit.solutions)
-    report.grid.rows.push_back(row_of(ground, depth_on(ground, drop), scene.pad.thickness));
+  double depth = 0;  // of the last
+  for (const FittedGround& ground : fit.solutions) {
+    depth = depth_on(ground, drop);
+    report.grid.rows.push_back(row_of(ground, depth, scene.pad.thickness));
+  }
   if (fit.solutions.empty()) {
     report.notes.push_back(fmt::format("no ground gives both: with the one, the other number goes from {} to {}",
                                        significant(fit.least, 4), significant(fit.largest, 4)));
@@ -172,7 +175,7 @@ Report ground_report(const Scene& scene, const MeasuredDrop& drop, const Measure
                       {"ground.damping", "", significant(ground.damping, 6)},
                       {"ground.area", "", area_names()[static_cast<std::size_t>(scene.world.ground.area)]}},
                      report);
-    if (scene.pad.thickness) add_pad_curve(scene, ground, depth_on(ground, drop), report);
+    if (scene.pad.thickness) add_pad_curve(scene, ground, depth, report);
   }
   report.fields["scene"] = scene_value(scene);
   report.fields["body"] = body_value(scene);
