@@ -58,6 +58,7 @@ struct ContactSystem::Friction {
   Vector3 moment = Vector3::Zero();
   double power = 0;
   AlongGround hold;  ///< see ContactDiagnosis
+  bool spins = false;
 };
 
 /// What sticking takes: force and couple are linear in the couple C, force + C force_by_couple holds the centre, and C
@@ -241,6 +242,7 @@ void ContactSystem::evaluate(const ContactState& y, const FrictionPhase& phase, 
                 at.changes(alpha).force,
                 friction.force,
                 friction.hold,
+                friction.spins,
                 at.centre,
                 at.slip,
                 at.normal.dot(omega),
@@ -367,18 +369,20 @@ double ContactSystem::turning_couple(const Instant& at) {
 ContactSystem::Friction ContactSystem::in_stick(const Instant& at) {
   const Hold hold = stick(at);
   const double mu = stick_coefficient(at.phase), bound = mu * at.load.force;
-  double couple = 0;
+  double part = 1;
   if (hold.couple != 0) {
     const double over = 1 / bound;
-    couple = hold.couple * part_within(hold.force * over, hold.force_by_couple * (hold.couple * over),
-                                       hold.couple / (mu * turning_couple(at)));
+    part = part_within(hold.force * over, hold.force_by_couple * (hold.couple * over),
+                       hold.couple / (mu * turning_couple(at)));
   }
+  const double couple = part * hold.couple;
   const AlongGround by_couple = hold.force_by_couple * couple;
   const AlongGround force{hold.force.east + by_couple.east, hold.force.north + by_couple.north};
   Friction friction = at_centre(at, bounded(force, bound));
   friction.moment += couple * at.normal;
   friction.power = std::max(friction.power - couple * at.normal.dot(at.view.angular_velocity), 0.0);
   friction.hold = bounded(force, 2 * bound);
+  friction.spins = part < 1;
   return friction;
 }
 

@@ -63,6 +63,7 @@ struct ContactDiagnosis {
   AlongGround friction;   ///< [N]
   /// Force that would hold the pressure centre in stick, cut off at 2 μ_s F_n; 0 in the other phases [N].
   AlongGround hold;
+  bool spins = false;                ///< whether bound (1) leaves less couple than would hold the spin in stick
   Vector3 centre = Vector3::Zero();  ///< of pressure, body frame [m]
   AlongGround slip;                  ///< velocity of the body there, along the ground [m/s]
   double spin = 0;                   ///< angular velocity about the vertical [rad/s]

@@ -304,6 +304,7 @@ class Run {
     result_.impact_goes_on = false;
     result_.impacts.push_back(record(contact, point));
     if (request_.amplification) note_growth(contact);
+    note_left_out(contact.left_out);
     notes_.close_contact(result_.impacts.back().amplification);
     if (integration_.next_tolerance) control_.steps.tolerance = integration_.next_tolerance(result_.impacts.back());
     if (observer_.impact && !observer_.impact(result_.impacts.back())) return end(Outcome::interrupted);
@@ -374,6 +375,18 @@ class Run {
     if (is_predictable(growth_.factor())) growth_.touch({contact_, rough_contact_}, control_, state_, contact);
     row.amplification = growth_.factor();
     row.predictable = is_predictable(row.amplification);
+  }
+
+  /// It never counts as falling: a contact that damps one deviation may keep another.
+  void note_left_out(double in_contact) {
+    const std::size_t count = result_.impacts.size();
+    ImpactRecord& row = result_.impacts.back();
+    if (count > 1) {
+      const ImpactRecord& last = result_.impacts[count - 2];
+      const double growth = row.amplification / last.amplification;
+      row.left_out_before = last.left_out * (growth > 1 ? growth : 1);
+    }
+    row.left_out = row.left_out_before + in_contact;
   }
 
   bool observe(const ContactInstant& at) {

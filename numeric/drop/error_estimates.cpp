@@ -122,6 +122,33 @@ void add_rounding(const Body& body, const ImpactRecord& row, ImpactNumbers& erro
   error.angular_velocity_after.array() += row.left_turning;
 }
 
+/// What both runs leave out alike, before and in the row's contact.
+void add_left_out(const Body& body, const ImpactRecord& row, ImpactNumbers& error) {
+  const double before = row.left_out_before, after = row.left_out;
+  if (!(after > 0)) return;
+  const ImpactNumbers& n = row.value;
+  const double radius = body.radius();
+  const double size = n.approach_speed + n.velocity_after.norm() + radius * n.angular_velocity_after.norm();
+  error.start += before / size * n.start;
+  for (double* angle : {&error.inclination, &error.contact_angle}) *angle += before / size;
+  error.approach_speed += before;
+  error.energy_before += body.mass() * before * size;
+  // Friction's spin hardly changes the normal force and its work.
+  const double aside = before + least_part * (after - before);
+  for (const auto member : {&ImpactNumbers::duration, &ImpactNumbers::restitution, &ImpactNumbers::peak_force,
+                            &ImpactNumbers::peak_time, &ImpactNumbers::indentation}) {
+    error.*member += aside / size * std::fabs(n.*member);
+  }
+  for (double* energy :
+       {&error.energy_after, &error.energy_loss, &error.work_damping, &error.work_friction, &error.work_released}) {
+    *energy += body.mass() * aside * size;
+  }
+  const Vector3 errors(after, after, aside);
+  error.velocity_after += errors;
+  error.impulse += body.mass() * errors;
+  error.angular_velocity_after.array() += after / radius;
+}
+
 /// Relative, of the impulses.
 double distance_of(const ImpactRecord& row, const ImpactRecord& second) {
   return (second.value.impulse - row.value.impulse).norm() / row.value.impulse.norm();
@@ -209,6 +236,17 @@ StateErrors step_errors(const Body& body, const StateRecord& at, double approach
           .energy = body.mass() * speed * (at.state.velocity.norm() + approach_speed)};
 }
 
+/// Velocities that all runs leave out alike since an impact `since` [s] ago.
+StateErrors left_out_errors(const Body& body, const StateRecord& at, const ImpactRecord& impact, double since) {
+  const double growth = at.amplification / impact.amplification, turning = 1 / body.radius();
+  const double speed = impact.left_out * (growth > 1 ? growth : 1);
+  return {.position = speed * since,
+          .angle = speed * turning * since,
+          .velocity = speed,
+          .angular_velocity = speed * turning,
+          .energy = body.mass() * speed * (at.state.velocity.norm() + speed)};
+}
+
 StateErrors sum(const StateErrors& a, const StateErrors& b) {
   return {a.position + b.position, a.angle + b.angle, a.velocity + b.velocity, a.angular_velocity + b.angular_velocity,
           a.energy + b.energy};
@@ -274,6 +312,7 @@ void estimate_errors(const Body& body, double error_per_distance, std::vector<Im
     if (!known) continue;
     widen(row.value, other, row.error);
     add_rounding(body, row, row.error);
+    add_left_out(body, row, row.error);
   }
 }
 
@@ -321,6 +360,10 @@ void estimate_state_errors(const Body& body, double error_per_distance, double t
       at.error = sum(at.error, step_errors(body, at, approach, tolerance, since));
     }
     if (std::isfinite(left_out.velocity)) at.error = sum(at.error, left_out);
+    if (listed > 0) {
+      const ImpactRecord& last = impacts[listed - 1];
+      at.error = sum(at.error, left_out_errors(body, at, last, std::fabs(at.time - last.value.start)));
+    }
     const TimeErrors beside = time_errors(at, impacts);
     if (beside.impact) at.error = sum(at.error, change_within(body, *beside.impact, beside.beside));
   }

@@ -47,6 +47,9 @@ struct ImpactRecord {
   /// What FrictionLaw::local would change in the tangential impulse of this contact, estimated to a factor of about 3;
   /// 0 for the other laws, where it is not asked for, and where a bound says that it cannot matter [N·s].
   double local_slip = 0;
+  /// Error of the velocities before and after this contact that runs to any tolerance near this one make alike, by
+  /// taking patches that spin slowly as stuck (FrictionPhases::left_out), grown since [m/s].
+  double left_out_before = 0, left_out = 0;
   /// Growth of a relative error of the start until the end of this impact; NaN if not asked for.  Contacts after one
   /// that is not predictable count as if they let errors be.
   double amplification = 0;

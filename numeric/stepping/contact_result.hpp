@@ -64,7 +64,8 @@ struct ContactResult {
   /// Change of the tangential impulse that FrictionLaw::local would make of a contact with FrictionLaw::coulomb,
   /// estimated (LocalSlipEstimate) if asked for [N·s].
   double local_slip = 0;
-  double step = 0;  ///< fixed step used [s]; 0: adaptive
+  double left_out = 0;  ///< see FrictionPhases::left_out [m/s]
+  double step = 0;      ///< fixed step used [s]; 0: adaptive
 };
 
 }  // namespace clatter::numeric

@@ -219,6 +219,7 @@ void ContactRun::collect() {
   result_.peak_time = peak_.time();
   result_.indentation = deepest_.depth();
   result_.mode = friction_.end(now_);
+  result_.left_out = friction_.left_out(now_.time);
   result_.local_slip = local_slip_.impulse();
   result_.touches = std::max(touches_.touches(), 1);
   result_.end = contact_end(touches_.touched_a(), touches_.touched_b());

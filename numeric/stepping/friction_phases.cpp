@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <utility>
 
 namespace clatter::numeric {
 namespace {
@@ -60,6 +61,7 @@ constexpr double direction_rounding = 1e-14;  ///< of its unit length
 /// damper that stiffens like 1/|v|, which explicit steps could not follow.  Slip that begins at the touch keeps it less
 /// long: how it turns then decides whether it stops.
 constexpr double slow_part = 0.1, slow_part_at_onset = 0.01;
+constexpr double ended_part = 1e-3;            ///< times √tolerance and the contact's speed: slip that has ended
 constexpr double digits_beyond_tolerance = 3;  ///< of friction over a patch: steps see nothing of its error
 constexpr double least_spin = 1;               ///< times tolerance and the contact's speed: slip from spin that counts
 constexpr double fading_per_contact = 50;      ///< rate at which stick ends a remaining slip, times the contact time
@@ -68,6 +70,7 @@ constexpr double slip_per_spin = 3;            ///< slip over slip from spin, be
 constexpr double slip_resolution = 100;        ///< times tolerance and the contact's speed: a range of slip that counts
 constexpr double least_resolution = 1e-9;      ///< of that speed
 constexpr double turning_resolution = 1e-13;   ///< of that speed: a range above it comes from turning, not rounding
+constexpr double left_per_held_slip = 10;      ///< what bound (1) errs by over the mean slip from spin in it, as seen
 constexpr double steps_of_range = 4;           ///< of a fixed length within which friction may cross the range
 
 /// The unit vector along `v`, or against it with `sign` −1.  The inverse of a length below 1e-308 overflows.
@@ -82,6 +85,7 @@ void FrictionPhases::begin(const MotionState& touch, const Vector3& point, const
                            const Settings& settings, const ContactInstant& now) {
   settings_ = settings;
   scales_ = scales;
+  noted_time_ = held_way_ = 0;
   log_.begin(scales, system_.body().mass());
   const Ground& ground = system_.ground();
   const AlongGround none;
@@ -188,7 +192,14 @@ void FrictionPhases::change(const ContactInstant& at, ContactInstant& now) {
   const AlongGround hold = kind == Kind::stick ? at.diagnosis.hold : system_.sticking_force(at.state);
   const double normal = at.diagnosis.load.force;
   const bool can_hold = kind == Kind::slip && hold.norm() <= system_.stick_coefficient() * normal;
-  if (can_hold) {
+  const AlongGround& slip = at.diagnosis.slip;
+  // Within the step slip has turned away from its direction, without an end.
+  const bool goes_on =
+      kind == Kind::slip && slip.norm() > std::max(ended_part * std::sqrt(settings_.tolerance) * scales_.speed,
+                                                   slip_per_spin * spin_speed(at.diagnosis));
+  if (goes_on) {
+    start(Kind::slip, direction_of(slip, 1), now);
+  } else if (can_hold) {
     start(Kind::stick, {}, now);
   } else {
     const AlongGround& last = system_.phase().direction;
@@ -198,7 +209,17 @@ void FrictionPhases::change(const ContactInstant& at, ContactInstant& now) {
   now.diagnosis = system_.diagnose(now.state, now.rate);
 }
 
+void FrictionPhases::note_held_spin(const ContactInstant& now) {
+  const double time = now.time - std::exchange(noted_time_, now.time);
+  if (now.diagnosis.spins) held_way_ += spin_speed(now.diagnosis) * time;
+}
+
+double FrictionPhases::left_out(double duration) const {
+  return duration > 0 ? left_per_held_slip * held_way_ / duration : 0;
+}
+
 void FrictionPhases::follow(const ContactInstant& now) {
+  note_held_spin(now);
   FrictionPhase phase = system_.phase();
   if (phase.kind != Kind::slip || system_.planar()) return;
   const AlongGround& slip = now.diagnosis.slip;

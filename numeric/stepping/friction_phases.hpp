@@ -85,6 +85,10 @@ class FrictionPhases {
   /// FrictionLaw::local: goes over between a patch that counts as a point, which can stick, and one whose points slip
   /// each for itself.
   void choose_local_slip(ContactInstant& now);
+  /// Error of the velocities after the contact where its patch spun although it counted as stuck, its couple by bound
+  /// (1) of ContactSystem instead of its limit surface: estimated from the mean slip that the spin gave its points
+  /// [m/s].  Runs to any tolerance near this one err alike.
+  [[nodiscard]] double left_out(double duration) const;
   /// Ends the last phase and names what there was.
   [[nodiscard]] FrictionMode end(const ContactInstant& now);
 
@@ -99,6 +103,7 @@ class FrictionPhases {
   [[nodiscard]] double slow_spin() const;
   void note_variation(FrictionPhase& phase, const ContactInstant& now) const;
   [[nodiscard]] double spin_speed(const ContactDiagnosis& now) const;
+  void note_held_spin(const ContactInstant& now);
   [[nodiscard]] FrictionLog::Sums sums(const ContactInstant& now) const;
 
   ContactSystem& system_;
@@ -107,6 +112,8 @@ class FrictionPhases {
   FrictionLog log_;
   bool from_rest_ = false;    ///< whether the contact began without slip and has not stuck since
   bool has_slipped_ = false;  ///< whether a slip phase with spin has come to where it can end
+  double noted_time_ = 0;     ///< until which that of a stuck patch has been noted [s]
+  double held_way_ = 0;       ///< of its points by its spin [m]
 };
 
 }  // namespace clatter::numeric
