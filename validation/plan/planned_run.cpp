@@ -220,8 +220,16 @@ class Runner {
         planned.run = simulate(request_, accuracy);
       } else if (error > planned.asked && accuracy.tolerance > numeric::least_tolerance) {
         const double part = std::clamp(0.5 * planned.asked / error, 1e-3, 0.3);
-        accuracy.tolerance = std::max(part * accuracy.tolerance, numeric::least_tolerance);
-        planned.run = simulate(request_, accuracy);
+        const double before = accuracy.tolerance;
+        accuracy.tolerance = std::max(part * before, numeric::least_tolerance);
+        Simulation tighter = simulate(request_, accuracy);
+        // A limit on the work can leave a tighter run, or its errors, untold: then the looser one tells more.
+        const bool tells = tighter.impacts.size() >= planned.run.impacts.size() || !is_cut_short(tighter.outcome);
+        if (!tells || tighter.impacts.empty() || std::isnan(tighter.impacts[0].error.impulse.z())) {
+          accuracy.tolerance = before;
+          break;
+        }
+        planned.run = std::move(tighter);
       } else {
         break;
       }

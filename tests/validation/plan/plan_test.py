@@ -44,6 +44,25 @@ class Plan(EmptyFolder):
         self.assertEqual(len(done.stderr.splitlines()), 1)
         self.assertIn("Not as asked", done.stdout)
 
+    def test_a_tighter_run_that_a_limit_leaves_without_errors_does_not_take_the_place_of_a_looser_one(self):
+        self.write("stone.toml", """[drop]
+attitude = [0.3630246612905481, 0.35955313946746215, 0.6382444569842466, -0.5758286622970923]
+clearance = 0.8
+[body]
+shape = "box"
+size = [0.2, 0.1, 0.03]
+mass = 0.6
+centre = [0.005, 0, 0]
+[ground]
+floor = "concrete"
+restitution = 0.5
+sliding_friction = 0.3
+[run]
+impacts = 1
+evaluation_limit = 50000
+""")
+        self.assertLess(self.json_of("simulate", "stone.toml")["accuracy"]["achieved"], 1e-3)
+
     def test_bad_input_is_one_line(self):
         self.each_refused({f"plan rod-45 {option}": option.split()[0] for option in (
             "--digits 1", "--within 0", "--within nan", "--method rk4", "--step 1e-6", "--tolerance 1e-6", "--history x.csv")} | {
