@@ -37,13 +37,12 @@ class BarSample {
 
   /// @param scenes  in words
   [[nodiscard]] Measured measured(const std::string& scenes) {
-    const auto middle = ratios_.begin() + static_cast<std::ptrdiff_t>(ratios_.size() / 2);
-    std::nth_element(ratios_.begin(), middle, ratios_.end());
+    const double middle = upper_median(ratios_);
     const double outside = 1 - static_cast<double>(covered_) / static_cast<double>(count_);
-    const bool holds = outside <= 1 - least_covered && *middle <= widest_median;
+    const bool holds = outside <= 1 - least_covered && middle <= widest_median;
     return {100 * (1 - outside), outside, holds_if(holds),
             fmt::format("% of {} numbers of {} lie within their bars; bars are {} times the error in the median",
-                        count_, scenes, significant(*middle, 2))};
+                        count_, scenes, significant(middle, 2))};
   }
 
  private:

@@ -1,16 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "validation/evidence/discrete_bars.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <bit>
 #include <cmath>
 #include <random>
-#include <sstream>
 #include <stdexcept>
 
 #include "analytic/base/errors.hpp"
 #include "validation/oracles/digits.hpp"
 #include "validation/oracles/event_oracle.hpp"
+#include "validation/output/number.hpp"
 
 namespace clatter::validation {
 namespace {
@@ -111,9 +113,7 @@ class RowJudge {
     ++coverage_.numbers;
     if (error <= bar) ++coverage_.numbers_inside;
     else {
-      std::ostringstream text;
-      text << ' ' << name << ' ' << value << " +- " << bar << " off " << error;
-      outside_ += text.str();
+      outside_ += fmt::format(" {} {} +- {} off {}", name, value, bar, error);
     }
     if (error > 0) coverage_.ratios.push_back(bar / error);
   }
@@ -186,10 +186,9 @@ void judge_end(const Sequence& sequence, const oracle::EventSequence<Real>& trut
   ++coverage.certain_ends;
   coverage.certain_ends_right += right ? 1 : 0;
   if (!right)
-    coverage.outside.push_back("ends after " + std::to_string(sequence.rows.size()) + " as " +
-                               std::to_string(static_cast<int>(sequence.outcome)) + ", not after " +
-                               std::to_string(truth.impacts.size()) + " as " +
-                               std::to_string(static_cast<int>(truth.end)) + ": " + scene.words());
+    coverage.outside.push_back(fmt::format("ends after {} as {}, not after {} as {}: {}", sequence.rows.size(),
+                                           static_cast<int>(sequence.outcome), truth.impacts.size(),
+                                           static_cast<int>(truth.end), scene.words()));
   if (!right || sequence.rows.size() > truth.impacts.size()) return;
   Real sum = 0;
   for (const auto& impact : truth.impacts) sum += impact.normal_impulse;
@@ -220,19 +219,13 @@ void judge_rows(const Sequence& sequence, const oracle::EventSequence<Real>& tru
     if (same) judge_row(row, truth.impacts[i], judge);
     const std::string wrong = same ? judge.outside() : " another vertex";
     if (wrong.empty()) ++coverage.rows_inside;
-    else coverage.outside.push_back("impact " + std::to_string(i + 1) + wrong + ": " + scene.words());
+    else coverage.outside.push_back(fmt::format("impact {}{}: {}", i + 1, wrong, scene.words()));
   }
 }
 
 }  // namespace
 
-double BarCoverage::median_ratio() const {
-  if (ratios.empty()) return 0;
-  std::vector<double> sorted = ratios;
-  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
-  std::nth_element(sorted.begin(), middle, sorted.end());
-  return *middle;
-}
+double BarCoverage::median_ratio() const { return upper_median(ratios); }
 
 void judge_bars(const BarScene& scene, int impacts, BarCoverage& coverage) {
   Sequence sequence;
@@ -252,8 +245,6 @@ void judge_bars(const BarScene& scene, int impacts, BarCoverage& coverage) {
   judge_end(sequence, truth, scene, coverage);
 }
 
-using analytic::FrictionKind;
-
 analytic::Drop BarScene::drop() const {
   const analytic::PlanarBody body =
       shape == BarShape::box
@@ -267,14 +258,11 @@ analytic::Drop BarScene::drop() const {
 }
 
 std::string BarScene::words() const {
-  std::ostringstream text;
-  text.precision(17);
-  text << (shape == BarShape::box ? "box " : "rod ") << length << " x " << half_thickness << " m, " << mass << " kg, "
-       << degrees << " deg, " << velocity.normal << ' ' << velocity.tangential << " m/s, " << velocity.angular
-       << " rad/s, g " << gravity << ", e " << law.restitution << " law " << static_cast<int>(law.law) << " damping "
-       << law.damping_per_stiffness << " friction " << static_cast<int>(law.friction) << ' ' << law.friction_value
-       << ", digits " << digits;
-  return text.str();
+  return fmt::format(
+      "{} {} x {} m, {} kg, {} deg, {} {} m/s, {} rad/s, g {}, e {} law {} damping {} friction {} {}, digits {}",
+      shape == BarShape::box ? "box" : "rod", length, half_thickness, mass, degrees, velocity.normal,
+      velocity.tangential, velocity.angular, gravity, law.restitution, static_cast<int>(law.law),
+      law.damping_per_stiffness, static_cast<int>(law.friction), law.friction_value, digits);
 }
 
 BarScene random_bar_scene(unsigned family, int index) {

@@ -31,8 +31,7 @@ struct Truth {
   std::vector<double> impact_times;  // of the file's clock [s]
   std::vector<int> flights;          // frames of flight between impact i and i + 1 that were kept and whole
   std::vector<double> torn_times;
-  double restitution = 0, impulse_ratio = 0;  // of impact 1
-  int frames_before = 0;                      // of the flight before impact 1
+  int frames_before = 0;  // of the flight before impact 1
 };
 
 struct Synthetic {
@@ -65,9 +64,6 @@ class TrackMaker {
     for (const auto& row : sequence.rows) {
       if (before + row.start < end) truth.impact_times.push_back(before + row.start);
     }
-    const auto& first = sequence.rows[0].impact;
-    truth.restitution = first.restitution();
-    truth.impulse_ratio = first.impulse.head<2>().norm() / first.impulse.z();
     truth.flights.assign(truth.impact_times.size(), 0);
     Track track{.name = std::to_string(index_), .frames = {}};
     for (int sample = 0; sample / recipe_.rate < end; ++sample) add_frame(drop, sequence, sample, before, track, truth);
@@ -165,8 +161,6 @@ Synthetic make(const Recipe& recipe) {
   return made;
 }
 
-constexpr double ninety_five = 1.96;  // standard deviations
-
 TrackPart all_of(const MeasuredFile& file) {
   TrackPart all(file.tracks.size());
   for (std::size_t i = 0; i < all.size(); ++i) all[i] = i;
@@ -228,31 +222,11 @@ BOOST_AUTO_TEST_CASE(every_impact_with_six_frames_of_flight_on_both_sides_is_fou
   BOOST_TEST(found == expected);
 }
 
-BOOST_AUTO_TEST_CASE(
-    restitution_and_friction_lie_inside_their_95_percent_intervals_in_93_to_97_percent_of_1000_tracks) {
-  Counted restitution, friction;
-  for (std::size_t f = 0; f < 2; ++f) {
-    const MeasuredFile& file = thousand().files[f];
-    const CalibrationResult calibration = calibrate(file, all_of(file), {.axes = false, .inertia = false});
-    BOOST_TEST(std::fabs(calibration.calibration.ground + 0.03) < 1e-4);
-    const TrackedBody body(file.file.description, calibration.calibration);
-    for (const PartImpact& item : impacts_of(file, all_of(file), body, calibration.ground_spread, 1)) {
-      const Truth& truth = thousand().made[f].truth[item.track];
-      restitution.take(item.impact.restitution - truth.restitution, ninety_five * item.impact.restitution_error);
-      friction.take(item.impact.impulse_ratio - truth.impulse_ratio, ninety_five * item.impact.impulse_ratio_error);
-    }
-  }
-  BOOST_TEST(restitution.of == 1000);
-  BOOST_TEST(restitution.share() >= 0.93);
-  BOOST_TEST(restitution.share() <= 0.97);
-  BOOST_TEST(friction.share() >= 0.93);
-  BOOST_TEST(friction.share() <= 0.97);
-}
-
 BOOST_AUTO_TEST_CASE(parameters_fitted_to_25_tracks_lie_inside_their_95_percent_intervals) {
   Counted counted;
   for (const MeasuredFile& file : thousand().files) {
     const CalibrationResult calibration = calibrate(file, all_of(file), {.axes = false, .inertia = false});
+    BOOST_TEST(std::fabs(calibration.calibration.ground + 0.03) < 1e-4);
     const TrackedBody body(file.file.description, calibration.calibration);
     for (std::size_t first = 0; first + 25 <= file.tracks.size(); first += 25) {
       TrackPart part;
