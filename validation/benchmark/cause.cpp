@@ -280,10 +280,10 @@ class Replay {
   void strike() {
     const Vector3 fall = stepping_.gravity_first ? stepping_.step * reference_.pull() : Vector3(0, 0, 0);
     const double close = 1e-9 * reference_.reach();
-    const State struck = state_;
-    const auto height = [&](int k) { return reference_.height(struck, k); };
+    const std::vector<Vector3> arms = reference_.arms(state_.attitude);
+    const auto height = [&](int k) { return state_.position.z() + arms[static_cast<std::size_t>(k)].z(); };
     std::vector<int> low;
-    for (int k = 0; k < static_cast<int>(reference_.points.size()); ++k) {
+    for (int k = 0; k < static_cast<int>(arms.size()); ++k) {
       if (height(k) <= close) low.push_back(k);
     }
     if (!stepping_.as_listed) std::ranges::sort(low, {}, height);

@@ -187,7 +187,9 @@ class Step {
                                                     : !approaches;
   }
 
-  [[nodiscard]] double height_between(int k) const { return reference_.height(pose_, k); }
+  [[nodiscard]] double height_between(int k) const {
+    return pose_.position.z() + arms_[0][static_cast<std::size_t>(k)].z();
+  }
 
   [[nodiscard]] std::vector<int> at_level(double level) const {
     std::vector<int> group;

@@ -183,7 +183,8 @@ std::vector<TruthRow> discrete_truth(const Reference& reference, const auto& dro
   return rows;
 }
 
-/// Moreau's impulse of one contact: Newton's restitution and Coulomb's cone for the velocity at the end.
+/// Moreau's impulse of one contact: Newton's restitution and Coulomb's cone for the velocity at the end; a negative
+/// coefficient of friction acts along the slip.
 /// @throws NumericalError if no direction of slip satisfies it.
 State moreau_map(const Reference& reference, const analytic::ImpactLaw& law, const State& before, int point) {
   const Vector3 arm = reference.arm(before.attitude, point), velocity = reference.velocity(before, point);
