@@ -23,12 +23,14 @@ using numeric::Simulation;
 struct UnitScale {
   double length = 1, mass = 1, time = 1;
 };
+
 /// Worst difference of the impacts' numbers, each relative to the size of its kind at the impact, and the largest
 /// error estimate of `run` in the same measure: starts, durations, impulses, peak forces, velocities, energies.
 struct RunDistance {
   double error = 0;
   double estimate = 0;  ///< infinite if the model says that it does not know
 };
+
 /// What the elastic energy may drift by in each impact: 10⁻⁴ of the digits asked for is the tolerance of a step, and a
 /// contact takes tens of steps.
 constexpr double drift_per_impact = 1e-8;

@@ -73,7 +73,7 @@ using GoesOn = std::function<bool()>;
 /// Energy that the ledger of an impact has lost or found, over the first energy: the largest.
 [[nodiscard]] double worst_ledger_gap(const numeric::Simulation& run);
 /// An elastic drop of the phone under gravity through many impacts: the energy after an impact against the first, the
-/// largest difference over the first.  @throws as require_case()
+/// largest difference over the first.  @throws EndedEarly
 [[nodiscard]] CellMeasure kept_energy(int impacts, long evaluation_limit, bool planar, const GoesOn& goes_on);
 
 /// @param goes_on asked now and then; false ends the cell early

@@ -134,6 +134,7 @@ struct LongRuns {
   int continuous_scenes = 1'000;
   std::uint64_t seed = 1;  ///< of the random scenes
 };
+
 // The map of what holds: every model over every quantity up to its ends.
 
 /// Neighbouring values of one quantity for which one model does the same, with digits within one of each other.
