@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include "validation/benchmark/benchmark_report.hpp"
-#include "validation/benchmark/score_report.hpp"
 #include "validation/command/command.hpp"
 #include "validation/command/options.hpp"
 #include "validation/output/bad_input.hpp"
@@ -36,30 +35,30 @@ const Problem& named_problem(const BenchmarkInput& input) {
   return problem_named("benchmark " + input.action, input.names.front());
 }
 
-int run_list(const BenchmarkInput& input, const OutputChoice& choice) {
+int run_list(const BenchmarkInput& input) {
   if (!input.names.empty()) throw BadInput("benchmark list: takes no names");
-  if (choice.style.format == Format::table) write_out(choice, benchmark_list_text());
-  else write_report(choice, benchmark_list_report());
+  if (input.output.style.format == Format::table) write_out(input.output, benchmark_list_text());
+  else write_report(input.output, benchmark_list_report());
   return 0;
 }
 
-int run_show(const BenchmarkInput& input, const OutputChoice& choice) {
+int run_show(const BenchmarkInput& input) {
   const Problem& problem = named_problem(input);
-  const bool in_markdown = choice.style.format == Format::markdown;
-  write_report(choice, in_markdown ? markdown_statement(problem) : benchmark_statement(problem));
+  const bool in_markdown = input.output.style.format == Format::markdown;
+  write_report(input.output, in_markdown ? markdown_statement(problem) : benchmark_statement(problem));
   return 0;
 }
 
-int run_truth(const BenchmarkInput& input, const OutputChoice& choice) {
+int run_truth(const BenchmarkInput& input) {
   const Problem& problem = named_problem(input);
   const std::vector<std::string> laws = truth_laws(problem);
   std::string law = laws.front();
   if (law != "any" && !input.law.empty()) law = input.law;
-  write_report(choice, benchmark_truth_report(problem, law));
+  write_report(input.output, benchmark_truth_report(problem, law));
   return 0;
 }
 
-int run_score(const BenchmarkInput& input, const OutputChoice& choice) {
+int run_score(const BenchmarkInput& input) {
   if (input.names.empty()) throw BadInput("benchmark score: needs a FILE or more");
   const Requirement requirement = input.require.value_or(Requirement{});
   PlotFile plot(input.plot);
@@ -69,7 +68,7 @@ int run_score(const BenchmarkInput& input, const OutputChoice& choice) {
     submissions.push_back(judge_file(file, input.problem, input.columns));
     is_met = meets(submissions.back(), requirement) && is_met;
   }
-  write_report(choice, score_report("benchmark", submissions, input.details));
+  write_report(input.output, score_report("benchmark", submissions, input.details));
   const Picture picture = score_picture(submissions);
   plot.write(picture, {"clatter benchmark score: " + picture.what});
   return is_met ? 0 : check_failed;
@@ -78,19 +77,18 @@ int run_score(const BenchmarkInput& input, const OutputChoice& choice) {
 int run_benchmark(const BenchmarkInput& input) {
   const std::vector<std::string> actions{"list", "show", "truth", "score"};
   const std::size_t action = read_name_option("benchmark", input.action, actions);
-  const OutputChoice& choice = input.output;
   only_for(!input.law.empty(), "--law", "truth", action == 2);
   only_for(!input.columns.empty(), "--columns", "score", action == 3);
   only_for(!input.problem.empty(), "--problem", "score", action == 3);
   only_for(input.require.has_value(), "--require", "score", action == 3);
   only_for(input.details, "--details", "score", action == 3);
   only_for(!input.plot.path.empty(), "--plot", "score", action == 3);
-  check_files(choice, plot_files(input.plot));
+  check_files(input.output, plot_files(input.plot));
   switch (action) {
-    case 0: return run_list(input, choice);
-    case 1: return run_show(input, choice);
-    case 2: return run_truth(input, choice);
-    default: return run_score(input, choice);
+    case 0: return run_list(input);
+    case 1: return run_show(input);
+    case 2: return run_truth(input);
+    default: return run_score(input);
   }
 }
 

@@ -8,7 +8,6 @@
 #include <cmath>
 #include <sstream>
 
-#include "validation/benchmark/reference.hpp"
 #include "validation/output/number.hpp"
 #include "validation/run/scene_value.hpp"
 #include "validation/scene/body_properties.hpp"
@@ -67,17 +66,6 @@ Grid truth_grid(const Problem& problem, const std::string& law) {
   return grid;
 }
 
-Value digits_value(const Problem& problem, const std::string& law) {
-  const std::vector<std::string> names{"t", "Px", "Py", "Pz", "Vx", "Vy", "Vz", "Wx", "Wy", "Wz", "duration"};
-  Value list;
-  for (const auto& row : truth_digits(problem, law)) {
-    Value one;
-    for (std::size_t i = 0; i < names.size(); ++i) one[names[i]] = row[i];
-    list.push_back(std::move(one));
-  }
-  return list;
-}
-
 /// Where a run begins for each gap.
 Value starts_value(const Problem& problem) {
   const Reference reference = reference_of(problem);
@@ -93,7 +81,7 @@ Value starts_value(const Problem& problem) {
     one["velocity"] = parts(state.velocity);
     one["angular_velocity"] = parts(state.angular_velocity);
     if (reference.is_planar) {
-      one["phi"] = 2 * std::atan2(-q.y(), q.w());
+      one["phi"] = inclination_of(state);
       one["omega"] = 0 - state.angular_velocity.y();
     }
     list.push_back(std::move(one));
@@ -107,7 +95,7 @@ std::string start_words(const Problem& problem, double gap) {
   const analytic::space::Quaternion& q = state.attitude;
   if (reference.is_planar) {
     return fmt::format("start at gap {} m: z {} m, phi {} rad, vx {}, vz {} m/s, omega {} rad/s; first touch at {} s",
-                       shortest(gap), shortest(state.position.z()), shortest(2 * std::atan2(-q.y(), q.w())),
+                       shortest(gap), shortest(state.position.z()), shortest(inclination_of(state)),
                        shortest(state.velocity.x()), shortest(state.velocity.z()),
                        shortest(0 - state.angular_velocity.y()), shortest(time));
   }
@@ -395,7 +383,7 @@ Report benchmark_truth_report(const Problem& problem, const std::string& law) {
   report.fields["law"] = law;
   report.fields["oracle"] = oracle_of(problem);
   report.fields["impacts"] = row_objects(report.grid);
-  report.fields["digits"] = digits_value(problem, law);
+  report.fields["digits"] = truth_digits(problem, law);
   return report;
 }
 

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <exception>
 #include <span>
 
 #include "validation/output/number.hpp"
@@ -40,9 +41,8 @@ struct Misses {
   Misses(const Reference& reference, std::span<const FoundImpact> impacts) {
     for (const FoundImpact& impact : impacts) {
       if (impact.points.empty()) continue;
-      const Vector3 arm = reference.arms(impact.before.attitude)[static_cast<std::size_t>(impact.points.front())];
-      heights.push_back(impact.before.position.z() + arm.z());
-      const double speed = -(impact.before.velocity + impact.before.angular_velocity.cross(arm)).z();
+      heights.push_back(reference.height(impact.before, impact.points.front()));
+      const double speed = -reference.velocity(impact.before, impact.points.front()).z();
       const double square = speed * speed + 2 * reference.gravity * heights.back();  // at the ground
       delays.push_back(-2 * heights.back() / (speed + std::sqrt(std::fmax(square, 0))));
     }
@@ -55,19 +55,14 @@ struct Misses {
   }
 };
 
-/// Height of the lowest point where an impact is.
-double height_of(const Reference& reference, const FoundImpact& impact) {
-  const std::vector<Vector3> arms = reference.arms(impact.before.attitude);
-  return impact.before.position.z() + arms[lowest_of(arms)].z();
-}
-
 /// All of the motion above or below its place by one height: the rows less that height are right.
 void add_margin(const Answer& answer, const Reference& reference, const Score& score,
                 const std::vector<FoundImpact>& impacts, const Misses& misses, std::vector<Cause>& causes) {
   if (impacts.empty() || reference.is_compliant) return;
   // So high above the ground that no point explains the jump.
   const bool is_far = impacts.front().points.empty();
-  const double height = is_far ? height_of(reference, impacts.front()) : misses.heights.front();
+  const State& first = impacts.front().before;
+  const double height = is_far ? reference.height(first, reference.lowest(first.attitude)) : misses.heights.front();
   if (!(std::fabs(height) > 1e-5 * reference.reach())) return;
   if (!is_far && !(Misses::spread(misses.heights) <= explained)) return;
   const std::size_t z = answer.table.column("z").value();
@@ -128,10 +123,9 @@ void add_time_step(const Motion& motion, const Reference& reference, const Score
     return;
   double latest = 0, longest = 0, deepest = 0;
   for (const FoundImpact& impact : impacts) {
-    const Vector3 arm = reference.arms(impact.before.attitude)[static_cast<std::size_t>(impact.points.front())];
-    const double approach = -(impact.before.velocity + impact.before.angular_velocity.cross(arm)).z();
+    const double approach = -reference.velocity(impact.before, impact.points.front()).z();
     const double step = motion.time(impact.last_row) - motion.time(impact.first_row);
-    const double height = impact.before.position.z() + arm.z(), delay = std::fabs(height / approach);
+    const double height = reference.height(impact.before, impact.points.front()), delay = std::fabs(height / approach);
     if (!(delay <= 2 * step)) return;
     deepest = std::fmax(deepest, -height);
     latest = std::fmax(latest, delay), longest = std::fmax(longest, step);
@@ -239,6 +233,122 @@ std::vector<Cause> causes_of_list(const Answer& answer, const Reference& referen
   causes = impact_causes_of(reference, sequence.law, impacts, 0);
   add_mass(reference, impacts, causes);
   return chosen(std::move(causes));
+}
+
+// What the steps of a code are worth, by a code that follows the law from the run's own start.
+
+/// How a code goes on in time.
+struct Stepping {
+  double step = 0;                  ///< at whose ends it strikes what is in the ground; 0: it resolves the instants [s]
+  Vector3 creep = Vector3::Zero();  ///< by which places run ahead, (3) [m/s]
+  bool gravity_first = false;       ///< whether an impact has the gravity of the step that begins with it
+  bool as_listed = false;  ///< whether points of one step are struck as the body lists them; else the lowest first
+};
+
+/// A code that starts as a run does and follows the law.
+class Replay {
+ public:
+  Replay(const Motion& motion, const Reference& reference, const DeclaredLaw& law, const Stepping& stepping)
+      : motion_(motion), reference_(reference), law_(law), stepping_(stepping), state_(motion.state(0)),
+        time_(motion.time(0) - motion.first_touch()) {}
+
+  std::vector<FoundImpact> run(std::size_t most) {
+    constexpr int longest = 100'000;
+    const double end = motion_.time(motion_.size() - 1) - motion_.first_touch();
+    for (int i = 0; i < longest && time_ <= end && impacts_.size() < most; ++i) {
+      if (stepping_.step > 0) {
+        strike();
+        move(stepping_.step);
+        continue;
+      }
+      State ahead = state_;
+      ahead.velocity += stepping_.creep;  // the flight's places
+      move(touch_time(reference_, reference_.flight(ahead)));
+      if (time_ <= end) strike();
+    }
+    return std::move(impacts_);
+  }
+
+ private:
+  void move(double time) {
+    state_ = reference_.flight(state_).at(time);
+    state_.position += time * stepping_.creep;
+    time_ += time;
+  }
+
+  /// Strikes what is on the ground or in it and goes down, level points as one.
+  void strike() {
+    const Vector3 fall = stepping_.gravity_first ? stepping_.step * reference_.pull() : Vector3(0, 0, 0);
+    const double close = 1e-9 * reference_.reach();
+    const std::vector<Vector3> arms = reference_.arms(state_.attitude);
+    const auto height = [&](int k) { return state_.position.z() + arms[static_cast<std::size_t>(k)].z(); };
+    std::vector<int> low;
+    for (int k = 0; k < static_cast<int>(arms.size()); ++k) {
+      if (height(k) <= close) low.push_back(k);
+    }
+    if (!stepping_.as_listed) std::ranges::sort(low, {}, height);
+    state_.velocity += fall;
+    std::size_t noted = impacts_.size();
+    for (std::size_t i = 0; i < low.size();) {
+      std::vector<int> level;
+      for (const double least = height(low[i]); i < low.size() && std::fabs(height(low[i]) - least) <= close; ++i) {
+        if (reference_.velocity(state_, low[i]).z() < 0) level.push_back(low[i]);
+      }
+      if (!level.empty()) note(level);
+    }
+    state_.velocity -= fall;
+    for (; noted < impacts_.size(); ++noted) {  // what its instant has is the flight's velocity
+      impacts_[noted].before.velocity -= fall;
+      impacts_[noted].after.velocity -= fall;
+    }
+  }
+
+  void note(std::vector<int> points) {
+    std::ranges::sort(points);
+    const State before = state_;
+    state_ = exact_map(reference_, law_, before, points);
+    impacts_.push_back({.points = points,
+                        .place = reference_.place_name(points),
+                        .time = time_,
+                        .impulse = reference_.body.mass * (state_.velocity - before.velocity),
+                        .before = before,
+                        .after = state_,
+                        .bookings = {{before, state_}}});
+  }
+
+  const Motion& motion_;
+  const Reference& reference_;
+  const DeclaredLaw& law_;
+  const Stepping stepping_;
+  State state_;
+  double time_;  ///< since the run's first touch [s]
+  std::vector<FoundImpact> impacts_;
+};
+
+/// The impacts of such a code, at most so many, up to the end of the run; fewer where the law has no answer.
+std::vector<FoundImpact> replayed(const Motion& motion, const Reference& reference, const DeclaredLaw& law,
+                                  const Stepping& stepping, std::size_t most) {
+  try {
+    return Replay(motion, reference, law, stepping).run(most);
+  } catch (const std::exception&) {
+    return {};  // the law has no answer on the way
+  }
+}
+
+/// The largest distance of velocities after impacts, over the speed; unknown where the places are others.
+double replay_distance(const Reference& reference, const std::vector<FoundImpact>& replay,
+                       const std::vector<FoundImpact>& impacts) {
+  if (impacts.empty() || replay.size() < impacts.size()) return Score::unknown;
+  double distance = 0;
+  for (std::size_t i = 0; i < impacts.size(); ++i) {
+    const State &a = replay[i].after, &b = impacts[i].after;
+    if (replay[i].place != impacts[i].place) return Score::unknown;
+    const Vector3 fall = (replay[i].time - impacts[i].time) * reference.pull();  // that of b at the time of a
+    distance = worse(distance, (a.velocity - b.velocity - fall).norm() / reference.speed());
+    distance =
+        worse(distance, reference.reach() * (a.angular_velocity - b.angular_velocity).norm() / reference.speed());
+  }
+  return distance;
 }
 
 /// What a motion is diagnosed by.

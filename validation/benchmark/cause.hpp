@@ -6,7 +6,6 @@
 #include <string>
 #include <vector>
 
-#include "validation/benchmark/motion.hpp"
 #include "validation/benchmark/score.hpp"
 
 namespace clatter::validation {
@@ -82,23 +81,6 @@ struct Fitted {
 [[nodiscard]] std::optional<Cause> first_order_step_of(const Motion& motion, const Reference& reference,
                                                        const ReferenceSequence& sequence,
                                                        const std::vector<FoundImpact>& impacts, double flight_error);
-
-// What the steps of a code are worth, by a code that follows the law from the run's own start.
-
-/// How a code goes on in time.
-struct Stepping {
-  double step = 0;  ///< at whose ends it strikes what is in the ground; 0: it resolves the instants [s]
-  analytic::space::Vector3 creep = analytic::space::Vector3::Zero();  ///< by which places run ahead, (3) [m/s]
-  bool gravity_first = false;  ///< whether an impact has the gravity of the step that begins with it
-  bool as_listed = false;      ///< whether points of one step are struck as the body lists them; else the lowest first
-};
-
-/// The impacts of such a code, at most so many, up to the end of the run; fewer where the law has no answer.
-[[nodiscard]] std::vector<FoundImpact> replayed(const Motion& motion, const Reference& reference,
-                                                const DeclaredLaw& law, const Stepping& stepping, std::size_t most);
-/// The largest distance of velocities after impacts, over the speed; unknown where the places are others.
-[[nodiscard]] double replay_distance(const Reference& reference, const std::vector<FoundImpact>& replay,
-                                     const std::vector<FoundImpact>& impacts);
 
 // Rows of a foreign run that are right when read otherwise.
 

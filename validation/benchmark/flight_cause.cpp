@@ -21,12 +21,6 @@ constexpr std::size_t looked_at = 2000;  ///< of a long run as many are enough
 constexpr std::size_t least_count = 4;   ///< of steps
 constexpr double least_size = 1e-3;      ///< of the speed: slower steps say nothing of damping
 
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 /// A rate, the share of the total effect that it leaves in the median, and how many steps it explains.
 struct Rate {
   double value = 0, misfit = 0;
@@ -55,7 +49,7 @@ class Steps {
     if (steps_.size() < least_count) return std::nullopt;
     std::vector<double> rates, left;
     for (const auto& [change, weight] : steps_) rates.push_back(-change.dot(weight) / weight.squaredNorm());
-    const double value = median(rates);
+    const double value = upper_median(rates);
     std::size_t explained_steps = 0;
     for (const auto& [change, weight] : steps_) {
       const double share = (change + value * weight).norm() / (std::fabs(value - asked) * weight.norm());
@@ -63,7 +57,7 @@ class Steps {
       left.push_back(share);
     }
     if (!(static_cast<double>(explained_steps) >= share_of_steps * static_cast<double>(steps_.size()))) return {};
-    return Rate{value, median(left), explained_steps};
+    return Rate{value, upper_median(left), explained_steps};
   }
 
  private:
@@ -103,7 +97,7 @@ std::optional<Cause> slope_cause(const std::vector<Vector3>& accelerations, cons
   for (int i = 0; i < 3; ++i) {
     std::vector<double> parts;
     for (const Vector3& one : accelerations) parts.push_back(one[i]);
-    found[i] = median(std::move(parts));
+    found[i] = upper_median(std::move(parts));
   }
   const double change = (found - pull).norm();
   std::vector<double> left;
@@ -112,7 +106,7 @@ std::optional<Cause> slope_cause(const std::vector<Vector3>& accelerations, cons
   const auto count = static_cast<double>(std::count_if(left.begin(), left.end(), explains));
   if (!(change > least_size * pull.norm()) || !(count >= share_of_steps * static_cast<double>(left.size()))) return {};
   const auto angle = [](const Vector3& g) { return std::atan2(g.x(), -g.z()) * analytic::degrees_per_radian; };
-  const double misfit = median(std::move(left));
+  const double misfit = upper_median(std::move(left));
   return Cause{"slope", angle(found), misfit,
                fmt::format("gravity {}° from the ground's normal ({}° is asked) explains the flights {}",
                            significant(angle(found), 3), significant(angle(pull), 3), misfit_words(misfit))};
@@ -161,8 +155,7 @@ struct FlightSteps {
   /// Whether the body lies, rocks or slides on the ground in a row.
   static bool is_on_ground(const analytic::space::State& state, const Reference& reference) {
     constexpr double on_ground = 1e-3;  // of the reach
-    const std::vector<Vector3> arms = reference.arms(state.attitude);
-    return std::fabs(state.position.z() + arms[lowest_of(arms)].z()) <= on_ground * reference.reach();
+    return std::fabs(reference.height(state, reference.lowest(state.attitude))) <= on_ground * reference.reach();
   }
 
   void add(const Motion& motion, const Reference& reference, std::size_t row) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "validation/benchmark/found_impacts.hpp"
+#include "validation/benchmark/motion.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -119,8 +119,7 @@ class Step {
   }
 
   [[nodiscard]] double height(const space::FreeFlight& flight, int point, double time) const {
-    const State state = flight.at(time);
-    return state.position.z() + reference_.arms(state.attitude)[static_cast<std::size_t>(point)].z();
+    return reference_.height(flight.at(time), point);
   }
 
   /// When the point is at height 0 on a flight, between two times at which it is above and below; none otherwise.
@@ -141,8 +140,8 @@ class Step {
     const double leave = crossing(flight_after_, second, 0, -length_) + length_;
     std::vector<std::pair<Vector3, Vector3>> arms;
     if (touch <= leave) {
-      arms.emplace_back(reference_.arms(flight_.at(touch).attitude)[k],
-                        reference_.arms(flight_after_.at(leave - length_).attitude)[l]);
+      arms.emplace_back(reference_.arm(flight_.at(touch).attitude, first),
+                        reference_.arm(flight_after_.at(leave - length_).attitude, second));
     }
     for (const auto& pose : arms_) arms.emplace_back(pose[k], pose[l]);
     for (std::size_t i = 0; i < arms.size(); ++i) {
@@ -184,12 +183,10 @@ class Step {
   /// Whether of two points without times the first comes later: the other alone approaches, or is the lower one.
   [[nodiscard]] bool comes_after(int k, int l) const {
     const bool approaches = speed_of(before_, k) < 0;
-    return approaches == (speed_of(before_, l) < 0) ? height_before(k) > height_before(l) : !approaches;
+    return approaches == (speed_of(before_, l) < 0) ? reference_.height(before_, k) > reference_.height(before_, l)
+                                                    : !approaches;
   }
 
-  [[nodiscard]] double height_before(int k) const {
-    return before_.position.z() + arms_[1][static_cast<std::size_t>(k)].z();
-  }
   [[nodiscard]] double height_between(int k) const {
     return pose_.position.z() + arms_[0][static_cast<std::size_t>(k)].z();
   }
@@ -213,10 +210,7 @@ class Step {
   }
 
   /// Normal velocity of a point.
-  [[nodiscard]] double speed_of(const State& state, int point) const {
-    const Vector3 arm = reference_.arms(state.attitude)[static_cast<std::size_t>(point)];
-    return state.velocity.z() + state.angular_velocity.cross(arm).z();
-  }
+  [[nodiscard]] double speed_of(const State& state, int point) const { return reference_.velocity(state, point).z(); }
 
   [[nodiscard]] StepImpulse whole(const std::vector<int>& points) const {
     const State after = flight_after_.at(middle_ - length_);
@@ -270,10 +264,35 @@ struct Contact {
   [[nodiscard]] double time() const { return weighted_time / impulse.z(); }
 };
 
+constexpr double least_share = 2e-3;  ///< of the truth's smallest impulse: what counts as an impact
+
+/// What is looked for in a motion.
+struct ImpactSearch {
+  double least_impulse = 0;  ///< smaller impacts are none: rounding, drift [N·s]
+  double spread_time = 0;    ///< over which a code may spread an impact: shorter steps have their share of it [s]
+  double rounding = 0;       ///< smaller jumps of a step are none [N·s]
+  std::size_t most = 0;      ///< impacts to find
+};
+
+ImpactSearch search_for(const Reference& reference) {
+  constexpr double float_rounding = 1e-6;  // of momentum, of codes with the digits of a float
+  constexpr double shortest_way = 0.02;    // of the reach, within which a compliant code turns the body round
+  ImpactSearch search{
+      .least_impulse = std::numeric_limits<double>::infinity(),
+      .spread_time = shortest_way * reference.reach() / reference.speed(),
+      .rounding = (reference.is_compliant ? 1e-3 : 1.0) * float_rounding * reference.body.mass * reference.speed(),
+      .most = reference.sequences.front().truth.size() + 1};
+  for (const ReferenceSequence& sequence : reference.sequences) {
+    for (const TruthRow& row : sequence.truth)
+      search.least_impulse = std::fmin(search.least_impulse, least_share * row.impulse.norm());
+  }
+  return search;
+}
+
 class Search {
  public:
-  Search(const Motion& motion, const Reference& reference, const ImpactSearch& search)
-      : motion_(motion), reference_(reference), search_(search) {}
+  Search(const Motion& motion, const Reference& reference)
+      : motion_(motion), reference_(reference), search_(search_for(reference)) {}
 
   std::vector<FoundImpact> run() {
     for (std::size_t row = 0; row + 1 < motion_.size(); ++row) {
@@ -301,10 +320,7 @@ class Search {
   [[nodiscard]] bool lasts(std::size_t row) const {
     if (!reference_.is_compliant || contacts_.empty() || contacts_.back().last_row != row) return false;
     const State state = motion_.state(row);
-    const std::vector<Vector3> arms = reference_.arms(state.attitude);
-    const std::vector<int>& points = contacts_.back().points;
-    return std::any_of(points.begin(), points.end(),
-                       [&](int point) { return state.position.z() + arms[static_cast<std::size_t>(point)].z() < 0; });
+    return std::ranges::any_of(contacts_.back().points, [&](int k) { return reference_.height(state, k) < 0; });
   }
 
   void add(std::size_t row, const StepImpulse& impulse) {
@@ -386,11 +402,8 @@ class Search {
 
   /// Whether the points are on the ground.
   [[nodiscard]] bool touches(const State& state, const std::vector<int>& points) const {
-    const std::vector<Vector3> arms = reference_.arms(state.attitude);
-    return std::all_of(points.begin(), points.end(), [&](int point) {
-      return std::fabs(state.position.z() + arms[static_cast<std::size_t>(point)].z()) <=
-             on_ground * reference_.reach();
-    });
+    return std::ranges::all_of(
+        points, [&](int k) { return std::fabs(reference_.height(state, k)) <= on_ground * reference_.reach(); });
   }
 
   /// A code that adds its step's gravity before the impact, where a row has more than one step.
@@ -442,8 +455,8 @@ class Search {
 
 }  // namespace
 
-std::vector<FoundImpact> find_impacts(const Motion& motion, const Reference& reference, const ImpactSearch& search) {
-  return Search(motion, reference, search).run();
+std::vector<FoundImpact> impacts_of(const Motion& motion, const Reference& reference) {
+  return Search(motion, reference).run();
 }
 
 TableRequest impact_list_request(bool in_space, const ColumnNames& names) {

@@ -5,8 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <exception>
 #include <functional>
+#include <numeric>
 #include <utility>
 
 #include "validation/output/number.hpp"
@@ -107,6 +107,8 @@ class ImpactCauses {
  private:
   using Change = std::function<void(Reference&, DeclaredLaw&, double)>;
 
+  static void other_restitution(Reference&, DeclaredLaw& law, double e) { law.law.restitution = e; }
+
   /// The largest error of the impacts under another law or body.
   [[nodiscard]] double misfit(const Change& change, double value, const std::vector<std::size_t>& of) const {
     Reference reference = reference_;
@@ -142,31 +144,29 @@ class ImpactCauses {
 
   [[nodiscard]] std::vector<std::size_t> all() const {
     std::vector<std::size_t> each(impacts_.size());
-    for (std::size_t i = 0; i < each.size(); ++i) each[i] = i;
+    std::iota(each.begin(), each.end(), std::size_t{0});
     return each;
+  }
+
+  /// Velocity of the point that strikes.
+  [[nodiscard]] Vector3 speed_of(std::size_t i, const State& state) const {
+    return reference_.velocity(state, impacts_[i].points.front());
   }
 
   /// Separation over approach speed of the point that strikes, in the booking nearest to the law.
   [[nodiscard]] double restitution_of(std::size_t i) const {
     const Booking& booking = impacts_[i].bookings.front();
-    const auto speed = [&](const State& state) {
-      const Vector3 arm = reference_.arms(state.attitude)[static_cast<std::size_t>(impacts_[i].points.front())];
-      return (state.velocity + state.angular_velocity.cross(arm)).z();
-    };
-    return -speed(booking.after) / speed(booking.before);
+    return -speed_of(i, booking.after).z() / speed_of(i, booking.before).z();
   }
 
   [[nodiscard]] double approach_of(std::size_t i) const {
-    const State& before = impacts_[i].bookings.front().before;
-    const Vector3 arm = reference_.arms(before.attitude)[static_cast<std::size_t>(impacts_[i].points.front())];
-    return -(before.velocity + before.angular_velocity.cross(arm)).z();
+    return -speed_of(i, impacts_[i].bookings.front().before).z();
   }
 
   /// Slow contacts that do not rebound, where faster ones follow the law.
   void add_threshold() {
     if (!(law_.law.restitution > 0.05) || broken_.size() == impacts_.size()) return;
-    const Change change = [](Reference&, DeclaredLaw& law, double e) { law.law.restitution = e; };
-    const double left = misfit(change, 0, broken_);
+    const double left = misfit(other_restitution, 0, broken_);
     double fastest = 0, slowest = Score::unknown;
     for (std::size_t i = 0; i < impacts_.size(); ++i) {
       const bool is_broken = std::find(broken_.begin(), broken_.end(), i) != broken_.end();
@@ -185,12 +185,10 @@ class ImpactCauses {
     for (const std::size_t i : broken_) {
       FoundImpact asked = impacts_[i];
       if (asked.points.size() > 1) return;
-      try {
-        asked.bookings.resize(1);
-        asked.bookings.front().after = exact_map(reference_, law_, asked.bookings.front().before, asked.points);
-      } catch (const std::exception&) {
-        return;  // the law has no answer there
-      }
+      asked.bookings.resize(1);
+      const auto exact = answer_of(reference_, law_, asked.bookings.front().before, asked.points);
+      if (!exact) return;
+      asked.bookings.front().after = *exact;
       left = worse(left, normal_alone(impacts_[i]));
       coupled = std::fmin(coupled, normal_alone(asked));
     }
@@ -204,22 +202,24 @@ class ImpactCauses {
                                    which(), misfit_words(left))});
   }
 
-  /// The change of normal velocity off that without friction, relative, in the nearest booking; unknown where no
-  /// tangential impulse goes with it.
-  [[nodiscard]] double normal_alone(const FoundImpact& impact) const {
+  /// The law without friction.
+  [[nodiscard]] DeclaredLaw smooth() const {
     DeclaredLaw smooth = law_;
     smooth.is_moreau = false;
     smooth.law.friction = analytic::FrictionKind::none;
     smooth.law.friction_value = 0;
+    return smooth;
+  }
+
+  /// The change of normal velocity off that without friction, relative, in the nearest booking; unknown where no
+  /// tangential impulse goes with it.
+  [[nodiscard]] double normal_alone(const FoundImpact& impact) const {
     double least = Score::unknown;
     for (const auto& [before, after] : impact.bookings) {
-      try {
-        const Vector3 change = after.velocity - before.velocity;
-        const double asked = exact_map(reference_, smooth, before, impact.points).velocity.z() - before.velocity.z();
-        if (change.head<2>().norm() > 1e-2 * change.z()) least = std::fmin(least, std::fabs(change.z() / asked - 1));
-      } catch (const std::exception&) {
-        continue;  // the law has no answer there
-      }
+      const Vector3 change = after.velocity - before.velocity;
+      const auto exact = answer_of(reference_, smooth(), before, impact.points);
+      if (!exact || !(change.head<2>().norm() > 1e-2 * change.z())) continue;
+      least = std::fmin(least, std::fabs(change.z() / (exact->velocity.z() - before.velocity.z()) - 1));
     }
     return least;
   }
@@ -243,8 +243,7 @@ class ImpactCauses {
   void add_restitution() {
     const double asked = law_.law.restitution;
     if (law_.law.law == analytic::RestitutionLaw::viscoelastic) return;
-    const Change change = [](Reference&, DeclaredLaw& law, double e) { law.law.restitution = e; };
-    Fitted fit = least_of(0, 1, [&](double e) { return misfit(change, e, broken_); });
+    Fitted fit = least_of(0, 1, [&](double e) { return misfit(other_restitution, e, broken_); });
     if (const Fitted more = beyond_elastic(); more.misfit < fit.misfit) fit = more;
     // The change of e alone must be able to make the error: where the law jumps, any e beside the right one may fit.
     if (!(std::fabs(fit.value - asked) >= 0.1 * std::fmin(worst_, 1))) return;
@@ -261,8 +260,7 @@ class ImpactCauses {
       first.push_back(i);
     }
     if (first.size() < 2 || first.size() == broken_.size()) return;
-    const Change change = [](Reference&, DeclaredLaw& law, double e) { law.law.restitution = e; };
-    const Fitted fit = least_of(0, 1, [&](double e) { return misfit(change, e, first); });
+    const Fitted fit = least_of(0, 1, [&](double e) { return misfit(other_restitution, e, first); });
     if (!(fit.misfit <= reference_.tolerances[1])) return;
     keep("restitution", fit,
          fmt::format("e = {} ({} is asked) explains {} impacts, before those that come in neighbouring rows,",
@@ -338,9 +336,7 @@ class ImpactCauses {
   /// Whether each tangential impulse points along the slip before it.
   [[nodiscard]] bool pushes() const {
     return std::all_of(broken_.begin(), broken_.end(), [&](std::size_t i) {
-      const State& before = impacts_[i].bookings.front().before;
-      const Vector3 arm = reference_.arms(before.attitude)[static_cast<std::size_t>(impacts_[i].points.front())];
-      const double slip = (before.velocity + before.angular_velocity.cross(arm)).x();
+      const double slip = speed_of(i, impacts_[i].bookings.front().before).x();
       return std::fabs(slip) > 1e-3 * reference_.speed() && slip * impacts_[i].impulse.x() > 0;
     });
   }
@@ -393,15 +389,9 @@ class ImpactCauses {
   /// What the law without friction gives beside a rebound of the centre alone, over the change of normal velocity.
   [[nodiscard]] double lever_share(const FoundImpact& impact, const State& alone) const {
     const State& before = impact.bookings.front().before;
-    DeclaredLaw smooth = law_;
-    smooth.law.friction = analytic::FrictionKind::none;
-    smooth.law.friction_value = 0;
-    try {
-      return rebound_distance(exact_map(reference_, smooth, before, impact.points), alone) /
-             std::fabs(alone.velocity.z() - before.velocity.z());
-    } catch (const std::exception&) {
-      return Score::unknown;  // the law has no answer there
-    }
+    const auto exact = answer_of(reference_, smooth(), before, impact.points);
+    return exact ? rebound_distance(*exact, alone) / std::fabs(alone.velocity.z() - before.velocity.z())
+                 : Score::unknown;
   }
 
   const Reference& reference_;
@@ -420,7 +410,7 @@ std::vector<Cause> far_body_causes(const Reference& reference, const DeclaredLaw
   if (reference.is_compliant) return {};
   for (FoundImpact& impact : impacts) {
     if (!impact.points.empty()) continue;
-    impact.points = {static_cast<int>(lowest_of(reference.arms(impact.before.attitude)))};
+    impact.points = {reference.lowest(impact.before.attitude)};
   }
   return ImpactCauses(reference, law, impacts, 0).of_body();
 }
@@ -429,9 +419,8 @@ std::vector<Cause> far_body_causes(const Reference& reference, const DeclaredLaw
 /// two within a step the share of each depends on it.
 void add_far_inertia(const Answer& answer, const Reference& reference, const DeclaredLaw& law, const FoundImpact& first,
                      std::vector<Cause>& causes) {
-  const std::vector<Vector3> arms = reference.arms(first.before.attitude);
-  const Vector3& arm = arms[lowest_of(arms)];
   const space::Quaternion& turn = first.before.attitude;
+  const Vector3 arm = reference.arm(turn, reference.lowest(turn));
   const Vector3 change = first.after.angular_velocity - first.before.angular_velocity;
   const Vector3 moment = turn * (reference.body.inertia * (turn.conjugate() * change));
   const double factor = arm.cross(first.impulse).dot(moment) / moment.squaredNorm();

@@ -21,6 +21,58 @@ using space::Vector3;
 const std::vector<std::string> in_plane{"t", "x", "z", "phi", "vx", "vz", "omega"};
 const std::vector<std::string> in_three{"t", "x", "y", "z", "q0", "q1", "q2", "q3", "vx", "vy", "vz", "wx", "wy", "wz"};
 
+using analytic::space::State;
+using analytic::space::Vector3;
+
+/// What differs between two states, in words; the first is the run's, the second asked for.
+class Differences {
+ public:
+  Differences(const Motion& motion, const Reference& reference, const State& asked)
+      : motion_(motion), reference_(reference), found_(motion.state(0)), asked_(asked) {
+    add("z", found_.position.z(), asked.position.z(), reference.reach(), "m");
+    add_attitude();
+    if (reference.is_planar) {
+      add("vx", found_.velocity.x(), asked.velocity.x(), reference.speed(), "m/s");
+      add("vz", found_.velocity.z(), asked.velocity.z(), reference.speed(), "m/s");
+      add("omega", 0 - found_.angular_velocity.y(), 0 - asked.angular_velocity.y(),
+          reference.speed() / reference.reach(), "rad/s");
+      return;
+    }
+    add_vector("v", found_.velocity, asked.velocity, reference.speed(), "m/s");
+    add_vector("w", found_.angular_velocity, asked.angular_velocity, reference.speed() / reference.reach(), "rad/s");
+  }
+
+  [[nodiscard]] const std::vector<std::string>& words() const { return words_; }
+
+ private:
+  void add(const std::string& name, double found, double asked, double size, const char* unit) {
+    if (std::fabs(found - asked) <= reference_.tolerances[1] * size) return;
+    words_.push_back(fmt::format("{0} is {1:.6g} {3}, must be {2:.6g} {3}", name, found, asked, unit));
+  }
+
+  void add_vector(const std::string& name, const Vector3& found, const Vector3& asked, double size, const char* unit) {
+    for (int i = 0; i < 3; ++i) add(name + "xyz"[i], found[i], asked[i], size, unit);
+  }
+
+  void add_attitude() {
+    const double turned = 2 * (found_.attitude.conjugate() * asked_.attitude).vec().norm();
+    if (turned <= reference_.tolerances[1]) return;
+    if (reference_.is_planar && motion_.table().column("phi")) {
+      const double phi = motion_.table().at(0, motion_.table().column("phi").value());  // with its whole turns
+      words_.push_back(fmt::format("phi is {:.6g} rad, must be {:.6g} rad", phi, inclination_of(asked_)));
+      return;
+    }
+    words_.push_back(
+        fmt::format("the attitude is turned by {}°", significant(turned * analytic::degrees_per_radian, 3)));
+  }
+
+  const Motion& motion_;
+  const Reference& reference_;
+  State found_;
+  const State& asked_;
+  std::vector<std::string> words_;
+};
+
 }  // namespace
 
 double touch_time(const Reference& reference, const space::FreeFlight& flight) {
@@ -99,9 +151,7 @@ double Motion::median_step() const {
   std::vector<double> steps;
   for (std::size_t row = 0; row + 1 < table_.rows(); ++row)
     steps.push_back(table_.at(row + 1, column_[0]) - table_.at(row, column_[0]));
-  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
-  std::nth_element(steps.begin(), middle, steps.end());
-  return *middle;
+  return upper_median(std::move(steps));
 }
 
 void Motion::check_rows() const {
@@ -198,62 +248,6 @@ void Motion::find_first_touch() {
   for (std::size_t i = 0; i < now.size(); ++i)
     start_error_ = std::max(start_error_, (now[i] - wanted[i]).norm() / reach);
 }
-
-namespace {
-
-using analytic::space::State;
-using analytic::space::Vector3;
-
-/// What differs between two states, in words; the first is the run's, the second asked for.
-class Differences {
- public:
-  Differences(const Motion& motion, const Reference& reference, const State& asked)
-      : motion_(motion), reference_(reference), found_(motion.state(0)), asked_(asked) {
-    add("z", found_.position.z(), asked.position.z(), reference.reach(), "m");
-    add_attitude();
-    if (reference.is_planar) {
-      add("vx", found_.velocity.x(), asked.velocity.x(), reference.speed(), "m/s");
-      add("vz", found_.velocity.z(), asked.velocity.z(), reference.speed(), "m/s");
-      add("omega", 0 - found_.angular_velocity.y(), 0 - asked.angular_velocity.y(),
-          reference.speed() / reference.reach(), "rad/s");
-      return;
-    }
-    add_vector("v", found_.velocity, asked.velocity, reference.speed(), "m/s");
-    add_vector("w", found_.angular_velocity, asked.angular_velocity, reference.speed() / reference.reach(), "rad/s");
-  }
-
-  [[nodiscard]] const std::vector<std::string>& words() const { return words_; }
-
- private:
-  void add(const std::string& name, double found, double asked, double size, const char* unit) {
-    if (std::fabs(found - asked) <= reference_.tolerances[1] * size) return;
-    words_.push_back(fmt::format("{0} is {1:.6g} {3}, must be {2:.6g} {3}", name, found, asked, unit));
-  }
-
-  void add_vector(const std::string& name, const Vector3& found, const Vector3& asked, double size, const char* unit) {
-    for (int i = 0; i < 3; ++i) add(name + "xyz"[i], found[i], asked[i], size, unit);
-  }
-
-  void add_attitude() {
-    const double turned = 2 * (found_.attitude.conjugate() * asked_.attitude).vec().norm();
-    if (turned <= reference_.tolerances[1]) return;
-    if (reference_.is_planar && motion_.table().column("phi")) {
-      const double phi = motion_.table().at(0, motion_.table().column("phi").value());  // with its whole turns
-      words_.push_back(fmt::format("phi is {:.6g} rad, must be {:.6g} rad", phi, inclination_of(asked_)));
-      return;
-    }
-    words_.push_back(
-        fmt::format("the attitude is turned by {}°", significant(turned * analytic::degrees_per_radian, 3)));
-  }
-
-  const Motion& motion_;
-  const Reference& reference_;
-  State found_;
-  const State& asked_;
-  std::vector<std::string> words_;
-};
-
-}  // namespace
 
 double inclination_of(const State& state) { return 2 * std::atan2(-state.attitude.y(), state.attitude.w()); }
 

@@ -18,73 +18,84 @@ namespace {
 namespace space = analytic::space;
 using space::Vector3;
 
+/// The numbers of a row, by the names of its columns.
+class Cells {
+ public:
+  Cells(const NumericTable& table, std::span<double> row) : table_(table), row_(row) {}
+
+  [[nodiscard]] bool has(const std::string& name) const { return table_.column(name).has_value(); }
+  [[nodiscard]] double& operator()(const std::string& name) const { return row_[table_.column(name).value()]; }
+  /// The vector of three columns.
+  [[nodiscard]] Vector3 vector(const std::string& name) const {
+    return {(*this)(name + "x"), (*this)(name + "y"), (*this)(name + "z")};
+  }
+  [[nodiscard]] space::Quaternion attitude() const {
+    return {(*this)("q0"), (*this)("q1"), (*this)("q2"), (*this)("q3")};
+  }
+
+ private:
+  const NumericTable& table_;
+  std::span<double> row_;
+};
+
 /// A way to read rows that is not the one asked for.
 struct Reading {
   const char* name;
   std::string words;
-  std::function<void(const NumericTable&, std::span<double>)> change;
+  std::function<void(const Cells&)> change;
 };
 
-std::function<void(const NumericTable&, std::span<double>)> scaled(std::vector<const char*> names, double factor) {
-  return [names, factor](const NumericTable& table, std::span<double> row) {
+std::function<void(const Cells&)> scaled(std::vector<const char*> names, double factor) {
+  return [names, factor](const Cells& at) {
     for (const char* name : names) {
-      if (const auto at = table.column(name)) row[*at] *= factor;
+      if (at.has(name)) at(name) *= factor;
     }
   };
 }
 
-void from_body_frame(const NumericTable& table, std::span<double> row) {
-  const auto at = [&](const char* name) -> double& { return row[table.column(name).value()]; };
-  const space::Quaternion turn(at("q0"), at("q1"), at("q2"), at("q3"));
-  const Vector3 rate = turn * Vector3(at("wx"), at("wy"), at("wz"));
+void from_body_frame(const Cells& at) {
+  const Vector3 rate = at.attitude() * at.vector("w");
   at("wx") = rate.x(), at("wy") = rate.y(), at("wz") = rate.z();
 }
 
-void scalar_first(const NumericTable& table, std::span<double> row) {
-  const auto at = [&](const char* name) -> double& { return row[table.column(name).value()]; };
+void scalar_first(const Cells& at) {
   const double scalar = at("q3");
   at("q3") = at("q2"), at("q2") = at("q1"), at("q1") = at("q0"), at("q0") = scalar;
 }
 
-void exchange_axes(const NumericTable& table, std::span<double> row) {
-  for (const auto& [x, z] : {std::pair{"x", "z"}, std::pair{"vx", "vz"}})
-    std::swap(row[table.column(x).value()], row[table.column(z).value()]);
+void exchange_axes(const Cells& at) {
+  std::swap(at("x"), at("z"));
+  std::swap(at("vx"), at("vz"));
 }
 
-void from_y_up(const NumericTable& table, std::span<double> row) {
-  const auto at = [&](const char* name) -> double& { return row[table.column(name).value()]; };
-  for (const auto& [y, z] : {std::pair{"y", "z"}, std::pair{"vy", "vz"}, std::pair{"wy", "wz"}}) {
+/// Components along y and z of vectors whose y pointed up.
+void turn_up(const Cells& at, const std::vector<std::pair<const char*, const char*>>& pairs) {
+  for (const auto& [y, z] : pairs) {
     const double up = at(y);
     at(y) = -at(z), at(z) = up;
   }
+}
+
+void from_y_up(const Cells& at) {
+  turn_up(at, {{"y", "z"}, {"vy", "vz"}, {"wy", "wz"}});
   const double half = std::sqrt(0.5);
-  const space::Quaternion turn =
-      space::Quaternion(half, half, 0, 0) * space::Quaternion(at("q0"), at("q1"), at("q2"), at("q3"));
+  const space::Quaternion turn = space::Quaternion(half, half, 0, 0) * at.attitude();
   at("q0") = turn.w(), at("q1") = turn.x(), at("q2") = turn.y(), at("q3") = turn.z();
 }
 
 /// The same of a body whose own axes are turned likewise.
-void from_y_up_throughout(const NumericTable& table, std::span<double> row) {
-  const auto at = [&](const char* name) -> double& { return row[table.column(name).value()]; };
-  for (const auto& [y, z] :
-       {std::pair{"y", "z"}, std::pair{"q2", "q3"}, std::pair{"vy", "vz"}, std::pair{"wy", "wz"}}) {
-    const double up = at(y);
-    at(y) = -at(z), at(z) = up;
-  }
-}
+void from_y_up_throughout(const Cells& at) { turn_up(at, {{"y", "z"}, {"q2", "q3"}, {"vy", "vz"}, {"wy", "wz"}}); }
 
 /// From a point of the body, `place` in its axes, to the centre of mass.
-void from_point(const Vector3& place, const NumericTable& table, std::span<double> row) {
-  const auto at = [&](const char* name) -> double& { return row[table.column(name).value()]; };
-  if (!table.column("q0")) {
+void from_point(const Vector3& place, const Cells& at) {
+  if (!at.has("q0")) {
     const double s = std::sin(at("phi")), c = std::cos(at("phi"));
     const double along = place.x() * c - place.z() * s, up = place.x() * s + place.z() * c;
     at("x") -= along, at("z") -= up;
     at("vx") += at("omega") * up, at("vz") -= at("omega") * along;
     return;
   }
-  const space::Quaternion turn(at("q0"), at("q1"), at("q2"), at("q3"));
-  const Vector3 arm = turn * place, speed = Vector3(at("wx"), at("wy"), at("wz")).cross(arm);
+  const Vector3 arm = at.attitude() * place, speed = at.vector("w").cross(arm);
   at("x") -= arm.x(), at("y") -= arm.y(), at("z") -= arm.z();
   at("vx") -= speed.x(), at("vy") -= speed.y(), at("vz") -= speed.z();
 }
@@ -92,54 +103,45 @@ void from_point(const Vector3& place, const NumericTable& table, std::span<doubl
 constexpr double radian = std::numbers::pi / 180, full_turn = 2 * std::numbers::pi;  // [rad]
 constexpr double foot = 0.3048;                                                      // [m]
 
-const std::vector<Reading>& planar_readings() {
-  static const std::vector<Reading> readings{
-      {"phi-sign", "phi and omega count the other turn as positive", scaled({"phi", "omega"}, -1)},
-      {"phi-alone", "phi counts the turn as positive that omega counts as negative", scaled({"phi"}, -1)},
-      {"omega-sign", "omega has not the sign of phi's rate", scaled({"omega"}, -1)},
-      {"left-right", "left and right are exchanged: x, phi, vx and omega have the other sign",
-       scaled({"x", "phi", "vx", "omega"}, -1)},
-      {"up-down", "z points down", scaled({"z", "vz"}, -1)},
-      {"exchanged", "x and z are exchanged, and vx and vz", exchange_axes},
-      {"degrees", "phi and omega are in degrees", scaled({"phi", "omega"}, radian)},
-      {"degrees", "phi is in degrees", scaled({"phi"}, radian)},
-      {"degrees", "omega is in degrees per second", scaled({"omega"}, radian)},
-      {"turns", "omega is in turns per second", scaled({"omega"}, full_turn)},
-      {"millimetres", "lengths are in millimetres", scaled({"x", "z", "vx", "vz"}, 1e-3)},
-      {"centimetres", "lengths are in centimetres", scaled({"x", "z", "vx", "vz"}, 1e-2)},
-      {"feet", "lengths are in feet", scaled({"x", "z", "vx", "vz"}, foot)},
-      {"milliseconds", "t is in milliseconds", scaled({"t"}, 1e-3)}};
-  return readings;
-}
+const std::vector<Reading> planar_readings{
+    {"phi-sign", "phi and omega count the other turn as positive", scaled({"phi", "omega"}, -1)},
+    {"phi-alone", "phi counts the turn as positive that omega counts as negative", scaled({"phi"}, -1)},
+    {"omega-sign", "omega has not the sign of phi's rate", scaled({"omega"}, -1)},
+    {"left-right", "left and right are exchanged: x, phi, vx and omega have the other sign",
+     scaled({"x", "phi", "vx", "omega"}, -1)},
+    {"up-down", "z points down", scaled({"z", "vz"}, -1)},
+    {"exchanged", "x and z are exchanged, and vx and vz", exchange_axes},
+    {"degrees", "phi and omega are in degrees", scaled({"phi", "omega"}, radian)},
+    {"degrees", "phi is in degrees", scaled({"phi"}, radian)},
+    {"degrees", "omega is in degrees per second", scaled({"omega"}, radian)},
+    {"turns", "omega is in turns per second", scaled({"omega"}, full_turn)},
+    {"millimetres", "lengths are in millimetres", scaled({"x", "z", "vx", "vz"}, 1e-3)},
+    {"centimetres", "lengths are in centimetres", scaled({"x", "z", "vx", "vz"}, 1e-2)},
+    {"feet", "lengths are in feet", scaled({"x", "z", "vx", "vz"}, foot)},
+    {"milliseconds", "t is in milliseconds", scaled({"t"}, 1e-3)}};
 
-const std::vector<Reading>& space_readings() {
-  static const std::vector<Reading> readings{
-      {"conjugate", "the Euler parameters turn from the world to the body", scaled({"q1", "q2", "q3"}, -1)},
-      {"body-frame", "the angular velocity is in body axes", from_body_frame},
-      {"scalar-last", "the Euler parameters have their scalar last", scalar_first},
-      {"omega-sign", "the angular velocity has the other sign", scaled({"wx", "wy", "wz"}, -1)},
-      {"up-down", "z points down", scaled({"z", "vz"}, -1)},
-      {"y-up", "y points up, and z out of the page", from_y_up},
-      {"y-up", "y points up in the world and in the body, and z out of the page", from_y_up_throughout},
-      {"mirrored", "the axes are left-handed: y points the other way", scaled({"y", "q1", "q3", "vy", "wx", "wz"}, -1)},
-      {"degrees", "the angular velocity is in degrees per second", scaled({"wx", "wy", "wz"}, radian)},
-      {"turns", "the angular velocity is in turns per second", scaled({"wx", "wy", "wz"}, full_turn)},
-      {"millimetres", "lengths are in millimetres", scaled({"x", "y", "z", "vx", "vy", "vz"}, 1e-3)},
-      {"centimetres", "lengths are in centimetres", scaled({"x", "y", "z", "vx", "vy", "vz"}, 1e-2)},
-      {"feet", "lengths are in feet", scaled({"x", "y", "z", "vx", "vy", "vz"}, foot)},
-      {"milliseconds", "t is in milliseconds", scaled({"t"}, 1e-3)}};
-  return readings;
-}
+const std::vector<Reading> space_readings{
+    {"conjugate", "the Euler parameters turn from the world to the body", scaled({"q1", "q2", "q3"}, -1)},
+    {"body-frame", "the angular velocity is in body axes", from_body_frame},
+    {"scalar-last", "the Euler parameters have their scalar last", scalar_first},
+    {"omega-sign", "the angular velocity has the other sign", scaled({"wx", "wy", "wz"}, -1)},
+    {"up-down", "z points down", scaled({"z", "vz"}, -1)},
+    {"y-up", "y points up, and z out of the page", from_y_up},
+    {"y-up", "y points up in the world and in the body, and z out of the page", from_y_up_throughout},
+    {"mirrored", "the axes are left-handed: y points the other way", scaled({"y", "q1", "q3", "vy", "wx", "wz"}, -1)},
+    {"degrees", "the angular velocity is in degrees per second", scaled({"wx", "wy", "wz"}, radian)},
+    {"turns", "the angular velocity is in turns per second", scaled({"wx", "wy", "wz"}, full_turn)},
+    {"millimetres", "lengths are in millimetres", scaled({"x", "y", "z", "vx", "vy", "vz"}, 1e-3)},
+    {"centimetres", "lengths are in centimetres", scaled({"x", "y", "z", "vx", "vy", "vz"}, 1e-2)},
+    {"feet", "lengths are in feet", scaled({"x", "y", "z", "vx", "vy", "vz"}, foot)},
+    {"milliseconds", "t is in milliseconds", scaled({"t"}, 1e-3)}};
 
-const std::vector<Reading>& list_readings() {
-  static const std::vector<Reading> readings{
-      {"omega-sign", "Omega has the other sign than its line says", scaled({"Omega"}, -1)},
-      {"up-down", "V counts down as positive", scaled({"V"}, -1)},
-      {"tangential-sign", "Pt counts left as positive", scaled({"Pt"}, -1)},
-      {"degrees", "Omega is in degrees per second", scaled({"Omega", "Wx", "Wy", "Wz"}, radian)},
-      {"milliseconds", "t is in milliseconds", scaled({"t"}, 1e-3)}};
-  return readings;
-}
+const std::vector<Reading> list_readings{
+    {"omega-sign", "Omega has the other sign than its line says", scaled({"Omega"}, -1)},
+    {"up-down", "V counts down as positive", scaled({"V"}, -1)},
+    {"tangential-sign", "Pt counts left as positive", scaled({"Pt"}, -1)},
+    {"degrees", "Omega is in degrees per second", scaled({"Omega", "Wx", "Wy", "Wz"}, radian)},
+    {"milliseconds", "t is in milliseconds", scaled({"t"}, 1e-3)}};
 
 /// Rows that are right when read otherwise.
 class ReadingCauses {
@@ -149,7 +151,7 @@ class ReadingCauses {
         error_(score.error()) {}
 
   void of_motion() {
-    for (const Reading& reading : table_.column("q0") ? space_readings() : planar_readings())
+    for (const Reading& reading : table_.column("q0") ? space_readings : planar_readings)
       add(reading, [&] { return score_as(reading); });
     if (causes_.empty()) of_other_points();
   }
@@ -170,7 +172,7 @@ class ReadingCauses {
   }
 
   void of_list() {
-    for (const Reading& reading : list_readings())
+    for (const Reading& reading : list_readings)
       add(reading, [&] { return score_list(impacts(changed(reading)), reference_, law_, answer_.ending); });
     of_velocities_before();
     if (!reference_.is_planar || reference_.points.size() != 2) return;
@@ -194,7 +196,7 @@ class ReadingCauses {
       const Reading reading{
           "other-point",
           fmt::format("place and velocity are those of {}, not of the centre of mass", reference_.points[k]),
-          [&](const NumericTable& table, std::span<double> row) { from_point(place, table, row); }};
+          [&](const Cells& at) { from_point(place, at); }};
       add(reading, [&] { return score_as(reading); });
       if (!causes_.empty()) return;
     }
@@ -230,7 +232,7 @@ class ReadingCauses {
   }
 
   [[nodiscard]] NumericTable changed(const Reading& reading) const {
-    return table_.changed([&](std::span<double> row) { reading.change(table_, row); });
+    return table_.changed([&](std::span<double> row) { reading.change({table_, row}); });
   }
 
   [[nodiscard]] std::vector<FoundImpact> impacts(const NumericTable& table) const {

@@ -5,11 +5,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+#include <exception>
+#include <utility>
 
 #include "analytic/base/errors.hpp"
 #include "analytic/plane/sequence.hpp"
 #include "analytic/space/flight/point_height.hpp"
+#include "analytic/space/impulse/moreau_contact.hpp"
 #include "analytic/space/landing/level_rim.hpp"
 #include "analytic/space/landing/simultaneous.hpp"
 #include "analytic/space/sequence/sequence.hpp"
@@ -23,14 +25,19 @@ namespace clatter::validation {
 namespace {
 
 const std::string folder = "validation/benchmark/problems/";
-const std::vector<std::string> texts{"id", "title", "class", "motivation", "separates", "acceptance"};
+/// Texts of a statement.
+const std::vector<std::pair<std::string, std::string Problem::*>> texts{{"id", &Problem::id},
+                                                                        {"title", &Problem::title},
+                                                                        {"motivation", &Problem::motivation},
+                                                                        {"separates", &Problem::separates},
+                                                                        {"acceptance", &Problem::acceptance}};
 const std::vector<std::string> numbers{"t",  "Px", "Py", "Pz", "Vx",       "Vy",
                                        "Vz", "Wx", "Wy", "Wz", "duration", "uncertainty"};
 
 std::vector<std::string> known_keys() {
   std::vector<std::string> keys = scene_keys();
-  for (const std::string& text : texts) keys.push_back("problem." + text);
-  for (const char* key : {"version", "gaps", "until", "tolerances", "energy_alone", "at_rest", "end_energy",
+  for (const auto& [text, member] : texts) keys.push_back("problem." + text);
+  for (const char* key : {"class", "version", "gaps", "until", "tolerances", "energy_alone", "at_rest", "end_energy",
                           "ground_end", "laws_agree"}) {
     keys.push_back(std::string("problem.") + key);
   }
@@ -42,21 +49,20 @@ Problem read_problem(const EmbeddedFile& file) {
   const std::string path(file.name);
   const SceneValues values(path, file.text, known_keys());
   Problem problem;
-  problem.id = values.text("problem.id");
+  for (const auto& [text, member] : texts) problem.*member = values.text("problem." + text);
   problem.version = static_cast<int>(values.integer("problem.version", 1, 1, 1000));
-  problem.title = values.text("problem.title");
-  problem.motivation = values.text("problem.motivation");
-  problem.separates = values.text("problem.separates");
-  problem.acceptance = values.text("problem.acceptance");
   problem.is_compliant = values.text("problem.class") == "compliant";
   problem.energy_alone = values.truth("problem.energy_alone", false);
   problem.at_rest = values.truth("problem.at_rest", false);
   constexpr Range finite{-1e9, 1e9, false, "finite"};
-  if (values.has("problem.end_energy")) problem.end_energy = values.number("problem.end_energy", 0, finite);
-  if (values.has("problem.ground_end")) problem.ground_end = values.number("problem.ground_end", 0, finite);
+  const auto optional = [&](const std::string& key, const Range& range) {
+    return values.has(key) ? std::optional(values.number(key, 0, range)) : std::nullopt;
+  };
+  problem.end_energy = optional("problem.end_energy", finite);
+  problem.ground_end = optional("problem.ground_end", finite);
+  problem.until = optional("problem.until", positive);
   problem.gaps = values.numbers("problem.gaps", {1, 2, 3, 4, 5, 6, 7, 8}, positive, "heights in m");
   problem.tolerances = values.numbers("problem.tolerances", {4}, positive, "four errors");
-  if (values.has("problem.until")) problem.until = values.number("problem.until", 0, positive);
   problem.scene = read_discrete_scene(values, {}).scene;
   problem.scene_text = file.text.substr(file.text.find("[drop]"));
   return problem;
@@ -75,6 +81,143 @@ std::vector<std::size_t> rows_of(const Problem& problem, const std::string& law)
     if (truth_table().word(i, "problem") == problem.id && truth_table().word(i, "law") == law) rows.push_back(i);
   }
   return rows;
+}
+
+namespace space = analytic::space;
+using space::State;
+using space::Vector3;
+
+constexpr double level_slope = 1e-6;  ///< of a rim that lies level in the rows of a run [rad]
+
+DeclaredLaw declared(const std::string& name, const analytic::ImpactLaw& base) {
+  DeclaredLaw declared{.name = name, .law = {}};
+  declared.law = base;
+  if (name == "any") return declared;
+  declared.law.law = name.starts_with("poisson")   ? analytic::RestitutionLaw::poisson
+                     : name.starts_with("stronge") ? analytic::RestitutionLaw::stronge
+                                                   : analytic::RestitutionLaw::newton;
+  declared.is_moreau = name.ends_with("moreau");
+  return declared;
+}
+
+/// The same body in space, with its plane's moment of inertia about every axis, so that it turns about y alone.
+space::Body body_in_space(const analytic::PlanarBody& planar) {
+  space::Body body{
+      .mass = planar.mass, .inertia = planar.inertia() * space::Matrix3::Identity(), .vertices = {}, .rims = {}};
+  for (int i = 0; i < planar.vertex_count; ++i) {
+    const analytic::Vertex& vertex = planar.vertices[static_cast<std::size_t>(i)];
+    body.vertices.emplace_back(vertex.x, 0, vertex.z);
+  }
+  return body;
+}
+
+/// The body where it first touches the ground, with its lowest point on it.
+void put_down(Reference& reference, const space::Drop& drop, const space::Quaternion& attitude) {
+  reference.body = drop.body;
+  reference.principal = space::PrincipalAxes(drop.body.inertia);
+  reference.start = {.position = Vector3::Zero(),
+                     .attitude = attitude,
+                     .velocity = drop.velocity,
+                     .angular_velocity = drop.angular_velocity};
+  reference.gravity = drop.gravity;
+  reference.gravity_along = drop.gravity_along;
+  double lowest = 0;
+  for (const Vector3& arm : reference.arms(reference.start.attitude)) lowest = std::fmin(lowest, arm.z());
+  reference.start.position.z() = -lowest;
+}
+
+void set_planar(Reference& reference, const analytic::Drop& drop) {
+  for (int i = 0; i < drop.body.vertex_count; ++i)
+    reference.points.push_back(analytic::PlanarBody::vertex_set_name(static_cast<analytic::VertexSet>(1 << i)));
+  const space::Drop flat = in_space(drop, body_in_space(drop.body));
+  put_down(reference, flat, flat.attitude);
+}
+
+void set_space(Reference& reference, const Scene& scene, const space::Drop& drop) {
+  reference.is_planar = false;
+  for (std::size_t i = 0; i < drop.body.vertices.size(); ++i)
+    reference.points.push_back(corner_name(scene, {static_cast<int>(i), drop.body.vertices[i]}));
+  for (const space::Rim& rim : drop.body.rims) reference.points.push_back(corner_name(scene, {0, rim.centre}));
+  for (const auto& [centre, axes] : drop.body.ellipsoids) reference.points.push_back(corner_name(scene, {0, centre}));
+  put_down(reference, drop, drop.attitude.normalized());
+}
+
+void add_states(const Reference& reference, ReferenceSequence& sequence) {
+  space::State state = reference.start;
+  double time = 0;
+  for (const TruthRow& row : sequence.truth) {
+    state = reference.flight(state).at(row.time - time);
+    time = row.time;
+    state.velocity = row.velocity;
+    state.angular_velocity = row.angular_velocity;
+    sequence.after.push_back(state);
+  }
+}
+
+std::string place_of(const Reference&, const analytic::ImpactRow& row) {
+  return analytic::PlanarBody::vertex_set_name(row.vertices);
+}
+
+std::string place_of(const Reference& reference, const space::ImpactRow& row) {
+  std::vector<int> group;
+  for (const space::Corner& corner : row.corners) group.push_back(corner.index);
+  std::ranges::sort(group);
+  return reference.place_name(group);
+}
+
+/// What the discrete model says of the first impacts; rows from the first that cannot be predicted on are no truth.
+std::vector<TruthRow> discrete_truth(const Reference& reference, const auto& drop, int impacts) {
+  const auto sequence = impact_sequence(drop, {.impacts = impacts});
+  const auto vector = [](const EntryVector& v) { return Vector3(v[0], v[1], v[2]); };
+  std::vector<TruthRow> rows;
+  for (const auto& row : sequence.rows) {
+    if (!row.error.predictable) break;
+    const Numbers found = impact_of(row).value;
+    rows.push_back({.place = place_of(reference, row),
+                    .time = row.start,
+                    .impulse = vector(found.impulse),
+                    .velocity = vector(found.velocity_after),
+                    .angular_velocity = vector(found.angular_velocity_after),
+                    .uncertainty = row.error.start});
+  }
+  return rows;
+}
+
+/// Moreau's impulse of one contact: Newton's restitution and Coulomb's cone for the velocity at the end; a negative
+/// coefficient of friction acts along the slip.
+/// @throws NumericalError if no direction of slip satisfies it.
+State moreau_map(const Reference& reference, const analytic::ImpactLaw& law, const State& before, int point) {
+  const Vector3 arm = reference.arm(before.attitude, point), velocity = reference.velocity(before, point);
+  State after = before;
+  if (!(velocity.z() < 0)) return after;
+  const space::Matrix3 turned = before.attitude.toRotationMatrix();
+  const space::Matrix3 inverse = turned * reference.body.inertia.inverse() * turned.transpose();
+  const space::Contact contact{.inverse_inertia = space::inverse_contact_inertia(reference.body.mass, inverse, arm),
+                               .velocity = velocity};
+  const Vector3 impulse = space::MoreauContact(contact, false, law.friction_value, law.restitution).impulse().impulse;
+  after.velocity += impulse / reference.body.mass;
+  after.angular_velocity += inverse * arm.cross(impulse);
+  return after;
+}
+
+State with_velocities(State state, const Vector3& velocity, const Vector3& angular_velocity) {
+  state.velocity = velocity;
+  state.angular_velocity = angular_velocity;
+  return state;
+}
+
+/// Two points of a planar body that land together, as the plane's model has them: friction may act below the centre of
+/// mass without turning the body.  Nothing where they strike one after the other.
+std::optional<State> flat_map(const Reference& reference, const analytic::ImpactLaw& law, const State& before,
+                              const Vector3& first, const Vector3& second) {
+  const analytic::PlanarBody body{.mass = reference.body.mass,
+                                  .gyration_square = reference.body.inertia(1, 1) / reference.body.mass};
+  const analytic::PlanarVelocity velocity{
+      .normal = before.velocity.z(), .tangential = before.velocity.x(), .angular = before.angular_velocity.y()};
+  const auto impact = strike_flat(body, velocity, {.tangential = first.x(), .normal = first.z()},
+                                  {.tangential = second.x(), .normal = second.z()}, law);
+  if (!impact) return {};
+  return with_velocities(before, {impact->after.tangential, 0, impact->after.normal}, {0, impact->after.angular, 0});
 }
 
 }  // namespace
@@ -129,12 +272,12 @@ std::vector<TruthRow> truth_of(const Problem& problem, const std::string& law) {
   return rows;
 }
 
-std::vector<std::vector<std::string>> truth_digits(const Problem& problem, const std::string& law) {
-  std::vector<std::vector<std::string>> all;
-  const NumericTable& table = truth_table();
+Value truth_digits(const Problem& problem, const std::string& law) {
+  Value all;
   for (const std::size_t i : rows_of(problem, law)) {
-    std::vector<std::string>& row = all.emplace_back();
-    for (std::size_t k = 0; k + 1 < numbers.size(); ++k) row.push_back(table.field(i, numbers[k]));
+    Value row;
+    for (std::size_t k = 0; k + 1 < numbers.size(); ++k) row[numbers[k]] = truth_table().field(i, numbers[k]);
+    all.push_back(std::move(row));
   }
   return all;
 }
@@ -156,203 +299,6 @@ std::string oracle_of(const Problem& problem) {
          "the discrete model";
 }
 
-namespace {
-
-namespace space = analytic::space;
-using space::Matrix3;
-using space::State;
-using space::Vector3;
-
-constexpr double level_slope = 1e-6;  ///< of a rim that lies level in the rows of a run [rad]
-
-DeclaredLaw declared(const std::string& name, const analytic::ImpactLaw& base) {
-  DeclaredLaw declared{.name = name, .law = {}};
-  declared.law = base;
-  if (name == "any") return declared;
-  declared.law.law = name.starts_with("poisson")   ? analytic::RestitutionLaw::poisson
-                     : name.starts_with("stronge") ? analytic::RestitutionLaw::stronge
-                                                   : analytic::RestitutionLaw::newton;
-  declared.is_moreau = name.ends_with("moreau");
-  return declared;
-}
-
-/// The same body in space, with its plane's moment of inertia about every axis, so that it turns about y alone.
-space::Body in_space(const analytic::PlanarBody& planar) {
-  space::Body body{
-      .mass = planar.mass, .inertia = planar.inertia() * space::Matrix3::Identity(), .vertices = {}, .rims = {}};
-  for (int i = 0; i < planar.vertex_count; ++i) {
-    const analytic::Vertex& vertex = planar.vertices[static_cast<std::size_t>(i)];
-    body.vertices.emplace_back(vertex.x, 0, vertex.z);
-  }
-  return body;
-}
-
-void set_planar(Reference& reference, const analytic::Drop& drop) {
-  reference.body = in_space(drop.body);
-  reference.principal = space::PrincipalAxes(reference.body.inertia);
-  for (int i = 0; i < drop.body.vertex_count; ++i)
-    reference.points.push_back(analytic::PlanarBody::vertex_set_name(static_cast<analytic::VertexSet>(1 << i)));
-  const double half = drop.inclination.radians / 2;
-  reference.start.attitude = space::Quaternion(std::cos(half), 0, -std::sin(half), 0);
-  reference.start.velocity = {drop.velocity.tangential, 0, drop.velocity.normal};
-  reference.start.angular_velocity = {0, drop.velocity.angular, 0};
-  reference.gravity = drop.gravity;
-  reference.gravity_along = drop.gravity_along;
-}
-
-void set_space(Reference& reference, const Scene& scene, const space::Drop& drop) {
-  reference.is_planar = false;
-  reference.body = drop.body;
-  reference.principal = space::PrincipalAxes(drop.body.inertia);
-  for (std::size_t i = 0; i < drop.body.vertices.size(); ++i)
-    reference.points.push_back(corner_name(scene, {static_cast<int>(i), drop.body.vertices[i]}));
-  for (const space::Rim& rim : drop.body.rims) reference.points.push_back(corner_name(scene, {0, rim.centre}));
-  for (const auto& [centre, axes] : drop.body.ellipsoids) reference.points.push_back(corner_name(scene, {0, centre}));
-  reference.start.attitude = drop.attitude.normalized();
-  reference.start.velocity = drop.velocity;
-  reference.start.angular_velocity = drop.angular_velocity;
-  reference.gravity = drop.gravity;
-  reference.gravity_along = drop.gravity_along;
-}
-
-/// Puts the lowest point on the ground.
-void touch_down(Reference& reference) {
-  double lowest = 0;
-  for (const Vector3& arm : reference.arms(reference.start.attitude)) lowest = std::fmin(lowest, arm.z());
-  reference.start.position.z() = -lowest;
-}
-
-void add_states(const Reference& reference, ReferenceSequence& sequence) {
-  space::State state = reference.start;
-  double time = 0;
-  for (const TruthRow& row : sequence.truth) {
-    state = reference.flight(state).at(row.time - time);
-    time = row.time;
-    state.velocity = row.velocity;
-    state.angular_velocity = row.angular_velocity;
-    sequence.after.push_back(state);
-  }
-}
-
-// Rows from the first that cannot be predicted on are no truth.
-
-std::vector<TruthRow> planar_truth(const analytic::Drop& drop, int impacts) {
-  const analytic::Sequence sequence = impact_sequence(drop, {.impacts = impacts});
-  std::vector<TruthRow> rows;
-  for (const analytic::ImpactRow& row : sequence.rows) {
-    if (!row.error.predictable) break;
-    const analytic::PlanarVelocity& after = row.impact.after;
-    rows.push_back({.place = analytic::PlanarBody::vertex_set_name(row.vertices),
-                    .time = row.start,
-                    .impulse = {row.impact.tangential_impulse, 0, row.impact.normal_impulse},
-                    .velocity = {after.tangential, 0, after.normal},
-                    .angular_velocity = {0, after.angular, 0},
-                    .uncertainty = row.error.start});
-  }
-  return rows;
-}
-
-std::vector<TruthRow> space_truth(const Reference& reference, const space::Drop& drop, int impacts) {
-  const space::Sequence sequence = impact_sequence(drop, {.impacts = impacts});
-  std::vector<TruthRow> rows;
-  for (const space::ImpactRow& row : sequence.rows) {
-    if (!row.error.predictable) break;
-    std::vector<int> group;
-    for (const space::Corner& corner : row.corners) group.push_back(corner.index);
-    std::sort(group.begin(), group.end());
-    rows.push_back({.place = reference.place_name(group),
-                    .time = row.start,
-                    .impulse = row.group ? row.group->impulse : row.impact.impulse,
-                    .velocity = row.impact.velocity_after,
-                    .angular_velocity = row.impact.angular_velocity_after,
-                    .uncertainty = row.error.start});
-  }
-  return rows;
-}
-
-/// Slip in a direction all through the impact, and what it leaves.
-struct Slip {
-  Vector3 impulse, after;
-  double across;  ///< of the slip left over, across the direction
-};
-
-Slip slip_along(double angle, const Matrix3& w, const Vector3& v, const analytic::ImpactLaw& law) {
-  const Vector3 direction(std::cos(angle), std::sin(angle), 0);
-  const Vector3 rate = w * (Vector3::UnitZ() - law.friction_value * direction);
-  const double normal = -(1 + law.restitution) * v.z() / rate.z();
-  const Vector3 after = v + normal * rate;
-  return {normal * (Vector3::UnitZ() - law.friction_value * direction), after, direction.cross(after).z()};
-}
-
-bool goes_along(const Slip& slip, double angle) {
-  return slip.impulse.z() > 0 && slip.after.x() * std::cos(angle) + slip.after.y() * std::sin(angle) >= 0;
-}
-
-Matrix3 inverse_inertia(const Reference& reference, const State& state) {
-  const Matrix3 turned = state.attitude.toRotationMatrix();
-  return turned * reference.body.inertia.inverse() * turned.transpose();
-}
-
-/// Moreau's impulse of one contact: Newton's restitution and Coulomb's cone for the velocity at the end,
-///     v′ = v + W P,   v′_n = −e v_n,   |P_t| <= μ P_n,   P_t = −μ P_n v′_t/|v′_t| where v′_t ≠ 0.        (1)
-/// Source: Moreau (1988), with e_t = 0.
-/// @pre v_n < 0
-/// @throws NumericalError if no direction of slip satisfies (1).
-Vector3 moreau_impulse(const Matrix3& w, const Vector3& v, const analytic::ImpactLaw& law) {
-  const Vector3 sticking = w.inverse() * Vector3(-v.x(), -v.y(), -(1 + law.restitution) * v.z());
-  if (sticking.head<2>().norm() <= law.friction_value * sticking.z()) return sticking;
-  constexpr int parts = 720;
-  const double part = 2 * std::numbers::pi / parts;
-  // In the plane the direction is exactly 0 or π.
-  for (const double angle : {0.0, std::numbers::pi}) {
-    const Slip slip = slip_along(angle, w, v, law);
-    if (std::fabs(slip.across) <= 1e-15 * v.norm() && goes_along(slip, angle))
-      return {slip.impulse.x(), 0, slip.impulse.z()};
-  }
-  for (int i = 0; i < parts; ++i) {
-    double low = i * part, high = (i + 1) * part;
-    const bool is_left = slip_along(low, w, v, law).across > 0;
-    if (is_left == (slip_along(high, w, v, law).across > 0) || !goes_along(slip_along(low, w, v, law), low)) continue;
-    for (int k = 0; k < 60; ++k) {
-      const double middle = (low + high) / 2;
-      (is_left == (slip_along(middle, w, v, law).across > 0) ? low : high) = middle;
-    }
-    return slip_along(low, w, v, law).impulse;
-  }
-  throw analytic::NumericalError("no direction of slip satisfies Moreau's law");
-}
-
-State moreau_map(const Reference& reference, const analytic::ImpactLaw& law, const State& before, const Vector3& arm) {
-  const Vector3 velocity = before.velocity + before.angular_velocity.cross(arm);
-  State after = before;
-  if (!(velocity.z() < 0)) return after;
-  const Matrix3 inverse = inverse_inertia(reference, before);
-  const Vector3 impulse =
-      moreau_impulse(space::inverse_contact_inertia(reference.body.mass, inverse, arm), velocity, law);
-  after.velocity += impulse / reference.body.mass;
-  after.angular_velocity += inverse * arm.cross(impulse);
-  return after;
-}
-
-/// Two points of a planar body that land together, as the plane's model has them: friction may act below the centre of
-/// mass without turning the body.  Nothing where they strike one after the other.
-std::optional<State> flat_map(const Reference& reference, const analytic::ImpactLaw& law, const State& before,
-                              const Vector3& first, const Vector3& second) {
-  const analytic::PlanarBody body{.mass = reference.body.mass,
-                                  .gyration_square = reference.body.inertia(1, 1) / reference.body.mass};
-  const analytic::PlanarVelocity velocity{
-      .normal = before.velocity.z(), .tangential = before.velocity.x(), .angular = before.angular_velocity.y()};
-  const auto impact = strike_flat(body, velocity, {.tangential = first.x(), .normal = first.z()},
-                                  {.tangential = second.x(), .normal = second.z()}, law);
-  if (!impact) return {};
-  State after = before;
-  after.velocity = {impact->after.tangential, 0, impact->after.normal};
-  after.angular_velocity = {0, impact->after.angular, 0};
-  return after;
-}
-
-}  // namespace
-
 double Reference::speed() const { return start.velocity.norm() + start.angular_velocity.norm() * reach(); }
 
 double Reference::energy(const space::State& state) const {
@@ -373,8 +319,7 @@ space::FreeFlight Reference::flight(const space::State& state) const {
 space::State Reference::struck(const space::State& state, int point, const Vector3& impulse) const {
   space::State after = state;
   after.velocity += impulse / body.mass;
-  const Vector3 arm = arms(state.attitude)[static_cast<std::size_t>(point)];
-  const Vector3 moment = state.attitude.conjugate() * arm.cross(impulse);
+  const Vector3 moment = state.attitude.conjugate() * arm(state.attitude, point).cross(impulse);
   after.angular_velocity += state.attitude * (body.inertia.inverse() * moment);
   return after;
 }
@@ -431,10 +376,21 @@ std::vector<Vector3> Reference::arms(const space::Quaternion& attitude) const {
   return arms;
 }
 
-std::size_t lowest_of(const std::vector<Vector3>& arms) {
-  const auto lowest =
-      std::min_element(arms.begin(), arms.end(), [](const Vector3& a, const Vector3& b) { return a.z() < b.z(); });
-  return static_cast<std::size_t>(lowest - arms.begin());
+Vector3 Reference::arm(const space::Quaternion& attitude, int point) const {
+  return arms(attitude)[static_cast<std::size_t>(point)];
+}
+
+double Reference::height(const State& state, int point) const {
+  return state.position.z() + arm(state.attitude, point).z();
+}
+
+Vector3 Reference::velocity(const State& state, int point) const {
+  return state.velocity + state.angular_velocity.cross(arm(state.attitude, point));
+}
+
+int Reference::lowest(const space::Quaternion& attitude) const {
+  const std::vector<Vector3> all = arms(attitude);
+  return static_cast<int>(std::ranges::min_element(all, {}, [](const Vector3& one) { return one.z(); }) - all.begin());
 }
 
 Reference::Release Reference::release(double gap) const {
@@ -459,22 +415,14 @@ Reference::Release Reference::release(double gap) const {
 }
 
 Reference reference_of(const Problem& problem) {
-  Reference reference{.name = problem.id,
-                      .is_compliant = problem.is_compliant,
-                      .energy_alone = problem.energy_alone,
-                      .at_rest = problem.at_rest,
-                      .end_energy = problem.end_energy,
-                      .ground_ends = problem.ground_end.has_value(),
-                      .tolerances = problem.tolerances,
-                      .gaps = problem.gaps,
-                      .until = problem.until};
+  Reference reference{problem};
+  reference.name = problem.id;
   reference.drop = discrete_drop(problem.scene);
   if (auto* planar = std::get_if<analytic::Drop>(&reference.drop)) {
     if (problem.ground_end) planar->body.vertices[1].x = *problem.ground_end;  // in place of b, which is over none
     set_planar(reference, *planar);
     if (problem.ground_end) reference.points[1] = "edge";
   } else set_space(reference, problem.scene, std::get<space::Drop>(reference.drop));
-  touch_down(reference);
   for (const std::string& law : truth_laws(problem)) {
     ReferenceSequence sequence{
         .law = declared(law, discrete_law(problem.scene).law), .truth = truth_of(problem, law), .after = {}};
@@ -485,21 +433,14 @@ Reference reference_of(const Problem& problem) {
 }
 
 Reference reference_of(const Scene& scene) {
-  Reference reference{.name = scene.path.empty() ? "the scene" : scene.path};
+  Reference reference;
+  reference.name = scene.path.empty() ? "the scene" : scene.path;
   const int impacts = scene.request.impacts;
-  ReferenceSequence sequence;
   reference.drop = discrete_drop(scene);
-  if (const auto* drop = std::get_if<analytic::Drop>(&reference.drop)) {
-    set_planar(reference, *drop);
-    touch_down(reference);
-    sequence = {.law = {.name = "any", .law = drop->law}, .truth = planar_truth(*drop, impacts), .after = {}};
-  } else {
-    const space::Drop& in_space = std::get<space::Drop>(reference.drop);
-    set_space(reference, scene, in_space);
-    touch_down(reference);
-    sequence = {
-        .law = {.name = "any", .law = in_space.law}, .truth = space_truth(reference, in_space, impacts), .after = {}};
-  }
+  if (const auto* drop = std::get_if<analytic::Drop>(&reference.drop)) set_planar(reference, *drop);
+  else set_space(reference, scene, std::get<space::Drop>(reference.drop));
+  ReferenceSequence sequence{.law = {.name = "any", .law = law_of(reference.drop)}, .truth = {}, .after = {}};
+  std::visit([&](const auto& drop) { sequence.truth = discrete_truth(reference, drop, impacts); }, reference.drop);
   const std::size_t known = sequence.truth.size();
   if (known > 0 && known < static_cast<std::size_t>(impacts)) {
     reference.remark =
@@ -514,28 +455,30 @@ Reference reference_of(const Scene& scene) {
 
 State exact_map(const Reference& reference, const DeclaredLaw& law, const State& before,
                 const std::vector<int>& points) {
-  const std::vector<Vector3> arms = reference.arms(before.attitude);
-  std::vector<space::Corner> corners;
-  for (const int point : points) corners.push_back(reference.corner(before.attitude, point));
-  if (law.is_moreau && points.size() == 1)
-    return moreau_map(reference, law.law, before, arms[static_cast<std::size_t>(points.front())]);
+  if (law.is_moreau && points.size() == 1) return moreau_map(reference, law.law, before, points.front());
   if (reference.is_planar && points.size() == 2) {
-    const auto arm = [&](int point) { return arms[static_cast<std::size_t>(point)]; };
+    const auto arm = [&](int point) { return reference.arm(before.attitude, point); };
     if (const auto flat = flat_map(reference, law.law, before, arm(points[0]), arm(points[1]))) return *flat;
   }
-  State after = before;
-  if (points.size() == 1 && corners.front().radius == 0) {
+  std::vector<space::Corner> corners;
+  for (const int point : points) corners.push_back(reference.corner(before.attitude, point));
+  const bool is_level_rim = corners.front().radius > 0;
+  if (points.size() == 1 && !is_level_rim) {
     const space::Impact impact = strike(reference.body, before, corners.front().place, law.law);
-    after.velocity = impact.velocity_after;
-    after.angular_velocity = impact.angular_velocity_after;
-  } else {
-    const bool is_level_rim = corners.front().radius > 0;
-    const State level = is_level_rim ? levelled(reference.body, before, corners.front()) : before;
-    const space::GroupImpact impact = strike_together(reference.body, level, corners, law.law);
-    after.velocity = impact.velocity_after;
-    after.angular_velocity = impact.angular_velocity_after;
+    return with_velocities(before, impact.velocity_after, impact.angular_velocity_after);
   }
-  return after;
+  const State level = is_level_rim ? levelled(reference.body, before, corners.front()) : before;
+  const space::GroupImpact impact = strike_together(reference.body, level, corners, law.law);
+  return with_velocities(before, impact.velocity_after, impact.angular_velocity_after);
+}
+
+std::optional<State> answer_of(const Reference& reference, const DeclaredLaw& law, const State& before,
+                               const std::vector<int>& points) {
+  try {
+    return exact_map(reference, law, before, points);
+  } catch (const std::exception&) {
+    return {};
+  }
 }
 
 }  // namespace clatter::validation

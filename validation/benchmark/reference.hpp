@@ -27,25 +27,32 @@ struct TruthRow {
   double uncertainty = 0;                                        ///< of these numbers, relative to the sequence's sizes
 };
 
+/// What is asked of a run.
+struct Terms {
+  bool is_compliant = false;           ///< contacts take a finite time
+  bool energy_alone = false;           ///< after the impacts asked for, until `until`
+  bool at_rest = false;                ///< by then, with the energy of the pose of the first touch
+  std::optional<double> end_energy{};  ///< then, of a body that has stayed on the ground since its last bounce [J]
+  /// x of the ground's right end from the centre of mass at the first touch, under the lower face of a level box [m].
+  std::optional<double> ground_end{};
+  std::vector<double> gaps{0};                             ///< heights of the lowest point at t = 0 to start from [m]
+  std::optional<double> until{};                           ///< no impact more until then, since the first touch [s]
+  std::vector<double> tolerances{1e-9, 1e-6, 1e-3, 1e-2};  ///< largest error of each class, Verdict's order
+
+  /// Whether the body stays on the ground after ever smaller bounces, which are not asked for.
+  [[nodiscard]] bool stays() const { return at_rest || end_energy; }
+};
+
 /// A problem with a certified answer.
 ///
 /// The time of a contact of finite time is that at which the flights before and after it have the same height of the
 /// centre of mass, and velocity is that of the flight after it, followed back to then.
-struct Problem {
+struct Problem : Terms {
   std::string id;
   int version = 1;
   std::string title, motivation, separates, acceptance;
-  bool is_compliant = false;         ///< contacts take a finite time
-  bool energy_alone = false;         ///< after the impacts asked for, until `until`
-  bool at_rest = false;              ///< by then, with the energy of the pose of the first touch
-  std::optional<double> end_energy;  ///< then, of a body that has stayed on the ground since its last bounce [J]
-  /// x of the ground's right end from the centre of mass at the first touch, under the lower face of a level box [m].
-  std::optional<double> ground_end;
-  std::vector<double> gaps;        ///< heights of the lowest point at t = 0 to start from [m]
-  std::optional<double> until;     ///< no impact more until then, since the first touch [s]
-  std::vector<double> tolerances;  ///< largest error of each class, Verdict's order
-  Scene scene;                     ///< run.impacts: how many are asked for
-  std::string scene_text;          ///< as a scene file
+  Scene scene;             ///< run.impacts: how many are asked for
+  std::string scene_text;  ///< as a scene file
 };
 
 /// All of them, by ID.
@@ -57,8 +64,8 @@ struct Problem {
 [[nodiscard]] std::vector<std::string> truth_laws(const Problem& problem);
 /// @pre `law` is one of truth_laws()
 [[nodiscard]] std::vector<TruthRow> truth_of(const Problem& problem, const std::string& law);
-/// The file's digits of t, Px, Py, Pz, Vx, Vy, Vz, Wx, Wy, Wz and duration, row by row.
-[[nodiscard]] std::vector<std::vector<std::string>> truth_digits(const Problem& problem, const std::string& law);
+/// The file's digits of t, Px, Py, Pz, Vx, Vy, Vz, Wx, Wy, Wz and duration by their names, row by row.
+[[nodiscard]] Value truth_digits(const Problem& problem, const std::string& law);
 /// What gave the truth, in words.
 [[nodiscard]] std::string oracle_of(const Problem& problem);
 
@@ -80,14 +87,10 @@ struct ReferenceSequence {
 };
 
 /// A planar body stands here with its vertices in the plane y = 0 and its moment of inertia about every axis.
-struct Reference {
+struct Reference : Terms {
   std::string name{};  ///< the problem's ID, or the scene's file
   bool is_planar = true;
-  bool is_compliant = false;
-  bool energy_alone = false, at_rest = false;  ///< as Problem's
-  std::optional<double> end_energy{};
-  bool ground_ends = false;  ///< the point "edge" of a level box stands over the ground's end
-  DiscreteDrop drop{};       ///< as the discrete model has it
+  DiscreteDrop drop{};  ///< as the discrete model has it
   analytic::space::Body body{};
   /// The body's principal axes.
   analytic::space::PrincipalAxes principal{analytic::space::Matrix3::Identity()};
@@ -95,15 +98,10 @@ struct Reference {
   analytic::space::State start{};     ///< at the first touch
   double gravity = 0;                 ///< towards the ground [m/s²]
   double gravity_along = 0;           ///< along x [m/s²]
-  std::vector<double> tolerances{1e-9, 1e-6, 1e-3, 1e-2};
-  std::vector<double> gaps{0};    ///< that the problem names to start from [m]
-  std::optional<double> until{};  ///< no impact more until then, since the first touch [s]
   std::vector<ReferenceSequence> sequences{};
   std::string remark{};  ///< on the truth, for readers; empty: none
 
   [[nodiscard]] double reach() const { return body.reach(); }
-  /// Whether it stays on the ground after ever smaller bounces, which are not asked for.
-  [[nodiscard]] bool stays() const { return at_rest || end_energy; }
   /// Acceleration of free fall, ground axes [m/s²].
   [[nodiscard]] analytic::space::Vector3 pull() const { return {gravity_along, 0, -gravity}; }
   /// Potential energy of the centre of mass at (x, z) [J].
@@ -128,6 +126,13 @@ struct Reference {
   void scale_inertia(double factor);
   /// From the centre of mass to the place of each corner(), world frame.
   [[nodiscard]] std::vector<analytic::space::Vector3> arms(const analytic::space::Quaternion& attitude) const;
+  [[nodiscard]] analytic::space::Vector3 arm(const analytic::space::Quaternion& attitude, int point) const;
+  /// Height of a point above the ground [m].
+  [[nodiscard]] double height(const analytic::space::State& state, int point) const;
+  /// Velocity of a point [m/s].
+  [[nodiscard]] analytic::space::Vector3 velocity(const analytic::space::State& state, int point) const;
+  /// The lowest point.  @pre there is one
+  [[nodiscard]] int lowest(const analytic::space::Quaternion& attitude) const;
   /// The state from which the drop begins so that its lowest point is `gap` above the ground, and the time from there
   /// to the first touch.  @throws BadInput for a gap that the motion before the touch does not have.
   struct Release {
@@ -142,13 +147,14 @@ struct Reference {
 /// @throws as the discrete model does; BadInput for a scene that has no impact.
 [[nodiscard]] Reference reference_of(const Scene& scene);
 
-/// Index of the lowest of some arms().  @pre there is one
-[[nodiscard]] std::size_t lowest_of(const std::vector<analytic::space::Vector3>& arms);
-
 /// The state right after the points strike by `law`: the impact laws of the discrete model in space, or Moreau's.
 /// A point that does not approach gets no impulse.
 /// @throws as analytic::space::strike()
 [[nodiscard]] analytic::space::State exact_map(const Reference& reference, const DeclaredLaw& law,
                                                const analytic::space::State& before, const std::vector<int>& points);
+/// The same; nothing where the law has no answer.
+[[nodiscard]] std::optional<analytic::space::State> answer_of(const Reference& reference, const DeclaredLaw& law,
+                                                              const analytic::space::State& before,
+                                                              const std::vector<int>& points);
 
 }  // namespace clatter::validation

@@ -5,10 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <exception>
 
-#include "validation/benchmark/motion.hpp"
-#include "validation/benchmark/reference.hpp"
 #include "validation/output/number.hpp"
 
 namespace clatter::validation {
@@ -17,8 +14,6 @@ namespace {
 namespace space = analytic::space;
 using space::State;
 using space::Vector3;
-
-constexpr double least_share = 2e-3;  ///< of the truth's smallest impulse: what counts as an impact
 
 /// Sizes that errors are relative to.
 struct Sizes {
@@ -221,21 +216,6 @@ Score best_of(const Reference& reference, const std::string& law, Judge&& judge)
   return best;
 }
 
-ImpactSearch search_for(const Reference& reference) {
-  constexpr double float_rounding = 1e-6;  // of momentum, of codes with the digits of a float
-  constexpr double shortest_way = 0.02;    // of the reach, within which a compliant code turns the body round
-  ImpactSearch search{
-      .least_impulse = std::numeric_limits<double>::infinity(),
-      .spread_time = shortest_way * reference.reach() / reference.speed(),
-      .rounding = (reference.is_compliant ? 1e-3 : 1.0) * float_rounding * reference.body.mass * reference.speed(),
-      .most = reference.sequences.front().truth.size() + 1};
-  for (const ReferenceSequence& sequence : reference.sequences) {
-    for (const TruthRow& row : sequence.truth)
-      search.least_impulse = std::fmin(search.least_impulse, least_share * row.impulse.norm());
-  }
-  return search;
-}
-
 /// Distance of a body's points by attitude alone [m]; a ball looks the same however it is turned.
 double way_of_turn(const Reference& reference, const space::Quaternion& a, const space::Quaternion& b) {
   const bool is_round = reference.body.vertices.empty() && !reference.body.is_ball();
@@ -363,8 +343,7 @@ class Flights {
     const State from = motion_.state(row), to = motion_.state(row + 1);
     const double step = motion_.time(row + 1) - motion_.time(row), reach = reference_.reach();
     if (!(step > 0)) return;  // a first row that the file does not have
-    const std::vector<Vector3> arms = reference_.arms(from.attitude);
-    const double depth = std::fmax(-from.position.z() - arms[lowest_of(arms)].z(), 0);
+    const double depth = std::fmax(-reference_.height(from, reference_.lowest(from.attitude)), 0);
     const double speed =
         from.velocity.norm() + to.velocity.norm() + reach * (from.angular_velocity.norm() + to.angular_velocity.norm());
     const double allowed = (speed + step * reference_.pull().norm()) * step + depth;
@@ -474,18 +453,15 @@ std::string early_end(const Motion& motion, const Reference& reference, const Re
   }
   const std::size_t last = motion.size() - 1;
   const double end = motion.time(last) - motion.first_touch(), step = motion.time(last) - motion.time(last - 1);
-  const auto height_of = [&](const State& state, std::size_t point) {
-    return state.position.z() + reference.arms(state.attitude)[point].z();
-  };
   const TruthRow& next = sequence.truth[score.found];
   const space::FreeFlight flight = reference.flight(motion.state(last));
   const double wait = touch_time(reference, flight);
   const State touch = flight.at(wait);
-  const std::size_t point = lowest_of(reference.arms(touch.attitude));
+  const int point = reference.lowest(touch.attitude);
   // A point that has come through the ground since the row before is struck in the next step.
-  const bool comes = std::fabs(height_of(touch, point)) <= 1e-2 * reference.reach() &&
-                     height_of(motion.state(last - 1), point) > 0 &&
-                     reference.place_named(next.place) == std::vector<int>{static_cast<int>(point)};
+  const bool comes = std::fabs(reference.height(touch, point)) <= 1e-2 * reference.reach() &&
+                     reference.height(motion.state(last - 1), point) > 0 &&
+                     reference.place_named(next.place) == std::vector{point};
   const bool is_whole = reference.until && end + step >= *reference.until;
   if (is_whole && !(comes && wait <= 0)) return "";
   if (!comes && !(end <= next.time + step)) return "";
@@ -505,33 +481,23 @@ double law_error(const Reference& reference, const DeclaredLaw& law, const Found
   if (impact.points.empty()) return Score::unknown;
   double least = Score::unknown;
   for (const auto& [before, after] : impact.bookings) {
-    try {
-      const State exact = exact_map(reference, law, before, impact.points);
-      const double change = std::fmax(distance(reference, exact, before), distance(reference, after, before));
-      least = std::fmin(least, distance(reference, exact, after) / change);
-    } catch (const std::exception&) {
-      continue;  // the law has no answer there: the error is unknown
-    }
+    const auto exact = answer_of(reference, law, before, impact.points);
+    if (!exact) continue;
+    const double change = std::fmax(distance(reference, *exact, before), distance(reference, after, before));
+    least = std::fmin(least, distance(reference, *exact, after) / change);
   }
   for (const auto& [before, after] : impact.of_pair) {
-    try {
-      const State first = exact_map(reference, law, before, impact.pair.front());
-      const State exact = exact_map(reference, law, first, impact.pair.back());
-      const double change = distance(reference, first, before) + distance(reference, exact, first);
-      least = std::fmin(least, distance(reference, exact, after) / change);
-    } catch (const std::exception&) {
-      continue;  // likewise
-    }
+    const auto first = answer_of(reference, law, before, impact.pair.front());
+    const auto exact = first ? answer_of(reference, law, *first, impact.pair.back()) : std::nullopt;
+    if (!exact) continue;
+    const double change = distance(reference, *first, before) + distance(reference, *exact, *first);
+    least = std::fmin(least, distance(reference, *exact, after) / change);
   }
   return least;
 }
 
 double law_error_of_speed(const Reference& reference, const FoundImpact& impact, double speed) {
   return std::sqrt(reference.body.mass) * speed / distance(reference, impact.after, impact.before);
-}
-
-std::vector<FoundImpact> impacts_of(const Motion& motion, const Reference& reference) {
-  return find_impacts(motion, reference, search_for(reference));
 }
 
 const std::vector<std::string>& verdict_names() {

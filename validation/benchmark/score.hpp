@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "validation/benchmark/found_impacts.hpp"
+#include "validation/benchmark/motion.hpp"
 
 namespace clatter::validation {
 
@@ -96,9 +96,6 @@ struct Score {
 [[nodiscard]] double law_error(const Reference& reference, const DeclaredLaw& law, const FoundImpact& impact);
 /// The same, of velocities that are off by a speed [m/s].
 [[nodiscard]] double law_error_of_speed(const Reference& reference, const FoundImpact& impact, double speed);
-/// Impacts of a motion that are large enough to be judged.
-[[nodiscard]] std::vector<FoundImpact> impacts_of(const Motion& motion, const Reference& reference);
-
 /// The larger of two errors; one that is no number counts as unknown.
 [[nodiscard]] double worse(double error, double other);
 

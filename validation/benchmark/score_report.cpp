@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "validation/benchmark/score_report.hpp"
+#include "validation/benchmark/benchmark_report.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -9,8 +9,6 @@
 #include <filesystem>
 #include <tuple>
 
-#include "validation/benchmark/benchmark_report.hpp"
-#include "validation/benchmark/score.hpp"
 #include "validation/output/bad_input.hpp"
 #include "validation/output/number.hpp"
 #include "validation/run/scene_value.hpp"
@@ -209,8 +207,7 @@ std::string short_reason(const Submission& one) {
 /// The files of a group stand together, the longest step first.
 std::vector<Submission> by_group(std::vector<Submission> submissions) {
   std::ranges::stable_sort(submissions, {}, [](const Submission& one) {
-    return std::tuple(one.head.problem, one.head.engine, one.head.version, one.head.settings, one.head.law,
-                      -one.head.step.value_or(0));
+    return std::tuple_cat(one.head.group(), std::tuple(-one.head.step.value_or(0)));
   });
   return submissions;
 }
@@ -245,6 +242,65 @@ void add_details(const Submission& one, std::vector<std::string>& notes) {
   if (!one.is_list && !one.head.step) notes.push_back(name + ": its step is unknown, for want of a line \"# step:\"");
   if (!one.score.law_is_declared && one.score.law != "any")
     notes.push_back(name + ": declares no law; judged by the one that fits best, " + one.score.law);
+}
+
+constexpr double least_drawn = 1e-17, most_drawn = 10;  // errors are drawn there that are 0, larger or unknown
+
+void add_answer(const Submission& submission, double curve, PicturePanel& panel) {
+  for (std::size_t n = 0; n < submission.score.impacts.size(); ++n) {
+    panel.rows.push_back(
+        {curve, static_cast<double>(n + 1), std::clamp(submission.score.impacts[n].error, least_drawn, most_drawn)});
+  }
+  panel.plot.curves.push_back(
+      {.x = "impact",
+       .y = "error",
+       .legend = fmt::format("{}: {}", file_name(submission), verdict_name(submission.verdict)) +
+                 (std::isfinite(submission.score.error()) ? " by " + submission.score.decided_by() : ""),
+       .style = FigureCurve::Style::line_points,
+       .where = {{"curve", curve}}});
+}
+
+constexpr double wrong_impacts = -10;  ///< curve of steps at which a file has wrong, missing or more impacts
+
+/// The worst error of V, Ω and t of a group over its steps.
+void add_steps(const SubmissionGroup& group, double curve, PicturePanel& panel) {
+  for (const SubmissionGroup::Step& step : group.steps) {
+    if (!step.step) continue;
+    const bool is_known = std::isfinite(step.motion_error);
+    const double error = is_known ? std::clamp(step.motion_error, least_drawn, most_drawn) : 1;
+    panel.rows.push_back({is_known ? curve : wrong_impacts, *step.step, error});
+    Range2& y = panel.plot.y;
+    y = {std::fmin(y.low, error / 5), std::fmax(y.high, error * 5)};
+    Range2& x = panel.plot.x;
+    x = {std::fmin(x.low, *step.step / 1.3), std::fmax(x.high, *step.step * 1.3)};
+  }
+  std::string name = group.head.problem;
+  for (const std::string& part : {group.head.engine, group.head.settings}) name += (part.empty() ? "" : " ") + part;
+  panel.plot.curves.push_back({.x = "step",
+                               .y = "error",
+                               .legend = name + (group.order ? fmt::format(": order {:.2f}", group.order->value) : ""),
+                               .style = FigureCurve::Style::line_points,
+                               .where = {{"curve", curve}}});
+}
+
+/// Their limits as dotted lines, those within the axis; by name each if there is room in the legend.
+void add_classes(const std::vector<double>& tolerances, const std::string& of_what, bool names_each,
+                 PicturePanel& panel) {
+  const std::string& axis = panel.columns[1].name;
+  for (std::size_t k = 0; k < tolerances.size(); ++k) {
+    if (!(tolerances[k] > panel.plot.y.low && tolerances[k] < panel.plot.y.high)) continue;
+    const double curve = -1 - static_cast<double>(k);
+    for (const double x : {panel.plot.x.low, panel.plot.x.high}) panel.rows.push_back({curve, x, tolerances[k]});
+    std::string legend;
+    if (names_each) legend = fmt::format("limit of {}{}", verdict_name(static_cast<Verdict>(k)), of_what);
+    else if (k == 0) legend = "from below up to: exact, sharp, good, coarse" + of_what;
+    panel.plot.curves.push_back({.x = axis,
+                                 .y = "error",
+                                 .legend = legend,
+                                 .style = k % 2 == 0 ? FigureCurve::Style::dotted : FigureCurve::Style::dashed,
+                                 .where = {{"curve", curve}},
+                                 .colour = ink});
+  }
 }
 
 }  // namespace
@@ -350,69 +406,6 @@ Requirement read_requirement(const std::string& name, const std::string& text) {
   }
   return {.verdict = static_cast<Verdict>(at - names.begin()), .error = {}};
 }
-
-namespace {
-
-constexpr double least_drawn = 1e-17, most_drawn = 10;  // errors are drawn there that are 0, larger or unknown
-
-void add_answer(const Submission& submission, double curve, PicturePanel& panel) {
-  for (std::size_t n = 0; n < submission.score.impacts.size(); ++n) {
-    panel.rows.push_back(
-        {curve, static_cast<double>(n + 1), std::clamp(submission.score.impacts[n].error, least_drawn, most_drawn)});
-  }
-  panel.plot.curves.push_back(
-      {.x = "impact",
-       .y = "error",
-       .legend = fmt::format("{}: {}", file_name(submission), verdict_name(submission.verdict)) +
-                 (std::isfinite(submission.score.error()) ? " by " + submission.score.decided_by() : ""),
-       .style = FigureCurve::Style::line_points,
-       .where = {{"curve", curve}}});
-}
-
-constexpr double wrong_impacts = -10;  ///< curve of steps at which a file has wrong, missing or more impacts
-
-/// The worst error of V, Ω and t of a group over its steps.
-void add_steps(const SubmissionGroup& group, double curve, PicturePanel& panel) {
-  for (const SubmissionGroup::Step& step : group.steps) {
-    if (!step.step) continue;
-    const bool is_known = std::isfinite(step.motion_error);
-    const double error = is_known ? std::clamp(step.motion_error, least_drawn, most_drawn) : 1;
-    panel.rows.push_back({is_known ? curve : wrong_impacts, *step.step, error});
-    Range2& y = panel.plot.y;
-    y = {std::fmin(y.low, error / 5), std::fmax(y.high, error * 5)};
-    Range2& x = panel.plot.x;
-    x = {std::fmin(x.low, *step.step / 1.3), std::fmax(x.high, *step.step * 1.3)};
-  }
-  std::string name = group.head.problem;
-  for (const std::string& part : {group.head.engine, group.head.settings}) name += (part.empty() ? "" : " ") + part;
-  panel.plot.curves.push_back({.x = "step",
-                               .y = "error",
-                               .legend = name + (group.order ? fmt::format(": order {:.2f}", group.order->value) : ""),
-                               .style = FigureCurve::Style::line_points,
-                               .where = {{"curve", curve}}});
-}
-
-/// Their limits as dotted lines, those within the axis; by name each if there is room in the legend.
-void add_classes(const std::vector<double>& tolerances, const std::string& of_what, bool names_each,
-                 PicturePanel& panel) {
-  const std::string& axis = panel.columns[1].name;
-  for (std::size_t k = 0; k < tolerances.size(); ++k) {
-    if (!(tolerances[k] > panel.plot.y.low && tolerances[k] < panel.plot.y.high)) continue;
-    const double curve = -1 - static_cast<double>(k);
-    for (const double x : {panel.plot.x.low, panel.plot.x.high}) panel.rows.push_back({curve, x, tolerances[k]});
-    std::string legend;
-    if (names_each) legend = fmt::format("limit of {}{}", verdict_name(static_cast<Verdict>(k)), of_what);
-    else if (k == 0) legend = "from below up to: exact, sharp, good, coarse" + of_what;
-    panel.plot.curves.push_back({.x = axis,
-                                 .y = "error",
-                                 .legend = legend,
-                                 .style = k % 2 == 0 ? FigureCurve::Style::dotted : FigureCurve::Style::dashed,
-                                 .where = {{"curve", curve}},
-                                 .colour = ink});
-  }
-}
-
-}  // namespace
 
 Picture score_picture(const std::vector<Submission>& submissions) {
   const std::vector<SubmissionGroup> groups = group_submissions(submissions);

@@ -121,10 +121,9 @@ double size_misfit(const NumericTable& table, const Reference& other, const Decl
   for (const FoundImpact& impact : impacts) {
     left = worse(left, law_error(other, law, impact));
     if (impact.points.empty()) return Score::unknown;
-    const Vector3 arm = other.arms(impact.before.attitude)[static_cast<std::size_t>(impact.points.front())];
-    const double approach = (impact.before.velocity + impact.before.angular_velocity.cross(arm)).norm();
+    const double approach = other.velocity(impact.before, impact.points.front()).norm();
     const double least = other.tolerances[1] * other.reach();
-    if (!(std::fabs(impact.before.position.z() + arm.z()) <= least + 2 * motion.step() * approach))
+    if (!(std::fabs(other.height(impact.before, impact.points.front())) <= least + 2 * motion.step() * approach))
       return Score::unknown;
   }
   return left;
@@ -132,10 +131,9 @@ double size_misfit(const NumericTable& table, const Reference& other, const Decl
 
 /// Whether the lowest point is at the ground, or was or will be within a step.
 bool is_at_ground(const Reference& reference, const State& state, double step) {
-  const std::vector<Vector3> arms = reference.arms(state.attitude);
-  const Vector3& arm = arms[lowest_of(arms)];
-  const double approach = std::fabs((state.velocity + state.angular_velocity.cross(arm)).z());
-  return std::fabs(state.position.z() + arm.z()) <= 1e-6 * reference.reach() + step * approach;
+  const int point = reference.lowest(state.attitude);
+  const double approach = std::fabs(reference.velocity(state, point).z());
+  return std::fabs(reference.height(state, point)) <= 1e-6 * reference.reach() + step * approach;
 }
 
 bool is_symmetric(const space::Body& body) {
@@ -156,7 +154,7 @@ std::vector<Cause> start_causes_of(const Motion& motion, const Reference& refere
 
 std::vector<Cause> size_causes_of(const Motion& motion, const Reference& reference, const DeclaredLaw& law,
                                   const FoundImpact& first, double law_left) {
-  if (!reference.is_planar || reference.is_compliant || reference.ground_ends || !is_symmetric(reference.body))
+  if (!reference.is_planar || reference.is_compliant || reference.ground_end || !is_symmetric(reference.body))
     return {};
   if (is_at_ground(reference, first.before, motion.step())) return {};
   const Vector3 half = half_size(reference.body);

@@ -5,11 +5,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <functional>
 #include <map>
 #include <numbers>
 #include <sstream>
-#include <tuple>
 #include <utility>
 #include <variant>
 
@@ -165,9 +164,9 @@ void score_gradients(const Answer& answer, const std::vector<GradientColumn>& co
                      Score& score) {
   if (columns.empty()) return;
   const ReferenceSequence& sequence = sequence_of(reference, score.law);
-  if (reference.is_compliant || sequence.law.is_moreau || reference.ground_ends) {
+  if (reference.is_compliant || sequence.law.is_moreau || reference.ground_end) {
     score.findings.emplace_back(
-        fmt::format("derivatives are not judged: none are known of this {}", reference.ground_ends ? "ground" : "law"));
+        fmt::format("derivatives are not judged: none are known of this {}", reference.ground_end ? "ground" : "law"));
     return;
   }
   DiscreteDrop drop = reference.drop;
@@ -359,32 +358,31 @@ Submission judge_file(const std::string& path, const Reference& reference, const
 }
 
 std::vector<SubmissionGroup> group_submissions(const std::vector<Submission>& submissions) {
-  using Name = std::tuple<std::string, std::string, std::string, std::string, std::string>;
-  std::map<Name, SubmissionGroup> groups;
+  std::vector<SubmissionGroup> groups;
   for (const Submission& one : submissions) {
     const SubmissionHead& head = one.head;
-    SubmissionGroup& group = groups[{head.problem, head.engine, head.version, head.settings, head.law}];
+    const auto is_its = [&](const SubmissionGroup& other) { return other.head.group() == head.group(); };
+    auto found = std::ranges::find_if(groups, is_its);
+    if (found == groups.end()) found = groups.insert(found, SubmissionGroup{});
+    SubmissionGroup& group = *found;
     group.head = head;
     group.verdict = std::max(group.verdict, one.verdict);
     auto step = std::find_if(group.steps.begin(), group.steps.end(),
                              [&](const SubmissionGroup::Step& other) { return other.step == head.step; });
     if (step == group.steps.end()) step = group.steps.insert(step, {.step = head.step});
     ++step->files;
-    constexpr double unknown = std::numeric_limits<double>::infinity();
-    step->motion_errors.push_back(one.score.order_is_right ? one.score.motion_error() : unknown);
+    step->motion_errors.push_back(one.score.order_is_right ? one.score.motion_error() : Score::unknown);
     step->motion_error = std::max(step->motion_error, step->motion_errors.back());
     step->verdict = std::max(step->verdict, one.verdict);
     step->law_error = std::max(step->law_error, one.score.law_error);
     step->error = std::max(step->error, one.score.error());
   }
-  std::vector<SubmissionGroup> all;
-  for (auto& [name, group] : groups) {
-    std::sort(group.steps.begin(), group.steps.end(),
-              [](const auto& a, const auto& b) { return a.step.value_or(0) > b.step.value_or(0); });
+  std::ranges::sort(groups, {}, [](const SubmissionGroup& group) { return group.head.group(); });
+  for (SubmissionGroup& group : groups) {
+    std::ranges::sort(group.steps, std::greater{}, [](const auto& one) { return one.step.value_or(0); });
     group.order = observed_order(group.steps);
-    all.push_back(std::move(group));
   }
-  return all;
+  return groups;
 }
 
 }  // namespace clatter::validation

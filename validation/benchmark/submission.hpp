@@ -4,6 +4,7 @@
 
 #include <optional>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "validation/benchmark/cause.hpp"
@@ -17,6 +18,9 @@ struct SubmissionHead {
   std::string problem, engine, version, settings;
   std::string law{};           ///< as DeclaredLaw::name; empty: not declared
   std::optional<double> step;  ///< of the code [s]
+
+  /// What files of one group have alike.
+  [[nodiscard]] auto group() const { return std::tie(problem, engine, version, settings, law); }
 };
 
 /// A file and how it does.

@@ -120,7 +120,7 @@ const Comparison& CaseRuns::comparison(const std::string& name, int impacts) {
   });
 }
 
-const std::vector<CaseRuns::SweptComparison>& CaseRuns::swept_comparison(const std::string& name) {
+const std::vector<SweptComparison>& CaseRuns::swept_comparison(const std::string& name) {
   return once<std::vector<SweptComparison>>(swept_comparisons_, name, [&] {
     const Scene scene = this->scene(name);
     const numeric::Body body = scene.make_body();

@@ -59,10 +59,6 @@ class CaseRuns {
   const std::vector<SweptSimulation>& sweep(const std::string& name, const RunOptions& options = {});
   const Comparison& comparison(const std::string& name, int impacts);
   /// Values of the case's sweep with the comparison of each.
-  struct SweptComparison {
-    double value;
-    Comparison comparison;
-  };
   const std::vector<SweptComparison>& swept_comparison(const std::string& name);
 
  private:

@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <vector>
 
-#include "validation/benchmark/score_report.hpp"
+#include "validation/benchmark/benchmark_report.hpp"
 #include "validation/command/command.hpp"
 #include "validation/command/options.hpp"
-#include "validation/compare/comparison_report.hpp"
+#include "validation/compare/comparison.hpp"
 #include "validation/output/bad_input.hpp"
 #include "validation/output/interrupt.hpp"
 #include "validation/output/number.hpp"

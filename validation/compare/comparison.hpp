@@ -11,6 +11,7 @@
 #include "validation/compare/discrete_side.hpp"
 #include "validation/compare/stiff_limit.hpp"
 #include "validation/output/estimated.hpp"
+#include "validation/output/report.hpp"
 #include "validation/run/motion_numbers.hpp"
 #include "validation/scene/scene.hpp"
 
@@ -82,6 +83,12 @@ struct Comparison {
 /// @throws analytic::OutsideModelError if the discrete model cannot represent the scene.
 [[nodiscard]] Comparison compare_models(const Scene& scene, const numeric::Body& body);
 
+/// One value of a swept scene.
+struct SweptComparison {
+  double value;
+  Comparison comparison;
+};
+
 // One number of an impact in both models.
 
 /// A number of an impact in both models.  Each function needs the models, or the limit, that its words name.
@@ -107,5 +114,22 @@ struct NumberPair {
   [[nodiscard]] double allowance() const { return impact.allowance[quantity]; }
   [[nodiscard]] double bar() const { return impact.limit->error[quantity]; }
 };
+
+// What `clatter compare` says.
+
+[[nodiscard]] std::vector<Column> comparison_columns();
+/// A row for each impact and number; tables leave out those that are zero by symmetry.
+[[nodiscard]] Report comparison_report(const Scene& scene, const Comparison& comparison);
+
+/// The number of an impact that deviates most for its size: deviation over scale, its error and what was predicted of
+/// it; the number whose limit is farthest off for what it may be: distance over scale, and its error bar.
+struct WorstNumber {
+  double deviation = 0, deviation_error = 0, predicted = 0, miss = 0, miss_error = 0, bar = 0;
+};
+/// The worst number of an impact that the discrete model has.
+[[nodiscard]] WorstNumber worst_number(const Comparison& comparison, const ComparedImpact& impact);
+
+/// A row for each value, impact and number; in tables the worst number of each impact.
+[[nodiscard]] Report swept_comparison_report(const Scene& scene, const std::vector<SweptComparison>& swept);
 
 }  // namespace clatter::validation

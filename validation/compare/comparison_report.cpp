@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "validation/compare/comparison_report.hpp"
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -36,6 +35,19 @@ Cell number_cell(const ComparedImpact& impact) {
 std::string short_end(const std::string& end) {
   const auto spaces = std::count(end.begin(), end.end(), ' ');
   return spaces == 0 ? end : fmt::format("{} at once", spaces + 1);
+}
+
+/// A difference, to two digits at most.
+Cell difference_cell(const Estimated& difference, double scale) {
+  Cell cell = known_cell(difference, {6, scale});
+  cell.digits = std::min(cell.digits, 2);
+  return cell;
+}
+
+/// By how much the limit is off; 0 where the error bar, which stands beside it, leaves no digit.
+Cell miss_cell(const Estimated& miss) {
+  const int digits = known_digits(miss.value, miss.error);
+  return digits > 0 || !miss.is_known() ? Cell(miss.value, std::min(digits, 2)) : Cell(miss.value, std::string("0"));
 }
 
 void add_rows(const Comparison& comparison, const ComparedImpact& impact, Grid& grid) {
@@ -271,30 +283,7 @@ Value corners_value(const Comparison& comparison) {
                        {"same_impacts", static_cast<long long>(apart.same_count)}};
 }
 
-}  // namespace
-
-std::vector<Column> comparison_columns() {
-  std::vector<Column> columns{{"n", "", "", "number of the impact, from 1"},
-                              {"quantity", "", "",
-                               "name of the number; time in s, angles in °, impulses in N·s, "
-                               "velocities in m/s, angular velocity in rad/s"},
-                              {"predictable", "", "", "whether each number of the impact is known to its error"},
-                              {"not_compared_because", "", "", "why the impact cannot be compared at this stiffness"}};
-  columns.insert(columns.end(), number_columns().begin(), number_columns().end());
-  return columns;
-}
-
-Cell difference_cell(const Estimated& difference, double scale) {
-  Cell cell = known_cell(difference, {6, scale});
-  cell.digits = std::min(cell.digits, 2);
-  return cell;
-}
-
-Cell miss_cell(const Estimated& miss) {
-  const int digits = known_digits(miss.value, miss.error);
-  return digits > 0 || !miss.is_known() ? Cell(miss.value, std::min(digits, 2)) : Cell(miss.value, std::string("0"));
-}
-
+/// What the column of the mesh's corners is, and how far it is from the body's; empty: they are the same.
 std::string corners_words(const Comparison& comparison) {
   if (!comparison.as_given) return "";
   const CornersApart apart = comparison.corners_apart();
@@ -312,6 +301,8 @@ std::string corners_words(const Comparison& comparison) {
   return words + fmt::format("; from impact {} on they are other impacts", apart.same_count + 1);
 }
 
+/// The head without rows.
+/// @param approach  speed of the first contact in the discrete model [m/s]; none: it is swept
 Report begun_comparison(const Scene& scene, std::optional<double> approach) {
   Report report = begun_report("compare", "discrete and continuous model, impact by impact");
   report.head = scene_head(scene, Model::continuous, approach);
@@ -324,6 +315,7 @@ Report begun_comparison(const Scene& scene, std::optional<double> approach) {
   return report;
 }
 
+/// One comparison's fields, and its rows, each behind the cells `front`.
 void add_comparison(const Comparison& comparison, const Row& front, Value& fields, Grid& grid) {
   fields["impacts"] = Value::List{};
   for (const ComparedImpact& impact : comparison.impacts)
@@ -337,42 +329,6 @@ void add_comparison(const Comparison& comparison, const Row& front, Value& field
   fields["mesh_corners"] = corners_value(comparison);
   fields["message"] = verdict_words(comparison);
 }
-
-Report comparison_report(const Scene& scene, const Comparison& comparison) {
-  Report report = begun_comparison(scene, comparison.approach_speed);
-  add_comparison(comparison, {}, report.fields, report.grid);
-  if (const std::string facets = facet_words(scene, comparison.run); !facets.empty()) {
-    report.head.push_back(facets);
-    report.fields["message"] = verdict_words(comparison) + "; " + facets;
-  }
-  const bool in_space = comparison.discrete.in_space;
-  report.digest->columns = {{"n", "n", ""},
-                            {"end", in_space ? "corner" : "end", ""},
-                            {"quantity", "", ""},
-                            {"discrete", "discrete", ""},
-                            {"continuous", "contin.", ""},
-                            {"deviation", in_space ? "dev." : "deviation", ""},
-                            {"predicted", in_space ? "pred." : "predicted", ""},
-                            {"miss", "limit off", ""},
-                            {"allowance", "±", ""}};
-  if (comparison.as_given) {
-    auto& columns = report.digest->columns;
-    columns.insert(columns.begin() + 4, Column{"mesh_corners", "corners", ""});
-  }
-  for (const ComparedImpact& impact : comparison.impacts) add_rows(comparison, impact, *report.digest);
-  report.notes = reasons(comparison);
-  for (const std::string& note : explanations(comparison)) report.notes.push_back(note);
-  report.notes.emplace_back(
-      "t in s, angles in °, P in N·s, V in m/s, Ω in rad/s; predicted: about how much the number should change because "
-      "contacts take time and go into the ground, this one and those before; no bound");
-  for (const std::string& words : {comparison.shortfall, corners_words(comparison), cause_words(comparison),
-                                   limit_words(comparison), verdict_words(comparison)}) {
-    if (!words.empty()) report.notes.push_back(words);
-  }
-  return report;
-}
-
-namespace {
 
 /// How often first impacts are not compared (–), by reason.
 void add_swept_reasons(const std::vector<SweptComparison>& swept, Report& report) {
@@ -416,6 +372,51 @@ Row worst_row(double value, const Comparison& comparison, const ComparedImpact& 
 }
 
 }  // namespace
+
+std::vector<Column> comparison_columns() {
+  std::vector<Column> columns{{"n", "", "", "number of the impact, from 1"},
+                              {"quantity", "", "",
+                               "name of the number; time in s, angles in °, impulses in N·s, "
+                               "velocities in m/s, angular velocity in rad/s"},
+                              {"predictable", "", "", "whether each number of the impact is known to its error"},
+                              {"not_compared_because", "", "", "why the impact cannot be compared at this stiffness"}};
+  columns.insert(columns.end(), number_columns().begin(), number_columns().end());
+  return columns;
+}
+
+Report comparison_report(const Scene& scene, const Comparison& comparison) {
+  Report report = begun_comparison(scene, comparison.approach_speed);
+  add_comparison(comparison, {}, report.fields, report.grid);
+  if (const std::string facets = facet_words(scene, comparison.run); !facets.empty()) {
+    report.head.push_back(facets);
+    report.fields["message"] = verdict_words(comparison) + "; " + facets;
+  }
+  const bool in_space = comparison.discrete.in_space;
+  report.digest->columns = {{"n", "n", ""},
+                            {"end", in_space ? "corner" : "end", ""},
+                            {"quantity", "", ""},
+                            {"discrete", "discrete", ""},
+                            {"continuous", "contin.", ""},
+                            {"deviation", in_space ? "dev." : "deviation", ""},
+                            {"predicted", in_space ? "pred." : "predicted", ""},
+                            {"miss", "limit off", ""},
+                            {"allowance", "±", ""}};
+  if (comparison.as_given) {
+    auto& columns = report.digest->columns;
+    columns.insert(columns.begin() + 4, Column{"mesh_corners", "corners", ""});
+  }
+  for (const ComparedImpact& impact : comparison.impacts) add_rows(comparison, impact, *report.digest);
+  report.notes = reasons(comparison);
+  for (const std::string& note : explanations(comparison)) report.notes.push_back(note);
+  report.notes.emplace_back(
+      "t in s, angles in °, P in N·s, V in m/s, Ω in rad/s; predicted: about how much the number should change because "
+      "contacts take time and go into the ground, this one and those before; no bound");
+  for (const std::string& words : {comparison.shortfall, corners_words(comparison), cause_words(comparison),
+                                   limit_words(comparison), verdict_words(comparison)}) {
+    if (!words.empty()) report.notes.push_back(words);
+  }
+  return report;
+}
 
 WorstNumber worst_number(const Comparison& comparison, const ComparedImpact& impact) {
   WorstNumber worst;

@@ -69,32 +69,6 @@ void add_difference(const AnySequence& base, const AnySequence& other, std::size
   }
 }
 
-Drop turned(Drop drop, double by) {
-  const double angle = drop.inclination.radians;
-  const double to = angle + by <= analytic::pi / 2 ? angle + by : angle - by;
-  drop.inclination = analytic::Angle::from_radians(std::clamp(to, 0.0, analytic::pi / 2));
-  return drop;
-}
-
-Drop shrunk(Drop drop, double by) {
-  const double factor = 1 - std::min(by / drop.body.reach(), 0.5);
-  for (Vertex& vertex : drop.body.vertices) vertex = {factor * vertex.x, factor * vertex.z};
-  return drop;
-}
-
-space::Drop turned(space::Drop drop, const Vector3& by) {
-  if (by.norm() > 0) drop.attitude = Eigen::AngleAxisd(by.norm(), by.normalized()) * drop.attitude;
-  return drop;
-}
-
-/// The body with the corner `by` further inside along one of its axes.
-space::Drop shrunk(space::Drop drop, const Vector3& corner, int axis, double by) {
-  const double reach = std::fabs(corner[axis]);
-  const double factor = 1 - (reach > 0 ? std::min(by / reach, 0.5) : 0);
-  for (Vector3& vertex : drop.body.vertices) vertex[axis] *= factor;
-  return drop;
-}
-
 Drop faster(Drop drop, double by) {
   drop.velocity.normal -= by;
   return drop;
@@ -105,37 +79,54 @@ space::Drop faster(space::Drop drop, double by) {
   return drop;
 }
 
-void add_effects(const Drop& drop, const ImpactRow& row, double contact_time, std::size_t index,
-                 std::vector<PredictedSize>& sizes) {
-  const Drop here = drop_at(drop, row);
-  const std::size_t impacts = sizes.size() - index;
-  const Sequence base = run(here, impacts);
-  const double rate = std::max(std::fabs(row.before.angular), std::fabs(row.impact.after.angular));
-  const bool flat = row.contact_angle == 0 || std::fabs(std::cos(row.contact_angle)) < 1e-15;
-  add_difference(base, run(faster(here, drop.gravity * contact_time), impacts), index, sizes, &PredictedSize::gravity);
-  if (!flat)
-    add_difference(base, run(turned(here, rate * contact_time / 2), impacts), index, sizes, &PredictedSize::turning);
-  const double depth = row.impact.approach_speed * contact_time / analytic::pi;
-  add_difference(base, run(shrunk(here, depth), impacts), index, sizes, &PredictedSize::indentation);
-  for (std::size_t i = index + 1; i < sizes.size(); ++i) sizes[i].delay[0] += contact_time / 2;
+/// The drop turned by what it turns until the middle of a contact; nothing where it stays as it lies.
+std::optional<Drop> turned(Drop drop, const ImpactRow& row, double time) {
+  if (row.contact_angle == 0 || std::fabs(std::cos(row.contact_angle)) < 1e-15) return std::nullopt;
+  const double by = std::max(std::fabs(row.before.angular), std::fabs(row.impact.after.angular)) * time / 2;
+  const double angle = drop.inclination.radians;
+  const double to = angle + by <= analytic::pi / 2 ? angle + by : angle - by;
+  drop.inclination = analytic::Angle::from_radians(std::clamp(to, 0.0, analytic::pi / 2));
+  return drop;
 }
 
-void add_effects(const space::Drop& drop, const space::ImpactRow& row, double time, std::size_t index,
-                 std::vector<PredictedSize>& sizes) {
-  const space::Drop here = drop_at(drop, row);
-  const std::size_t impacts = sizes.size() - index;
-  const space::Sequence base = run(here, impacts);
-  add_difference(base, run(faster(here, drop.gravity * time), impacts), index, sizes, &PredictedSize::gravity);
-  if (row.corners.size() == 1) {  // several corners stay together while they are in contact
-    const Vector3 &before = row.before.angular_velocity, &after = row.impact.angular_velocity_after;
-    const Vector3 turn = (before.norm() > after.norm() ? before : after) * (time / 2);
-    add_difference(base, run(turned(here, turn), impacts), index, sizes, &PredictedSize::turning);
-  }
+std::optional<space::Drop> turned(space::Drop drop, const space::ImpactRow& row, double time) {
+  if (row.corners.size() != 1) return std::nullopt;  // several corners stay together while they are in contact
+  const Vector3 &before = row.before.angular_velocity, &after = row.impact.angular_velocity_after;
+  const Vector3 by = (before.norm() > after.norm() ? before : after) * (time / 2);
+  if (by.norm() > 0) drop.attitude = Eigen::AngleAxisd(by.norm(), by.normalized()) * drop.attitude;
+  return drop;
+}
+
+/// The drop with its contact as far inside the body as a contact of this duration brings it.
+std::vector<Drop> shrunk(Drop drop, const ImpactRow& row, double time) {
+  const double depth = row.impact.approach_speed * time / analytic::pi;
+  const double factor = 1 - std::min(depth / drop.body.reach(), 0.5);
+  for (Vertex& vertex : drop.body.vertices) vertex = {factor * vertex.x, factor * vertex.z};
+  return {drop};
+}
+
+/// The same along each of the body's axes.
+std::vector<space::Drop> shrunk(const space::Drop& drop, const space::ImpactRow& row, double time) {
   const double depth = row.approach_speed * time / (2 * std::numbers::pi);  // of the pressure centre, in the mean
+  std::vector<space::Drop> all(3, drop);
   for (int axis = 0; axis < 3; ++axis) {
-    const space::Drop smaller = shrunk(here, row.corners.front().place, axis, depth);
-    add_difference(base, run(smaller, impacts), index, sizes, &PredictedSize::indentation);
+    const double reach = std::fabs(row.corners.front().place[axis]);
+    const double factor = 1 - (reach > 0 ? std::min(depth / reach, 0.5) : 0);
+    for (Vector3& vertex : all[static_cast<std::size_t>(axis)].body.vertices) vertex[axis] *= factor;
   }
+  return all;
+}
+
+void add_effects(const auto& drop, const auto& row, double time, std::size_t index, std::vector<PredictedSize>& sizes) {
+  const auto here = drop_at(drop, row);
+  const std::size_t impacts = sizes.size() - index;
+  const auto base = run(here, impacts);
+  const auto add = [&](const auto& other, MotionNumbers PredictedSize::*effect) {
+    add_difference(base, run(other, impacts), index, sizes, effect);
+  };
+  add(faster(here, drop.gravity * time), &PredictedSize::gravity);
+  if (const auto other = turned(here, row, time)) add(*other, &PredictedSize::turning);
+  for (const auto& smaller : shrunk(here, row, time)) add(smaller, &PredictedSize::indentation);
   for (std::size_t i = index + 1; i < sizes.size(); ++i) sizes[i].delay[0] += time / 2;
 }
 
@@ -170,72 +161,7 @@ space::Drop pressed_evenly(space::Drop drop, double depth) {
   return drop;
 }
 
-}  // namespace
-
-MotionNumbers PredictedSize::total() const {
-  MotionNumbers sum{};
-  for (std::size_t q = 0; q < motion_number_count; ++q)
-    sum[q] = gravity[q] + turning[q] + indentation[q] + delay[q] + tipping[q];
-  return sum;
-}
-
-Drop drop_at(const Drop& drop, const ImpactRow& row) {
-  Drop here = drop;
-  here.velocity = row.before;
-  double inclination = row.inclination;
-  if (std::fabs(inclination) > analytic::pi / 2) turn_over(here, inclination);
-  if (inclination < 0) mirror(here, inclination);
-  here.inclination = analytic::Angle::from_radians(std::min(inclination, analytic::pi / 2));
-  return here;
-}
-
-FaceTipping face_tipping(const space::Drop& drop, const space::ImpactRow& row) {
-  const space::Drop here = drop_at(drop, row);
-  const space::Matrix3 axes = here.attitude.toRotationMatrix();
-  const double depth = -(axes * row.corners.front().place).z();
-  const space::Sequence even = run(pressed_evenly(here, depth), 1);
-  const space::GroupImpact& group = *even.rows.at(0).group;
-  const Vector3 moment = Vector3(0, 0, -depth).cross(group.impulse) + group.moment.z() * Vector3::UnitZ();
-  const Vector3 turn = axes * here.body.inertia.inverse() * (axes.transpose() * moment);
-  const double tipped = turn.head<2>().norm(), reach = here.body.reach();
-  FaceTipping tipping{.lean = tipped * reach / row.approach_speed, .size = {}};
-  const double speed = depth * tipped + tipping.lean * tipping.lean * row.approach_speed;
-  const MotionNumbers by_rule = motion_numbers(impact_of(row).value),
-                      evenly = motion_numbers(impact_of(even.rows[0]).value);
-  MotionNumbers& size = tipping.size;
-  for (std::size_t q = 2; q < motion_number_count; ++q) size[q] = std::fabs(evenly[q] - by_rule[q]);
-  for (const std::size_t axis : {0, 1, 2}) {
-    size[2 + axis] += here.body.mass * speed;
-    size[5 + axis] += speed;
-  }
-  for (const std::size_t axis : {0, 1}) size[8 + axis] += tipped;
-  size[10] += speed / reach;
-  return tipping;
-}
-
-space::Drop drop_at(const space::Drop& drop, const space::ImpactRow& row) {
-  space::Drop here = drop;
-  here.attitude = row.before.attitude;
-  here.velocity = row.before.velocity;
-  here.angular_velocity = row.before.angular_velocity;
-  return here;
-}
-
-std::vector<PredictedSize> predicted_sizes(const Drop& drop, const Sequence& sequence,
-                                           const std::vector<double>& contact_times) {
-  return sizes_of(drop, sequence, contact_times);
-}
-
-std::vector<PredictedSize> predicted_sizes(const space::Drop& drop, const space::Sequence& sequence,
-                                           const std::vector<double>& contact_times) {
-  return sizes_of(drop, sequence, contact_times);
-}
-
-namespace {
-
-namespace space = analytic::space;
 using analytic::ImpactMode;
-using analytic::ImpactRow;
 using numeric::Vector3;
 using space::PathKind;
 
@@ -375,6 +301,41 @@ std::string open_words(const space::Drop& drop, const space::ImpactRow& row) {
                      tilt_words(tilted_outcomes(drop.body, row.before, row.corners, drop.law)));
 }
 
+/// How far an even bed may be from the rule of a level face that rubs, whatever its stiffness.  Friction acts at the
+/// depth h below the centre of mass.  The rule's pressure leans against it, so that the body does not turn; an even bed
+/// leans only as far as the body tips.
+struct FaceTipping {
+  double lean = 0;  ///< δω × reach / approach speed, δω the turn by friction under even pressure; 0 without friction
+  /// How far the row's numbers are from a face under even pressure, δω, what it does to slip, h δω, and lean² of
+  /// the approach speed for the corners that let go early.
+  MotionNumbers size{};
+};
+
+/// @pre row.group->is_whole
+FaceTipping face_tipping(const space::Drop& drop, const space::ImpactRow& row) {
+  const space::Drop here = drop_at(drop, row);
+  const space::Matrix3 axes = here.attitude.toRotationMatrix();
+  const double depth = -(axes * row.corners.front().place).z();
+  const space::Sequence even = run(pressed_evenly(here, depth), 1);
+  const space::GroupImpact& group = *even.rows.at(0).group;
+  const Vector3 moment = Vector3(0, 0, -depth).cross(group.impulse) + group.moment.z() * Vector3::UnitZ();
+  const Vector3 turn = axes * here.body.inertia.inverse() * (axes.transpose() * moment);
+  const double tipped = turn.head<2>().norm(), reach = here.body.reach();
+  FaceTipping tipping{.lean = tipped * reach / row.approach_speed, .size = {}};
+  const double speed = depth * tipped + tipping.lean * tipping.lean * row.approach_speed;
+  const MotionNumbers by_rule = motion_numbers(impact_of(row).value),
+                      evenly = motion_numbers(impact_of(even.rows[0]).value);
+  MotionNumbers& size = tipping.size;
+  for (std::size_t q = 2; q < motion_number_count; ++q) size[q] = std::fabs(evenly[q] - by_rule[q]);
+  for (const std::size_t axis : {0, 1, 2}) {
+    size[2 + axis] += here.body.mass * speed;
+    size[5 + axis] += speed;
+  }
+  for (const std::size_t axis : {0, 1}) size[8 + axis] += tipped;
+  size[10] += speed / reach;
+  return tipping;
+}
+
 /// Why the rule of corners that land at once is not that of an ever stiffer ground, and how far an even bed may be from
 /// it where it is.
 void judge_group(const space::Drop& drop, const space::ImpactRow& row, const Vector3& mean, SequenceImpact& impact) {
@@ -442,6 +403,41 @@ DiscreteSide space_side(const Scene& scene, const space::Drop& drop) {
 }
 
 }  // namespace
+
+MotionNumbers PredictedSize::total() const {
+  MotionNumbers sum{};
+  for (std::size_t q = 0; q < motion_number_count; ++q)
+    sum[q] = gravity[q] + turning[q] + indentation[q] + delay[q] + tipping[q];
+  return sum;
+}
+
+Drop drop_at(const Drop& drop, const ImpactRow& row) {
+  Drop here = drop;
+  here.velocity = row.before;
+  double inclination = row.inclination;
+  if (std::fabs(inclination) > analytic::pi / 2) turn_over(here, inclination);
+  if (inclination < 0) mirror(here, inclination);
+  here.inclination = analytic::Angle::from_radians(std::min(inclination, analytic::pi / 2));
+  return here;
+}
+
+space::Drop drop_at(const space::Drop& drop, const space::ImpactRow& row) {
+  space::Drop here = drop;
+  here.attitude = row.before.attitude;
+  here.velocity = row.before.velocity;
+  here.angular_velocity = row.before.angular_velocity;
+  return here;
+}
+
+std::vector<PredictedSize> predicted_sizes(const Drop& drop, const Sequence& sequence,
+                                           const std::vector<double>& contact_times) {
+  return sizes_of(drop, sequence, contact_times);
+}
+
+std::vector<PredictedSize> predicted_sizes(const space::Drop& drop, const space::Sequence& sequence,
+                                           const std::vector<double>& contact_times) {
+  return sizes_of(drop, sequence, contact_times);
+}
 
 DiscreteSide discrete_side(const Scene& scene, DiscreteBody& body) {
   const DiscreteDrop drop = body.drop(scene);

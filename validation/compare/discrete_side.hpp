@@ -41,19 +41,6 @@ struct PredictedSize {
                                                          const analytic::space::Sequence& sequence,
                                                          const std::vector<double>& contact_times);
 
-/// How far an even bed may be from the rule of a level face that rubs, whatever its stiffness.  Friction acts at the
-/// depth h below the centre of mass.  The rule's pressure leans against it, so that the body does not turn; an even bed
-/// leans only as far as the body tips.
-struct FaceTipping {
-  double lean = 0;  ///< δω × reach / approach speed, δω the turn by friction under even pressure; 0 without friction
-  /// How far the row's numbers are from a face under even pressure, δω, what it does to slip, h δω, and lean² of
-  /// the approach speed for the corners that let go early.
-  MotionNumbers size{};
-};
-
-/// @pre row.group->is_whole
-[[nodiscard]] FaceTipping face_tipping(const analytic::space::Drop& drop, const analytic::space::ImpactRow& row);
-
 /// The drop that begins with this row: the state before it, turned or mirrored so that the inclination lies in
 /// [0°, 90°].  Speeds of tangential and angular motion may change sign with that.
 [[nodiscard]] analytic::Drop drop_at(const analytic::Drop& drop, const analytic::ImpactRow& row);

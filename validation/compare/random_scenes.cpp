@@ -9,6 +9,7 @@
 #include "analytic/law/viscoelastic.hpp"
 #include "numeric/mesh/mesh.hpp"
 #include "validation/compare/comparison.hpp"
+#include "validation/output/number.hpp"
 
 namespace clatter::validation {
 namespace {
@@ -34,72 +35,31 @@ bool counts(const ComparedImpact& impact, std::size_t q) {
   return (*impact.discrete)[q] != 0;
 }
 
-void summarise(RandomScenesResult& result) {
-  std::vector<double> ratios;
-  std::size_t covered = 0;
-  for (const LimitSample& sample : result.samples) {
-    if (sample.gap <= sample.bar) ++covered;
-    if (sample.gap > 0) ratios.push_back(sample.bar / sample.gap);
-    result.farthest = std::max(result.farthest, sample.gap / sample.bar);
-  }
-  if (result.samples.empty()) return;
-  result.covered = static_cast<double>(covered) / static_cast<double>(result.samples.size());
-  if (ratios.empty()) return;
-  const auto middle = ratios.begin() + static_cast<std::ptrdiff_t>(ratios.size() / 2);
-  std::nth_element(ratios.begin(), middle, ratios.end());
-  result.median_bar = *middle;
-}
-
-}  // namespace
-
-Scene random_scene(std::uint64_t seed, int index) {
-  Uniform random(seed, index);
-  Scene scene;
-  scene.path = fmt::format("random scene {} of family {}", index, seed);
-  choose_body(random, scene.body);
-  const double size = scene.body.shape == BodyScene::Shape::rod ? scene.body.length : scene.body.size.x();
-  scene.angle_deg = random(3, 87);
-  scene.speed = random.logarithmic(0.3, 10);
-  scene.tangential_velocity = random.one_in(2) ? 0 : random(-1, 1) * scene.speed;
-  scene.spin = random.one_in(2) ? 0 : random(-0.5, 0.5) * scene.speed / size;
-  scene.world.gravity = random.one_in(3) ? 0 : random(1, 20);
-  scene.world.ground.stiffness = random.logarithmic(1e6, 1e12);
+/// Ground of random stiffness, damping by a restitution at the speed of the drop, and friction up to `most_friction`.
+void choose_ground(Uniform& random, double most_friction, Scene& scene) {
+  numeric::Ground& ground = scene.world.ground;
+  ground.stiffness = random.logarithmic(1e6, 1e12);
   const double restitution = random.one_in(3) ? 1 : random(0.3, 1);
-  scene.world.ground.damping =
-      scene.world.ground.stiffness * analytic::damping_of_restitution(restitution) / scene.speed;
-  const double friction = random.one_in(3) ? 0 : random(0, 0.8);
-  scene.world.ground.static_friction = scene.world.ground.sliding_friction = friction;
-  scene.world.ground.area = random.one_in(2) ? numeric::AreaMeasure::surface : numeric::AreaMeasure::projected;
-  return scene;
+  ground.damping = ground.stiffness * analytic::damping_of_restitution(restitution) / scene.speed;
+  ground.static_friction = ground.sliding_friction = random.one_in(3) ? 0 : random(0, most_friction);
+  ground.area = random.one_in(2) ? numeric::AreaMeasure::surface : numeric::AreaMeasure::projected;
 }
 
-RandomScenesResult run_random_scenes(const RandomScenes& scenes) {
-  RandomScenesResult result;
+/// compare(scene's number) of each scene, until the run is ended; false if it was.
+bool for_each_scene(const RandomScenes& scenes, const auto& compare) {
   for (int index = 0; index < scenes.count; ++index) {
-    result.complete = scenes.goes_on();
-    if (!result.complete) break;
-    Scene scene = random_scene(scenes.seed, index);
-    scene.request.impacts = scenes.impacts;
-    scene.request.error_estimates = false;
-    scene.accuracy.evaluation_limit = 100'000;  // soft grounds may hold a body for thousands of oscillations
-    const Comparison comparison = compare_models(scene, scene.make_body());
-    bool any = false;
-    for (const ComparedImpact& impact : comparison.impacts) {
-      if (!impact.has_landing()) continue;
-      any = true;
-      for (const auto& [name, heading, q] : comparison.discrete.quantities) {
-        if (!counts(impact, q)) continue;
-        const double gap = std::fabs(impact.limit->value[q] - (*impact.discrete)[q]);
-        result.samples.push_back({gap, impact.limit->error[q]});
-      }
-    }
-    result.with_limit += any ? 1 : 0;
+    if (!scenes.goes_on()) return false;
+    compare(index);
   }
-  summarise(result);
-  return result;
+  return true;
 }
 
-namespace {
+Comparison compared(Scene scene, const numeric::Body& body, int impacts) {
+  scene.request.impacts = impacts;
+  scene.request.error_estimates = false;
+  scene.accuracy.evaluation_limit = 100'000;  // soft grounds may hold a body for thousands of oscillations
+  return compare_models(scene, body);
+}
 
 using numeric::Vector3;
 
@@ -191,15 +151,6 @@ void choose_drop(Uniform& random, double size, Scene& scene) {
   scene.world.gravity = random.one_in(3) ? 0 : random(1, 20);
 }
 
-void choose_ground(Uniform& random, Scene& scene) {
-  scene.world.ground.stiffness = random.logarithmic(1e6, 1e12);
-  const double restitution = random.one_in(3) ? 1 : random(0.3, 1);
-  scene.world.ground.damping =
-      scene.world.ground.stiffness * analytic::damping_of_restitution(restitution) / scene.speed;
-  scene.world.ground.static_friction = scene.world.ground.sliding_friction = random.one_in(3) ? 0 : random(0, 1);
-  scene.world.ground.area = random.one_in(2) ? numeric::AreaMeasure::surface : numeric::AreaMeasure::projected;
-}
-
 /// Bars over gaps of the impact's numbers.
 void take_bars(const Comparison& comparison, const ComparedImpact& impact, RandomSpaceResult& result,
                std::vector<double>& ratios) {
@@ -227,32 +178,67 @@ void judge(const Comparison& comparison, int index, RandomSpaceResult& result, s
 
 }  // namespace
 
+Scene random_scene(std::uint64_t seed, int index) {
+  Uniform random(seed, index);
+  Scene scene;
+  scene.path = fmt::format("random scene {} of family {}", index, seed);
+  choose_body(random, scene.body);
+  const double size = scene.body.shape == BodyScene::Shape::rod ? scene.body.length : scene.body.size.x();
+  scene.angle_deg = random(3, 87);
+  scene.speed = random.logarithmic(0.3, 10);
+  scene.tangential_velocity = random.one_in(2) ? 0 : random(-1, 1) * scene.speed;
+  scene.spin = random.one_in(2) ? 0 : random(-0.5, 0.5) * scene.speed / size;
+  scene.world.gravity = random.one_in(3) ? 0 : random(1, 20);
+  choose_ground(random, 0.8, scene);
+  return scene;
+}
+
+RandomScenesResult run_random_scenes(const RandomScenes& scenes) {
+  RandomScenesResult result;
+  std::vector<double> ratios;
+  std::size_t covered = 0;
+  const auto take = [&](double gap, double bar) {
+    ++result.samples;
+    if (gap <= bar) ++covered;
+    if (gap > 0) ratios.push_back(bar / gap);
+    result.farthest = std::max(result.farthest, gap / bar);
+  };
+  result.complete = for_each_scene(scenes, [&](int index) {
+    const Scene scene = random_scene(scenes.seed, index);
+    const Comparison comparison = compared(scene, scene.make_body(), scenes.impacts);
+    bool any = false;
+    for (const ComparedImpact& impact : comparison.impacts) {
+      if (!impact.has_landing()) continue;
+      any = true;
+      for (const auto& [name, heading, q] : comparison.discrete.quantities) {
+        if (counts(impact, q)) take(std::fabs(impact.limit->value[q] - (*impact.discrete)[q]), impact.limit->error[q]);
+      }
+    }
+    result.with_limit += any ? 1 : 0;
+  });
+  if (result.samples > 0) result.covered = static_cast<double>(covered) / static_cast<double>(result.samples);
+  result.median_bar = upper_median(ratios);
+  return result;
+}
+
 SpaceScene random_space_scene(std::uint64_t seed, int index) {
   Uniform random(seed, index);
   Scene scene;
   scene.path = fmt::format("random scene {} in space of family {}", index, seed);
   numeric::Body body = choose_body(random, index, scene.body);
   choose_drop(random, 2 * body.radius(), scene);
-  choose_ground(random, scene);
+  choose_ground(random, 1, scene);
   return {std::move(scene), std::move(body)};
 }
 
-RandomSpaceResult run_random_space_scenes(const RandomSpaceScenes& scenes) {
+RandomSpaceResult run_random_space_scenes(const RandomScenes& scenes) {
   RandomSpaceResult result;
   std::vector<double> ratios;
-  for (int index = 0; index < scenes.count; ++index) {
-    result.complete = scenes.goes_on();
-    if (!result.complete) break;
-    SpaceScene drop = random_space_scene(scenes.seed, index);
-    drop.scene.request.impacts = scenes.impacts;
-    drop.scene.request.error_estimates = false;
-    drop.scene.accuracy.evaluation_limit = 100'000;  // soft grounds may hold a body for thousands of oscillations
-    judge(compare_models(drop.scene, drop.body), index, result, ratios);
-  }
-  if (ratios.empty()) return result;
-  const auto middle = ratios.begin() + static_cast<std::ptrdiff_t>(ratios.size() / 2);
-  std::nth_element(ratios.begin(), middle, ratios.end());
-  result.median_bar = *middle;
+  result.complete = for_each_scene(scenes, [&](int index) {
+    const SpaceScene drop = random_space_scene(scenes.seed, index);
+    judge(compared(drop.scene, drop.body, scenes.impacts), index, result, ratios);
+  });
+  result.median_bar = upper_median(ratios);
   return result;
 }
 

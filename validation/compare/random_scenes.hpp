@@ -42,18 +42,13 @@ struct RandomScenes {
   std::function<bool()> goes_on = [] { return true; };  ///< asked before each scene; false ends the run
 };
 
-/// One number of one impact: how far the limit is from the discrete value, and its error bar.
-struct LimitSample {
-  double gap = 0, bar = 0;
-};
-
 struct RandomScenesResult {
-  bool complete = true;  ///< false: ended by `goes_on`, and the numbers are those of the scenes before
-  int with_limit = 0;    ///< scenes that have a limit to hold against a discrete impact
-  std::vector<LimitSample> samples;
-  double covered = 0;     ///< share of the samples whose gap lies within the bar
-  double median_bar = 0;  ///< of bar/gap
-  double farthest = 0;    ///< largest gap/bar
+  bool complete = true;     ///< false: ended by `goes_on`, and the numbers are those of the scenes before
+  int with_limit = 0;       ///< scenes that have a limit to hold against a discrete impact
+  std::size_t samples = 0;  ///< numbers of impacts with a gap between limit and discrete value, and an error bar
+  double covered = 0;       ///< share of the samples whose gap lies within the bar
+  double median_bar = 0;    ///< of bar/gap
+  double farthest = 0;      ///< largest gap/bar
 };
 
 /// Numbers that are equal by construction (the first start and angle) or zero in the discrete model are no samples.
@@ -71,14 +66,6 @@ struct SpaceScene {
 /// and an L of random size, in any attitude, with random k_G, e (by c_G at the speed of the drop), μ, gravity,
 /// velocity along the ground and spin.  The same on every machine.
 [[nodiscard]] SpaceScene random_space_scene(std::uint64_t seed, int index);
-
-/// Which scenes of a family to run.
-struct RandomSpaceScenes {
-  std::uint64_t seed = 0;
-  int count = 0;                                        ///< scenes 0 to count − 1
-  int impacts = 0;                                      ///< of each
-  std::function<bool()> goes_on = [] { return true; };  ///< asked before each scene; false ends the run
-};
 
 /// An impact without a limit within its bar.
 struct UnsettledImpact {
@@ -98,6 +85,6 @@ struct RandomSpaceResult {
   [[nodiscard]] double share() const { return static_cast<double>(within) / static_cast<double>(impacts); }
 };
 
-[[nodiscard]] RandomSpaceResult run_random_space_scenes(const RandomSpaceScenes& scenes);
+[[nodiscard]] RandomSpaceResult run_random_space_scenes(const RandomScenes& scenes);
 
 }  // namespace clatter::validation

@@ -19,6 +19,21 @@ using numeric::ImpactRecord;
 using numeric::Simulation;
 using numeric::Vector3;
 
+/// Sizes beside which a contact must be short, and how its ground is damped.
+struct ContactSizes {
+  const numeric::Body& body;
+  double feature = 0;  ///< length below which the contact of a planar run sees the shape that it has in the limit [m]
+  double gravity = 0;  ///< [m/s²]
+  bool planar = true;
+  double damping_per_stiffness = 0;  ///< c_G/k_G, the same for all runs [s/m]
+};
+
+/// The first impacts of a ladder of runs, and why there are no more.
+struct CommonRows {
+  std::size_t count = 0;
+  std::string ended;  ///< one clause; empty: all that were asked for are there
+};
+
 constexpr double small = 0.02;  // what turning, gravity and indentation may be at the first stiffness
 
 double feature_of(const Scene& scene, const numeric::Body& body) {
@@ -110,28 +125,8 @@ std::string difference(const ImpactRecord& one, const ImpactRecord& other, const
   return one.touches != other.touches ? "contacts merge in some of the runs" : "";
 }
 
-}  // namespace
-
-bool is_same_place(const numeric::Body& body, const Vector3& one, const Vector3& other) {
-  const double near = 1e-6 * body.radius();
-  const auto& smooth = body.smooth();
-  if (!smooth) return (one - other).norm() <= near;
-  if (smooth->ends() == 1) return true;
-  const auto half = [&](const Vector3& place) {
-    const double off = place.x() - smooth->centre.x();
-    return off < -near ? -1 : off > near ? 1 : 0;
-  };
-  return half(one) == half(other);
-}
-
-ContactSizes ContactSizes::of(const Scene& scene, const numeric::Body& body, bool planar) {
-  return {.body = body,
-          .feature = feature_of(scene, body),
-          .gravity = scene.world.gravity,
-          .planar = planar,
-          .damping_per_stiffness = scene.world.ground.damping_per_stiffness()};
-}
-
+/// Rows that all runs have, with the same places and the same course of friction, and whose contacts are single and
+/// short in the softest of them.
 CommonRows common_rows(const std::vector<Simulation>& ladder, const ContactSizes& sizes) {
   CommonRows rows = clean_rows(ladder.front(), sizes);
   for (const Simulation& run : ladder) {
@@ -144,11 +139,6 @@ CommonRows common_rows(const std::vector<Simulation>& ladder, const ContactSizes
   }
   return rows;
 }
-
-namespace {
-
-using numeric::ImpactRecord;
-using numeric::Simulation;
 
 constexpr double stiffening = 16;   // halves the contact time of a corner, F ∝ δ³, the slowest to converge
 constexpr int runs_of_a_limit = 5;  // three triples of runs
@@ -288,51 +278,46 @@ bool take_limit(const std::vector<Simulation>& ladder, const ContactSizes& sizes
   return rows.count == ladder.front().impacts.size() && at.largest_change <= settled_change;
 }
 
-/// Runs of a scene on ever stiffer ground with the same damping over stiffness.
-class StifferRuns {
- public:
-  StifferRuns(const Scene& scene, const numeric::Body& body, const LimitRequest& request)
-      : body_(body), world_(scene.world), accuracy_(scene.accuracy), start_(scene.start(body)),
-        damping_per_stiffness_(world_.ground.damping_per_stiffness()) {
-    world_.planar = request.planar;
-    world_.point_friction = !request.planar && !request.whole_patch;
-    accuracy_.method = numeric::Method::automatic;
-    accuracy_.step = 0;
-    accuracy_.digits = 12;
-    accuracy_.evaluation_limit =
-        request.planar ? std::min(accuracy_.evaluation_limit, evaluations_in_plane) : evaluations_in_space;
-  }
-  [[nodiscard]] Simulation at(double stiffness, const numeric::Request& wanted) {
-    if (world_.ground.modulus > 0) {
-      world_.ground.modulus = stiffness;
-    } else {
-      world_.ground.stiffness = stiffness;
-      world_.ground.damping = damping_per_stiffness_ * stiffness;
-    }
-    return numeric::simulate(body_, world_, start_, wanted, accuracy_);
-  }
-
- private:
-  const numeric::Body& body_;
-  numeric::World world_;
-  numeric::Accuracy accuracy_;
-  numeric::MotionState start_;
-  double damping_per_stiffness_;
-};
-
 }  // namespace
 
+bool is_same_place(const numeric::Body& body, const Vector3& one, const Vector3& other) {
+  const double near = 1e-6 * body.radius();
+  const auto& smooth = body.smooth();
+  if (!smooth) return (one - other).norm() <= near;
+  if (smooth->ends() == 1) return true;
+  const auto half = [&](const Vector3& place) {
+    const double off = place.x() - smooth->centre.x();
+    return off < -near ? -1 : off > near ? 1 : 0;
+  };
+  return half(one) == half(other);
+}
+
 StiffLimit stiff_limit(const Scene& scene, const numeric::Body& body, const LimitRequest& request) {
-  StifferRuns runs(scene, body, request);
+  numeric::World world = scene.world;
+  world.planar = request.planar;
+  world.point_friction = !request.planar && !request.whole_patch;
+  numeric::Accuracy accuracy = scene.accuracy;
+  accuracy.method = numeric::Method::automatic;
+  accuracy.step = 0;
+  accuracy.digits = 12;
+  accuracy.evaluation_limit =
+      request.planar ? std::min(accuracy.evaluation_limit, evaluations_in_plane) : evaluations_in_space;
+  const numeric::MotionState start = scene.start(body);
   numeric::Request wanted{.impacts = request.impacts, .error_estimates = false, .amplification = false};
-  const ContactSizes sizes = ContactSizes::of(scene, body, request.planar);
+  const ContactSizes sizes{.body = body,
+                           .feature = feature_of(scene, body),
+                           .gravity = scene.world.gravity,
+                           .planar = request.planar,
+                           .damping_per_stiffness = scene.world.ground.damping_per_stiffness()};
   StiffLimit limit{
       .rows = {}, .by_modulus = scene.world.ground.modulus > 0, .ended = "the runs end before a limit shows"};
-  const auto run_at = [&](double stiffness) {
+  const auto run_at = [&](double stiffness) {  // the same damping over stiffness
     ++limit.runs;
-    return runs.at(stiffness, wanted);
+    (limit.by_modulus ? world.ground.modulus : world.ground.stiffness) = stiffness;
+    if (!limit.by_modulus) world.ground.damping = sizes.damping_per_stiffness * stiffness;
+    return numeric::simulate(body, world, start, wanted, accuracy);
   };
-  double stiffness = scene.world.ground.modulus > 0 ? scene.world.ground.modulus : scene.world.ground.stiffness;
+  double stiffness = limit.by_modulus ? scene.world.ground.modulus : scene.world.ground.stiffness;
   std::vector<Simulation> ladder;
   // The runs' contacts must all be short enough, and the limit must have settled: climb until they are and it has.
   while (limit.runs < most_runs) {

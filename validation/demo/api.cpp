@@ -12,14 +12,14 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
-#include "validation/compare/comparison_report.hpp"
+#include "validation/compare/comparison.hpp"
 #include "validation/demo/scene_exchange.hpp"
 #include "validation/explain/explanation_report.hpp"
 #include "validation/output/bad_input.hpp"
 #include "validation/output/json.hpp"
 #include "validation/output/version.hpp"
 #include "validation/plan/planned_run.hpp"
-#include "validation/rod/angles_report.hpp"
+#include "validation/rod/rod.hpp"
 #include "validation/run/discrete_scene.hpp"
 #include "validation/run/history_file.hpp"
 #include "validation/scene/argument.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "validation/evidence/cell.hpp"
+#include "validation/evidence/extremes.hpp"
 
 #include <fmt/format.h>
 
@@ -138,8 +138,8 @@ std::vector<int> range(int from, int to, int step) {
 }
 
 /// Lower ends of the ranges of residual_bins().
-std::vector<AxisValue> arm_angles() {
-  std::vector<AxisValue> angles;
+Values arm_angles() {
+  Values angles;
   for (std::size_t i = 1; i < std::size(arm_angle_edges); ++i)
     angles.push_back({arm_angle_edges[i - 1], fmt::format("{}-{}", arm_angle_edges[i - 1], arm_angle_edges[i])});
   return angles;
@@ -150,22 +150,6 @@ Values elevations() {
   constexpr double upright = std::numbers::pi / 2;
   return plain({0}) + decades({-300, -30, -16, -15, -12, -9, -6, -3, -2, -1}) + plain({0.5, 1, 1.5}) +
          Values{{upright - 1e-6, "up-1e-6"}, {upright - 1e-12, "up-1e-12"}, {upright, "upright"}};
-}
-
-/// The axes of round bodies in space.
-std::vector<MapAxis> round_axes() {
-  return {
-      {"disc", "disc", "angle between the ground and the face of a spinning disc, a tenth as thick as wide [rad]",
-       elevations()},
-      {"needle", "needle", "angle between the ground and the axis of a spinning needle, 50 times as long as wide [rad]",
-       elevations()},
-      {"slenderness", "L/2R", "length over diameter of a spinning cylinder", decades(range(-9, 9, 1))},
-      {"bounces", "e level", "coefficient of restitution of a disc that bounces level to its rest",
-       plain({0}) + decades({-300, -100, -16, -9, -3, -1}) + plain({0.5, 0.9, 0.999}) +
-           Values{{1 - 1e-6, "1-1e-6"}, {1 - 1e-9, "1-1e-9"}, {1 - 1e-12, "1-1e-12"}, {1, "1"}}},
-      {"hops", "e rim", "coefficient of restitution of a tilted disc that rattles on its rim",
-       decades({-16, -9, -3, -1}) + plain({0.3, 0.5, 0.7, 0.9, 0.95})},
-  };
 }
 
 std::vector<MapAxis> make_axes() {
@@ -196,6 +180,16 @@ std::vector<MapAxis> make_axes() {
       {"turns", "turns", "turns of the body during one flight", decades(range(0, 18, 1))},
       {"impacts", "n", "impacts of an elastic body in one run",
        plain({1, 2, 5, 10, 20, 50, 100, 200, 500, 1000, 2000, 5000, 10000})},
+      {"disc", "disc", "angle between the ground and the face of a spinning disc, a tenth as thick as wide [rad]",
+       elevations()},
+      {"needle", "needle", "angle between the ground and the axis of a spinning needle, 50 times as long as wide [rad]",
+       elevations()},
+      {"slenderness", "L/2R", "length over diameter of a spinning cylinder", decades(range(-9, 9, 1))},
+      {"bounces", "e level", "coefficient of restitution of a disc that bounces level to its rest",
+       plain({0}) + decades({-300, -100, -16, -9, -3, -1}) + plain({0.5, 0.9, 0.999}) +
+           Values{{1 - 1e-6, "1-1e-6"}, {1 - 1e-9, "1-1e-9"}, {1 - 1e-12, "1-1e-12"}, {1, "1"}}},
+      {"hops", "e rim", "coefficient of restitution of a tilted disc that rattles on its rim",
+       decades({-16, -9, -3, -1}) + plain({0.3, 0.5, 0.7, 0.9, 0.95})},
       {"squares", "square", "tracked squares by the angle between arm and vertical at impact 1 [°]", arm_angles()},
       {"cubes", "cube", "tracked cubes by the angle between arm and vertical at impact 1 [°]", arm_angles()},
       {"long",
@@ -229,17 +223,13 @@ double ExtremeCell::digits() const {
 void add_cases(std::vector<ExtremeCase>& cases, const MapAxis& axis, ModelLevel model,
                const std::function<CellMeasure(double, const CellClock&)>& work) {
   for (const AxisValue& at : axis.values) {
-    cases.push_back({axis.name, at.value, at.label, model,
+    cases.push_back({{axis.name, at.value, at.label, model},
                      [work, value = at.value](const CellClock& clock) { return work(value, clock); }});
   }
 }
 
 ExtremeCell fill_cell(const ExtremeCase& extreme, double seconds) {
-  ExtremeCell cell{.axis = extreme.axis,
-                   .value = extreme.value,
-                   .label = extreme.label,
-                   .model = extreme.model,
-                   .long_run = extreme.long_run};
+  ExtremeCell cell{extreme};
   const CellClock clock(seconds);
   run(extreme, clock, cell);
   cell.seconds = clock.elapsed();
@@ -258,20 +248,14 @@ std::string cell_failure(const ExtremeCell& cell, double seconds) {
 }
 
 const std::vector<MapAxis>& map_axes() {
-  static const std::vector<MapAxis> axes = [] {
-    std::vector<MapAxis> all = make_axes();
-    const std::vector<MapAxis> round = round_axes();
-    all.insert(all.end() - 3, round.begin(), round.end());  // before those that are measured, and the long runs
-    return all;
-  }();
+  static const std::vector<MapAxis> axes = make_axes();
   return axes;
 }
 
 const MapAxis& map_axis(const std::string& name) {
-  for (const MapAxis& axis : map_axes()) {
-    if (axis.name == name) return axis;
-  }
-  throw std::out_of_range("no axis " + name);
+  const auto found = std::ranges::find(map_axes(), name, &MapAxis::name);
+  if (found == map_axes().end()) throw std::out_of_range("no axis " + name);
+  return *found;
 }
 
 }  // namespace clatter::validation

@@ -15,6 +15,7 @@
 #include "validation/compare/case_runs.hpp"
 #include "validation/oracles/reference_table.hpp"
 #include "validation/output/number.hpp"
+#include "validation/output/report.hpp"
 
 namespace clatter::validation {
 
@@ -28,10 +29,6 @@ enum class Finding {
 [[nodiscard]] const char* answer_name(Finding answer);
 /// The answer to a claim in words, given whether the inequality that it states holds.
 [[nodiscard]] inline Finding holds_if(bool claim) { return claim ? Finding::holds : Finding::refuted; }
-/// The answer to a claim that prints a number: `value` must round to `printed`, whose last digit counts `unit`.
-[[nodiscard]] inline Finding rounds_to(double value, double printed, double unit) {
-  return holds_if(std::fabs(value - printed) <= unit / 2);
-}
 /// A number as the words on a finding show it, to `digits` significant digits.
 [[nodiscard]] inline std::string number(double value, int digits = 5) { return significant(value, digits); }
 
@@ -130,6 +127,29 @@ struct CheckResult {
 [[nodiscard]] std::vector<CheckResult> verify_checks(
     const std::vector<const Check*>& checks, CaseRuns& case_runs,
     const std::function<bool(std::size_t, std::size_t, const std::string&)>& progress);
+
+// What is said of a run: a table, and the results as one HTML page that needs nothing beside it.
+
+/// Counts of a run.
+struct VerifySummary {
+  std::size_t passed = 0, failed = 0, not_run = 0;
+  double seconds = 0;  ///< of all threads [s]
+};
+[[nodiscard]] VerifySummary summary_of(const std::vector<CheckResult>& results);
+/// Exit status: 0 all passed, 1 a check failed, 130 interrupted.
+[[nodiscard]] int verify_status(const VerifySummary& summary);
+/// "75 of 75 checks passed; …".
+[[nodiscard]] std::string summary_words(const VerifySummary& summary);
+
+[[nodiscard]] std::vector<Column> verify_columns();
+/// A row for each check.
+[[nodiscard]] Report verify_report(const std::vector<CheckResult>& results, const std::string& selection);
+
+/// The page: verdicts, and the figures that the checks belong to, redrawn from `case_runs` as inline SVG with the
+/// command that reproduces each.  No script, no request to anywhere.
+/// @throws std::runtime_error if gnuplot is not there or fails.
+[[nodiscard]] std::string verify_page(const std::vector<CheckResult>& results, const std::string& selection,
+                                      CaseRuns& case_runs);
 
 // What checks refer to: tables that the program carries (30 digits of the thin rod's first three impacts, and others),
 // the contact angles of the elastic rod, of which many claims and errata speak, and the folds at which its second and

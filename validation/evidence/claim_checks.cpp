@@ -15,6 +15,11 @@ using analytic::degrees_per_radian;
 using numeric::ImpactNumbers;
 using numeric::Simulation;
 
+/// The answer to a claim that prints a number: `value` must round to `printed`, whose last digit counts `unit`.
+Finding rounds_to(double value, double printed, double unit) {
+  return holds_if(std::fabs(value - printed) <= unit / 2);
+}
+
 Measured second_is_twice(CaseRuns&) {
   const ContactAngles at = elastic_angles(1e-6);
   const double ratio = at.impulse[1] / at.impulse[0];

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "validation/evidence/continuous_cases.hpp"
+#include "validation/evidence/extreme_cases.hpp"
 
 #include <fmt/format.h>
 
@@ -11,7 +11,6 @@
 #include "analytic/law/viscoelastic.hpp"
 #include "numeric/mesh/generators.hpp"
 #include "validation/evidence/oracles.hpp"
-#include "validation/scene/names.hpp"
 
 namespace clatter::validation {
 namespace {
@@ -19,6 +18,18 @@ namespace {
 using numeric::ImpactNumbers;
 using numeric::Outcome;
 using numeric::Simulation;
+
+/// Powers of two by which the units of a scene have been multiplied.
+struct UnitScale {
+  double length = 1, mass = 1, time = 1;
+};
+
+/// Worst difference of the impacts' numbers, each relative to the size of its kind at the impact, and the largest
+/// error estimate of `run` in the same measure: starts, durations, impulses, peak forces, velocities, energies.
+struct RunDistance {
+  double error = 0;
+  double estimate = 0;  ///< infinite if the model says that it does not know
+};
 
 /// What the elastic energy may drift by in each impact: 10⁻⁴ of the digits asked for is the tolerance of a step, and a
 /// contact takes tens of steps.
@@ -41,6 +52,108 @@ GoesOn until(const CellClock& clock, double share) {
 double radius_of(const ContinuousCase& scene) { return scene.size.norm() / 2; }
 
 double bound_of(const RunDistance& distance) { return std::clamp(estimate_factor * distance.estimate, promised, 1.0); }
+
+constexpr double degree = 3.14159265358979323846 / 180;
+
+/// How the numbers of an impact scale with the units, and the size that each kind has there.
+struct Sizes {
+  double time, impulse, force, speed, rate, energy;
+};
+
+Sizes sizes_of(const ImpactNumbers& n, double mass_unit, double radius) {
+  const double speed = std::max({n.approach_speed, n.velocity_after.norm(), n.angular_velocity_after.norm() * radius});
+  return {.time = n.duration,
+          .impulse = std::max(n.impulse.norm(), mass_unit * std::numeric_limits<double>::min()),
+          .force = n.peak_force,
+          .speed = speed,
+          .rate = speed / radius,
+          .energy = std::max(n.energy_before, n.energy_after)};
+}
+
+class ScaledComparison {
+ public:
+  ScaledComparison(const UnitScale& unit) : unit_(unit) {}
+
+  void impact(const ImpactNumbers& n, const ImpactNumbers& error, const ImpactNumbers& truth, const Sizes& size) {
+    const double speed = unit_.length / unit_.time;
+    const double impulse = unit_.mass * speed;
+    add(n.start, error.start, truth.start, unit_.time, std::max(truth.start, size.time));
+    add(n.duration, error.duration, truth.duration, unit_.time, size.time);
+    add(n.peak_force, error.peak_force, truth.peak_force, impulse / unit_.time, size.force);
+    add(n.energy_after, error.energy_after, truth.energy_after, impulse * speed, size.energy);
+    for (int i = 0; i < 3; ++i) {
+      add(n.impulse[i], error.impulse[i], truth.impulse[i], impulse, size.impulse);
+      add(n.velocity_after[i], error.velocity_after[i], truth.velocity_after[i], speed, size.speed);
+      add(n.angular_velocity_after[i], error.angular_velocity_after[i], truth.angular_velocity_after[i], 1 / unit_.time,
+          size.rate);
+    }
+  }
+
+  RunDistance result;
+
+ private:
+  void add(double value, double estimate, double truth, double unit, double size) {
+    const double off = value / unit == truth ? 0 : std::fabs(value / unit - truth) / size;
+    if (!(off <= result.error)) result.error = std::isfinite(off) ? off : infinite;
+    const double part = estimate == 0 ? 0 : estimate / unit / size;
+    if (!(part <= result.estimate)) result.estimate = std::isfinite(part) ? part : infinite;
+  }
+
+  const UnitScale& unit_;
+};
+
+/// Infinite where one is no number.
+double worst_over(const Simulation& run, const auto& measure) {
+  double worst = 0;
+  for (const numeric::ImpactRecord& row : run.impacts) {
+    const double value = measure(row);
+    if (!(value <= worst)) worst = std::isfinite(value) ? value : infinite;
+  }
+  return worst;
+}
+
+bool has_ended_well(Outcome outcome) {
+  return outcome == Outcome::no_further_impact || outcome == Outcome::impact_limit || outcome == Outcome::at_rest ||
+         outcome == Outcome::sustained_contact;
+}
+
+/// The run as what a cell shows: ends early by exception.
+/// @throws EndedEarly for any outcome but no-further-impact, impact-limit and at-rest, or without an impact.
+Simulation require_case(const ContinuousCase& scene, const ContinuousRun& how, const GoesOn& goes_on,
+                        CellMeasure& measure) {
+  Simulation run;
+  measure.seconds = timed([&] { run = run_case(scene, how, goes_on); });
+  measure.evaluations = run.force_evaluations;
+  measure.outcome = outcome_name(run);
+  const std::string reached = fmt::format("{} ({} impacts before)", run.message, run.impacts.size());
+  if (run.outcome == Outcome::interrupted) throw EndedEarly(CellVerdict::time_limit, measure.outcome, reached);
+  if (!has_ended_well(run.outcome)) throw EndedEarly(CellVerdict::ended_early, measure.outcome, reached);
+  if (run.impacts.empty()) throw EndedEarly(CellVerdict::broken, measure.outcome, "a drop without an impact");
+  return run;
+}
+
+ContinuousCase scaled(const ContinuousCase& scene, const UnitScale& by) {
+  ContinuousCase out = scene;
+  out.size *= by.length;
+  out.mass *= by.mass;
+  out.velocity *= by.length / by.time;
+  out.gravity *= by.length / by.time / by.time;
+  const double stress = by.mass / by.time / by.time / by.length;  // N/m²; in steps that do not overflow
+  out.ground.stiffness *= stress / by.length;
+  out.ground.damping *= stress / by.length * by.time / by.length;
+  return out;
+}
+
+/// @param run in units multiplied by `scale`; @param truth in units of 1
+RunDistance distance_of(const Simulation& run, const Simulation& truth, const UnitScale& scale, double radius) {
+  ScaledComparison comparison(scale);
+  if (run.impacts.size() != truth.impacts.size()) return {infinite, infinite};
+  for (std::size_t i = 0; i < run.impacts.size(); ++i) {
+    const Sizes size = sizes_of(truth.impacts[i].value, 1, radius);
+    comparison.impact(run.impacts[i].value, run.impacts[i].error, truth.impacts[i].value, size);
+  }
+  return comparison.result;
+}
 
 /// Against another method at four digits more, on the scene in units of 1; the ledger of energy counts too.
 CellMeasure by_other_method(const ContinuousCase& unit, const UnitScale& scale, bool planar, const CellClock& clock) {
@@ -122,70 +235,6 @@ CellMeasure continuous_cell(const std::string& axis, double value, bool planar, 
   return by_other_method(scene, scale, planar, clock);
 }
 
-constexpr double degree = 3.14159265358979323846 / 180;
-
-/// How the numbers of an impact scale with the units, and the size that each kind has there.
-struct Sizes {
-  double time, impulse, force, speed, rate, energy;
-};
-
-Sizes sizes_of(const ImpactNumbers& n, double mass_unit, double radius) {
-  const double speed = std::max({n.approach_speed, n.velocity_after.norm(), n.angular_velocity_after.norm() * radius});
-  return {.time = n.duration,
-          .impulse = std::max(n.impulse.norm(), mass_unit * std::numeric_limits<double>::min()),
-          .force = n.peak_force,
-          .speed = speed,
-          .rate = speed / radius,
-          .energy = std::max(n.energy_before, n.energy_after)};
-}
-
-class ScaledComparison {
- public:
-  ScaledComparison(const UnitScale& unit) : unit_(unit) {}
-
-  void impact(const ImpactNumbers& n, const ImpactNumbers& error, const ImpactNumbers& truth, const Sizes& size) {
-    const double speed = unit_.length / unit_.time;
-    const double impulse = unit_.mass * speed;
-    add(n.start, error.start, truth.start, unit_.time, std::max(truth.start, size.time));
-    add(n.duration, error.duration, truth.duration, unit_.time, size.time);
-    add(n.peak_force, error.peak_force, truth.peak_force, impulse / unit_.time, size.force);
-    add(n.energy_after, error.energy_after, truth.energy_after, impulse * speed, size.energy);
-    for (int i = 0; i < 3; ++i) {
-      add(n.impulse[i], error.impulse[i], truth.impulse[i], impulse, size.impulse);
-      add(n.velocity_after[i], error.velocity_after[i], truth.velocity_after[i], speed, size.speed);
-      add(n.angular_velocity_after[i], error.angular_velocity_after[i], truth.angular_velocity_after[i], 1 / unit_.time,
-          size.rate);
-    }
-  }
-
-  RunDistance result;
-
- private:
-  void add(double value, double estimate, double truth, double unit, double size) {
-    const double off = value / unit == truth ? 0 : std::fabs(value / unit - truth) / size;
-    if (!(off <= result.error)) result.error = std::isfinite(off) ? off : infinite;
-    const double part = estimate == 0 ? 0 : estimate / unit / size;
-    if (!(part <= result.estimate)) result.estimate = std::isfinite(part) ? part : infinite;
-  }
-
-  const UnitScale& unit_;
-};
-
-/// Infinite where one is no number.
-double worst_over(const Simulation& run, const auto& measure) {
-  double worst = 0;
-  for (const numeric::ImpactRecord& row : run.impacts) {
-    const double value = measure(row);
-    if (!(value <= worst)) worst = std::isfinite(value) ? value : infinite;
-  }
-  return worst;
-}
-
-bool has_ended_well(Outcome outcome) {
-  return outcome == Outcome::no_further_impact || outcome == Outcome::impact_limit || outcome == Outcome::at_rest ||
-         outcome == Outcome::sustained_contact;
-}
-
 }  // namespace
 
 std::vector<ExtremeCase> continuous_cases(const MapAxis& axis) {
@@ -210,41 +259,6 @@ Simulation run_case(const ContinuousCase& scene, const ContinuousRun& how, const
   const numeric::Observer observer{.progress = [&](int, long) { return goes_on(); }};
   const numeric::Drop drop{.inclination = scene.angle_deg * degree, .velocity = scene.velocity};
   return simulate(body, world, touching_state(body, drop), request, accuracy, observer);
-}
-
-Simulation require_case(const ContinuousCase& scene, const ContinuousRun& how, const GoesOn& goes_on,
-                        CellMeasure& measure) {
-  Simulation run;
-  measure.seconds = timed([&] { run = run_case(scene, how, goes_on); });
-  measure.evaluations = run.force_evaluations;
-  measure.outcome = outcome_name(run);
-  const std::string reached = fmt::format("{} ({} impacts before)", run.message, run.impacts.size());
-  if (run.outcome == Outcome::interrupted) throw EndedEarly(CellVerdict::time_limit, measure.outcome, reached);
-  if (!has_ended_well(run.outcome)) throw EndedEarly(CellVerdict::ended_early, measure.outcome, reached);
-  if (run.impacts.empty()) throw EndedEarly(CellVerdict::broken, measure.outcome, "a drop without an impact");
-  return run;
-}
-
-ContinuousCase scaled(const ContinuousCase& scene, const UnitScale& by) {
-  ContinuousCase out = scene;
-  out.size *= by.length;
-  out.mass *= by.mass;
-  out.velocity *= by.length / by.time;
-  out.gravity *= by.length / by.time / by.time;
-  const double stress = by.mass / by.time / by.time / by.length;  // N/m²; in steps that do not overflow
-  out.ground.stiffness *= stress / by.length;
-  out.ground.damping *= stress / by.length * by.time / by.length;
-  return out;
-}
-
-RunDistance distance_of(const Simulation& run, const Simulation& truth, const UnitScale& scale, double radius) {
-  ScaledComparison comparison(scale);
-  if (run.impacts.size() != truth.impacts.size()) return {infinite, infinite};
-  for (std::size_t i = 0; i < run.impacts.size(); ++i) {
-    const Sizes size = sizes_of(truth.impacts[i].value, 1, radius);
-    comparison.impact(run.impacts[i].value, run.impacts[i].error, truth.impacts[i].value, size);
-  }
-  return comparison.result;
 }
 
 double worst_ledger_gap(const Simulation& run) {

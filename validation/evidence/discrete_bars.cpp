@@ -1,16 +1,22 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "validation/evidence/discrete_bars.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <bit>
 #include <cmath>
 #include <random>
-#include <sstream>
 #include <stdexcept>
 
 #include "analytic/base/errors.hpp"
+#include "validation/compare/random_scenes.hpp"
+#include "validation/evidence/check.hpp"
 #include "validation/oracles/digits.hpp"
 #include "validation/oracles/event_oracle.hpp"
+#include "validation/output/number.hpp"
+#include "validation/plan/planned_run.hpp"
+#include "validation/run/motion_numbers.hpp"
 
 namespace clatter::validation {
 namespace {
@@ -111,9 +117,7 @@ class RowJudge {
     ++coverage_.numbers;
     if (error <= bar) ++coverage_.numbers_inside;
     else {
-      std::ostringstream text;
-      text << ' ' << name << ' ' << value << " +- " << bar << " off " << error;
-      outside_ += text.str();
+      outside_ += fmt::format(" {} {} +- {} off {}", name, value, bar, error);
     }
     if (error > 0) coverage_.ratios.push_back(bar / error);
   }
@@ -186,10 +190,9 @@ void judge_end(const Sequence& sequence, const oracle::EventSequence<Real>& trut
   ++coverage.certain_ends;
   coverage.certain_ends_right += right ? 1 : 0;
   if (!right)
-    coverage.outside.push_back("ends after " + std::to_string(sequence.rows.size()) + " as " +
-                               std::to_string(static_cast<int>(sequence.outcome)) + ", not after " +
-                               std::to_string(truth.impacts.size()) + " as " +
-                               std::to_string(static_cast<int>(truth.end)) + ": " + scene.words());
+    coverage.outside.push_back(fmt::format("ends after {} as {}, not after {} as {}: {}", sequence.rows.size(),
+                                           static_cast<int>(sequence.outcome), truth.impacts.size(),
+                                           static_cast<int>(truth.end), scene.words()));
   if (!right || sequence.rows.size() > truth.impacts.size()) return;
   Real sum = 0;
   for (const auto& impact : truth.impacts) sum += impact.normal_impulse;
@@ -220,19 +223,103 @@ void judge_rows(const Sequence& sequence, const oracle::EventSequence<Real>& tru
     if (same) judge_row(row, truth.impacts[i], judge);
     const std::string wrong = same ? judge.outside() : " another vertex";
     if (wrong.empty()) ++coverage.rows_inside;
-    else coverage.outside.push_back("impact " + std::to_string(i + 1) + wrong + ": " + scene.words());
+    else coverage.outside.push_back(fmt::format("impact {}{}: {}", i + 1, wrong, scene.words()));
   }
+}
+
+// The checks: how many errors lie within their bars, and how much wider these are than the errors.
+
+constexpr int bar_family = 9;
+constexpr int scene_count = 60;
+constexpr int discrete_impacts = 400;  ///< of a sequence that does not end before
+constexpr double least_covered = 0.95;
+constexpr double widest_median = 10;
+/// Bars of the discrete model hold an ulp of each number given, too, which the drop of the check does not have.
+constexpr double least_covered_discrete = 0.995, widest_discrete_median = 100;
+/// Errors of single numbers below this part of the number's size are those of the truth too.
+constexpr double truth_error = 1e-12;
+
+/// Errors and bars of numbers, over the sizes of their sequence.
+class BarSample {
+ public:
+  void take(double error, double bar) {
+    ++count_;
+    if (error <= bar + truth_error) ++covered_;
+    if (error > truth_error) ratios_.push_back(bar / error);
+  }
+
+  /// @param scenes  in words
+  [[nodiscard]] Measured measured(const std::string& scenes) {
+    const double middle = upper_median(ratios_);
+    const double outside = 1 - static_cast<double>(covered_) / static_cast<double>(count_);
+    const bool holds = outside <= 1 - least_covered && middle <= widest_median;
+    return {100 * (1 - outside), outside, holds_if(holds),
+            fmt::format("% of {} numbers of {} lie within their bars; bars are {} times the error in the median",
+                        count_, scenes, significant(middle, 2))};
+  }
+
+ private:
+  std::size_t count_ = 0, covered_ = 0;
+  std::vector<double> ratios_;
+};
+
+/// The same drop by another method, at a tolerance that is as good as none.
+numeric::Simulation truth_of(const Scene& scene, const numeric::Body& body) {
+  numeric::Accuracy accuracy = scene.accuracy;
+  accuracy.method = numeric::Method::rkf45;
+  accuracy.tolerance = 2e-13;
+  const numeric::Request request{.impacts = scene.request.impacts, .error_estimates = false, .amplification = false};
+  return numeric::simulate(body, scene.world, scene.start(body), request, accuracy);
+}
+
+Measured bars_of_the_simulator(CaseRuns& case_runs) {
+  BarSample sample;
+  for (int index = 0; index < scene_count; ++index) {
+    if (!case_runs.goes_on()) throw CaseRuns::Interrupted{};
+    Scene scene = random_scene(bar_family, index);
+    scene.accuracy.digits = 9;
+    scene.request.impacts = 2;
+    scene.accuracy.evaluation_limit = 300'000;  // soft grounds may hold a body for thousands of oscillations
+    const numeric::Body body = scene.make_body();
+    const numeric::Simulation run = run_to_digits(scene, body).run;
+    const numeric::Simulation truth = truth_of(scene, body);
+    if (run.impacts.empty()) continue;
+    const MotionNumbers sizes = motion_sizes(run, run.impacts.size(), body);
+    for (std::size_t i = 0; i < std::min(run.impacts.size(), truth.impacts.size()); ++i) {
+      const numeric::ImpactRecord& row = run.impacts[i];
+      if (!row.predictable || std::isnan(row.error.start)) continue;
+      const auto impact = impact_of(row);
+      const MotionNumbers value = motion_numbers(impact.value), bar = motion_numbers(impact.error),
+                          exact = motion_numbers(impact_of(truth.impacts[i]).value);
+      for (std::size_t q = 0; q < motion_number_count; ++q) {
+        if (exact[q] != 0) sample.take(std::fabs(value[q] - exact[q]) / sizes[q], bar[q] / sizes[q]);
+      }
+    }
+  }
+  return sample.measured(fmt::format("{} random scenes", scene_count));
+}
+
+Measured bars_of_the_discrete_model(CaseRuns& case_runs) {
+  BarCoverage coverage;
+  for (int index = 0; index < scene_count; ++index) {
+    if (!case_runs.goes_on()) throw CaseRuns::Interrupted{};
+    judge_bars(random_bar_scene(bar_family, index), discrete_impacts, coverage);
+    judge_bars(random_damped_bar_scene(bar_family, index), discrete_impacts, coverage);
+  }
+  const double inside = static_cast<double>(coverage.rows_inside) / static_cast<double>(coverage.predictable);
+  const bool holds = inside >= least_covered_discrete && coverage.median_ratio() <= widest_discrete_median &&
+                     coverage.certain_ends_right == coverage.certain_ends;
+  return {
+      100 * inside, 1 - inside, holds_if(holds),
+      fmt::format("% of {} predictable impacts of {} random scenes lie within their bars with all numbers; bars are {} "
+                  "times the error in the median; {} of {} ends that are certain are right",
+                  coverage.predictable, coverage.scenes, significant(coverage.median_ratio(), 2),
+                  coverage.certain_ends_right, coverage.certain_ends)};
 }
 
 }  // namespace
 
-double BarCoverage::median_ratio() const {
-  if (ratios.empty()) return 0;
-  std::vector<double> sorted = ratios;
-  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
-  std::nth_element(sorted.begin(), middle, sorted.end());
-  return *middle;
-}
+double BarCoverage::median_ratio() const { return upper_median(ratios); }
 
 void judge_bars(const BarScene& scene, int impacts, BarCoverage& coverage) {
   Sequence sequence;
@@ -252,8 +339,6 @@ void judge_bars(const BarScene& scene, int impacts, BarCoverage& coverage) {
   judge_end(sequence, truth, scene, coverage);
 }
 
-using analytic::FrictionKind;
-
 analytic::Drop BarScene::drop() const {
   const analytic::PlanarBody body =
       shape == BarShape::box
@@ -267,14 +352,11 @@ analytic::Drop BarScene::drop() const {
 }
 
 std::string BarScene::words() const {
-  std::ostringstream text;
-  text.precision(17);
-  text << (shape == BarShape::box ? "box " : "rod ") << length << " x " << half_thickness << " m, " << mass << " kg, "
-       << degrees << " deg, " << velocity.normal << ' ' << velocity.tangential << " m/s, " << velocity.angular
-       << " rad/s, g " << gravity << ", e " << law.restitution << " law " << static_cast<int>(law.law) << " damping "
-       << law.damping_per_stiffness << " friction " << static_cast<int>(law.friction) << ' ' << law.friction_value
-       << ", digits " << digits;
-  return text.str();
+  return fmt::format(
+      "{} {} x {} m, {} kg, {} deg, {} {} m/s, {} rad/s, g {}, e {} law {} damping {} friction {} {}, digits {}",
+      shape == BarShape::box ? "box" : "rod", length, half_thickness, mass, degrees, velocity.normal,
+      velocity.tangential, velocity.angular, gravity, law.restitution, static_cast<int>(law.law),
+      law.damping_per_stiffness, static_cast<int>(law.friction), law.friction_value, digits);
 }
 
 BarScene random_bar_scene(unsigned family, int index) {
@@ -313,5 +395,7 @@ BarScene random_damped_bar_scene(unsigned family, int index) {
   scene.law.damping_per_stiffness = damping_number / -scene.velocity.normal;
   return scene;
 }
+
+CheckMeasures bar_measures() { return {{"B1", bars_of_the_discrete_model}, {"B2", bars_of_the_simulator}}; }
 
 }  // namespace clatter::validation

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <limits>
 
-#include "validation/evidence/cell.hpp"
 #include "validation/evidence/extreme_cases.hpp"
 #include "validation/evidence/oracles.hpp"
 
@@ -68,11 +67,15 @@ Drop rod_drop(double angle_deg, double gravity) {
           .law = {}};
 }
 
+Sequence sequence_of(const Drop& drop, int impacts, CellMeasure& measure) {
+  return timed_sequence(drop, {.impacts = impacts, .digits = 6, .amplification = false}, measure);
+}
+
 CellMeasure by_laws(const Drop& drop) {
   const double impulse = drop.body.mass * std::fabs(drop.velocity.normal);
   const double rounding = eps + std::numeric_limits<double>::denorm_min() / impulse;
   CellMeasure measure{.bound = std::fmin(law_ulps * rounding, 1), .oracle = retrace_oracle};
-  measure.error = retrace(drop, timed_sequence(drop, 6, measure)).residual;
+  measure.error = retrace(drop, sequence_of(drop, 6, measure)).residual;
   return measure;
 }
 
@@ -82,7 +85,7 @@ CellMeasure by_exact_rod(const RodStart& start) {
   drop.body.uniform_thin_rod = false;
   drop.law.restitution = start.parameters.restitution;
   CellMeasure measure{.bound = law_ulps * eps, .oracle = retrace_oracle};
-  const Sequence sequence = timed_sequence(drop, 3, measure);
+  const Sequence sequence = sequence_of(drop, 3, measure);
   measure.error = retrace(drop, sequence).residual;
   const RodImpacts impacts = rod_impacts(sequence);
   if (impacts.count == 0) return measure;  // lands flat
@@ -98,7 +101,7 @@ CellMeasure by_restitution(double damping_per_stiffness) {
   Drop drop = rod_drop(20, 9.81);
   drop.law = {.law = analytic::RestitutionLaw::viscoelastic, .damping_per_stiffness = damping_per_stiffness};
   CellMeasure measure{.bound = law_ulps * eps, .oracle = "restitution's equation at 64 bits"};
-  const Sequence sequence = timed_sequence(drop, 3, measure);
+  const Sequence sequence = sequence_of(drop, 3, measure);
   const analytic::Impact& first = sequence.rows.at(0).impact;
   const long double exact = exact_restitution(static_cast<long double>(damping_per_stiffness) * first.approach_speed);
   const double off = static_cast<double>(std::fabs(first.restitution() - exact) / exact);
@@ -110,7 +113,7 @@ CellMeasure by_restitution(double damping_per_stiffness) {
 CellMeasure by_energy(int impacts) {
   Drop drop = rod_drop(20, 9.81);
   CellMeasure measure{.bound = energy_ulps_per_impact * eps * impacts, .oracle = "energy kept"};
-  const Retrace found = retrace(drop, timed_sequence(drop, impacts, measure));
+  const Retrace found = retrace(drop, sequence_of(drop, impacts, measure));
   measure.error = std::max(found.energy_drift, found.momentum_drift);
   return measure;
 }

@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // `clatter verify`, `clatter verify --figures` and `clatter verify --extremes`: what holds, and how it is seen.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <filesystem>
+#include <set>
 
 #include "validation/command/command.hpp"
 #include "validation/command/options.hpp"
 #include "validation/evidence/check.hpp"
-#include "validation/evidence/extremes_report.hpp"
+#include "validation/evidence/extremes.hpp"
 #include "validation/evidence/figure.hpp"
-#include "validation/evidence/verify_report.hpp"
 #include "validation/output/bad_input.hpp"
 #include "validation/output/gnuplot.hpp"
 #include "validation/output/interrupt.hpp"
@@ -74,12 +76,6 @@ struct FiguresInput {
   std::vector<std::string> only;
 };
 
-std::string known_numbers() {
-  std::string text;
-  for (const int number : figure_numbers()) text += (text.empty() ? "" : ", ") + std::to_string(number);
-  return text;
-}
-
 std::vector<int> chosen(const FiguresInput& input) {
   if (input.only.empty()) return figure_numbers();
   std::vector<int> numbers;
@@ -87,24 +83,36 @@ std::vector<int> chosen(const FiguresInput& input) {
     const int number = read_integer_option("--only", text, 1, 99);
     const auto& known = figure_numbers();
     if (std::find(known.begin(), known.end(), number) == known.end())
-      throw BadInput(fmt::format("--only {}: no such figure; there are {}", number, known_numbers()));
+      throw BadInput(fmt::format("--only {}: no such figure; there are {}", number, fmt::join(known, ", ")));
     numbers.push_back(number);
   }
   return numbers;
 }
 
+/// FOLDER/figure_07.csv, or .txt, .json, .md, .tex.
+std::string path_of(const FiguresInput& input, int number) {
+  const char* const extensions[]{"txt", "csv", "json", "md", "tex"};  // in the order of Format
+  const char* const extension = extensions[static_cast<std::size_t>(input.style.format)];
+  return (std::filesystem::path(input.folder) / fmt::format("figure_{:02}.{}", number, extension)).string();
+}
+
 int run_figures(const FiguresInput& input) {
   const std::vector<int> numbers = chosen(input);
   if (input.folder.empty()) throw BadInput("--output DIR: required, the folder for the files");
-  const FigureFiles files{input.folder, input.style};
-  make_folder(input.folder, "--output");
-  check_figure_files(numbers, files);
+  std::error_code error;
+  std::filesystem::create_directories(input.folder, error);
+  if (!std::filesystem::is_directory(input.folder, error))
+    throw BadInput(fmt::format("--output {}: must be a folder that exists or can be made", input.folder));
+  for (const int number : std::set<int>(numbers.begin(), numbers.end()))
+    require_writable({"--output", path_of(input, number)});
   CaseRuns case_runs;
   Progress progress;
   std::size_t done = 0;
   for (const int number : numbers) {
     progress.show(progress_bar(done++, numbers.size()));
-    write_figure(make_figure(number, case_runs), files);
+    Sink sink(path_of(input, number));
+    sink.write(report_text(figure_report(make_figure(number, case_runs)), input.style));
+    sink.commit();
   }
   const std::string count = numbers.size() == 1 ? "1 file" : fmt::format("{} files", numbers.size());
   write_out({}, fmt::format("{} in {}; clatter verify --html FILE draws the figures\n", count, input.folder));
@@ -138,15 +146,11 @@ struct ExtremesInput {
   OutputChoice output;
 };
 
-std::vector<std::string> axis_names() {
-  std::vector<std::string> names;
-  for (const MapAxis& axis : map_axes()) names.push_back(axis.name);
-  return names;
-}
-
 ExtremesOptions read_options(const ExtremesInput& input) {
   if (input.quick && !input.only.empty()) throw BadInput("--quick: excludes --only; give one of them, not both");
-  for (const std::string& name : input.only) static_cast<void>(read_name_option("--only", name, axis_names()));
+  std::vector<std::string> names;
+  for (const MapAxis& axis : map_axes()) names.push_back(axis.name);
+  for (const std::string& name : input.only) static_cast<void>(read_name_option("--only", name, names));
   ExtremesOptions options;
   options.axes = input.only;
   options.long_runs = !input.quick;

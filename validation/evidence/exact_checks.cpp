@@ -99,6 +99,13 @@ Measured restitution_map(CaseRuns&) {
           Finding::holds, fmt::format("e(1) = {}", significant(at_one, 12))};
 }
 
+/// The first impact, to so many digits.
+numeric::ImpactNumbers first_impact(const numeric::Body& body, const numeric::World& world,
+                                    const numeric::MotionState& start, int digits) {
+  const numeric::Request request{.impacts = 1, .error_estimates = false, .amplification = false};
+  return numeric::simulate(body, world, start, request, {.digits = digits}).impacts.at(0).value;
+}
+
 struct FlatLanding {
   numeric::ImpactNumbers numbers;
   double mass = 2, area = 0.06, stiffness = 1e8, speed = 3;
@@ -110,9 +117,8 @@ FlatLanding flat_landing(double damping) {
   const numeric::World world{
       .ground = {.stiffness = landing.stiffness, .damping = damping, .area = numeric::AreaMeasure::projected},
       .gravity = 0};
-  const numeric::Request one_impact{.impacts = 1, .error_estimates = false, .amplification = false};
   const auto start = numeric::touching_state(body, {.inclination = 0, .velocity = {0, 0, -landing.speed}});
-  landing.numbers = numeric::simulate(body, world, start, one_impact, {.digits = 10}).impacts.at(0).value;
+  landing.numbers = first_impact(body, world, start, 10);
   return landing;
 }
 
@@ -323,10 +329,7 @@ Measured spinning_face(CaseRuns&) {
                                  .gravity = 0};
       numeric::MotionState start = numeric::touching_state(body, {.inclination = 0, .velocity = {slip, 0, -speed}});
       start.angular_velocity = {0, 0, spin};
-      const numeric::Request one_impact{.impacts = 1, .error_estimates = false, .amplification = false};
-      found = numeric::simulate(body, world, start, one_impact, {.digits = 8})
-                  .impacts.at(0)
-                  .value.angular_velocity_after.z();
+      found = first_impact(body, world, start, 8).angular_velocity_after.z();
       worst.take(relative(found, exact));
     }
   }
@@ -348,8 +351,7 @@ Measured ball_landing(CaseRuns&) {
     const numeric::World world{.ground = {.stiffness = stiffness, .area = numeric::AreaMeasure::projected},
                                .gravity = 0};
     const auto start = numeric::touching_state(ball, {.inclination = 0.1, .velocity = {tangential, 0, -speed}});
-    const numeric::Request one_impact{.impacts = 1, .error_estimates = false, .amplification = false};
-    return numeric::simulate(ball, world, start, one_impact, {.digits = 9}).impacts.at(0).value;
+    return first_impact(ball, world, start, 9);
   };
   WorstError worst;
   double force = 0;

@@ -8,12 +8,10 @@
 #include <memory>
 #include <numbers>
 
-#include "analytic/base/errors.hpp"
 #include "numeric/mesh/generators.hpp"
 #include "numeric/motion/free_flight.hpp"
 #include "validation/evidence/oracles.hpp"
 #include "validation/measured/score.hpp"
-#include "validation/scene/names.hpp"
 
 namespace clatter::validation {
 namespace {
@@ -48,7 +46,8 @@ CellMeasure discrete_turns(double turns) {
   // Elastic and as fast as this, the rod rises at 0.577 |Ω| L and turns 2 V |Ω|/g until it is back.
   drop.velocity.angular = -std::sqrt(turn * turns * drop.gravity / (2 * 0.577));
   CellMeasure measure{.oracle = retrace_oracle};
-  const analytic::Sequence sequence = timed_sequence(drop, 2, measure);
+  const analytic::Sequence sequence =
+      timed_sequence(drop, {.impacts = 2, .digits = 6, .amplification = false}, measure);
   const Retrace found = retrace(drop, sequence);
   measure.error = found.placement;
   double turned = 0;
@@ -108,17 +107,6 @@ CellMeasure continuous_turns(double turns, bool planar) {
 }
 
 }  // namespace
-
-analytic::Sequence timed_sequence(const analytic::Drop& drop, int impacts, CellMeasure& measure) {
-  analytic::Sequence sequence;
-  measure.seconds =
-      timed([&] { sequence = impact_sequence(drop, {.impacts = impacts, .digits = 6, .amplification = false}); });
-  if (sequence.outcome == analytic::Outcome::not_computed) throw analytic::NumericalError(sequence.message);
-  if (sequence.outcome == analytic::Outcome::outside_model) throw analytic::OutsideModelError(sequence.message);
-  measure.outcome = outcome_name(sequence.outcome);
-  measure.evaluations = sequence.root_evaluations;
-  return sequence;
-}
 
 std::vector<ExtremeCase> measured_cases(const MapAxis& axis) {
   const bool squares = axis.name == "squares";

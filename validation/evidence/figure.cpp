@@ -4,15 +4,12 @@
 #include <fmt/format.h>
 
 #include <cstring>
-#include <filesystem>
-#include <set>
 #include <stdexcept>
 
 #include "validation/output/bad_input.hpp"
 #include "validation/output/gnuplot.hpp"
 #include "validation/output/json.hpp"
 #include "validation/output/picture.hpp"
-#include "validation/output/sink.hpp"
 #include "validation/output/version.hpp"
 
 namespace clatter::validation {
@@ -31,18 +28,16 @@ const std::vector<int>& figure_numbers() {
   static const std::vector<int> numbers{7, 8, 9, 10, 11, 12, 14, 15, 16, 17, 19, 20, 21, 22, 23, 24};
   return numbers;
 }
-
 namespace {
 
 Figure made(int number, CaseRuns& case_runs, const FigureParameters& parameters) {
-  const std::vector<double>& gravity_numbers = parameters.gravity_numbers;
   switch (number) {
-    case 7: return figure_second_angle(gravity_numbers);
     case 8: return figure_rod_positions(parameters.angles_deg);
-    case 9: return figure_two_impulses(gravity_numbers);
-    case 10: return figure_both_angles(gravity_numbers);
-    case 11: return figure_angles_with_gravity(gravity_numbers);
-    case 12: return figure_impulses_with_gravity(gravity_numbers);
+    case 7:
+    case 9:
+    case 10:
+    case 11:
+    case 12: return figure_of_impacts(number, parameters.gravity_numbers);
     case 14: return figure_rod_over_angle(case_runs);
     case 15: return figure_rod_over_friction(case_runs);
     case 16: return figure_rod_contact(case_runs);
@@ -81,6 +76,24 @@ void check(int number, const CaseRuns& case_runs, const FigureParameters& parame
       throw BadInput(fmt::format("gravity_numbers {}: must be at least 0", gravity));
   }
   if (parameters.gravity_numbers.size() > 3) throw BadInput("gravity_numbers: must be three at most");
+}
+
+std::string script(const Figure& figure, const FigurePlot& plot, std::size_t index) {
+  const PlotData data{figure.columns, figure.rows};
+  return fmt::format(
+             "set encoding utf8\nset terminal svg size 560,380 dynamic font 'sans-serif,13' background '#ffffff' name "
+             "'f{}_{}'\n"
+             "{}set key outside top center horizontal samplen 1.5\nset boxwidth 0.6\n",
+             figure.number, index, axes_style) +
+         fmt::format("set ylabel {}\n", gnuplot_quoted(plot.y_label)) + axes_text(data, plot) +
+         data_blocks(data, plot, "$d") + plot_command(data, plot, "$d");
+}
+
+/// Without the declarations that only a file of its own may have.
+std::string element(const std::string& svg) {
+  const std::size_t begin = svg.find("<svg");
+  if (begin == std::string::npos) throw std::runtime_error("gnuplot drew nothing: " + svg.substr(0, 200));
+  return svg.substr(begin);
 }
 
 }  // namespace
@@ -124,52 +137,6 @@ Report figure_report(const Figure& figure) {
   return report;
 }
 
-void make_folder(const std::string& folder, const std::string& option) {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (std::filesystem::is_directory(folder, error)) return;
-  throw BadInput(fmt::format("{} {}: must be a folder that exists or can be made", option, folder));
-}
-
-std::string FigureFiles::path(int number) const {
-  const char* const extensions[]{"txt", "csv", "json", "md", "tex"};  // in the order of Format
-  const char* const extension = extensions[static_cast<std::size_t>(style.format)];
-  return (std::filesystem::path(folder) / fmt::format("figure_{:02}.{}", number, extension)).string();
-}
-
-void check_figure_files(const std::vector<int>& numbers, const FigureFiles& figures) {
-  for (const int number : std::set<int>(numbers.begin(), numbers.end()))
-    require_writable({"--output", figures.path(number)});
-}
-
-void write_figure(const Figure& figure, const FigureFiles& files) {
-  Sink sink(files.path(figure.number));
-  sink.write(report_text(figure_report(figure), files.style));
-  sink.commit();
-}
-
-namespace {
-
-std::string script(const Figure& figure, const FigurePlot& plot, std::size_t index) {
-  const PlotData data{figure.columns, figure.rows};
-  return fmt::format(
-             "set encoding utf8\nset terminal svg size 560,380 dynamic font 'sans-serif,13' background '#ffffff' name "
-             "'f{}_{}'\n"
-             "{}set key outside top center horizontal samplen 1.5\nset boxwidth 0.6\n",
-             figure.number, index, axes_style) +
-         fmt::format("set ylabel {}\n", gnuplot_quoted(plot.y_label)) + axes_text(data, plot) +
-         data_blocks(data, plot, "$d") + plot_command(data, plot, "$d");
-}
-
-/// Without the declarations that only a file of its own may have.
-std::string element(const std::string& svg) {
-  const std::size_t begin = svg.find("<svg");
-  if (begin == std::string::npos) throw std::runtime_error("gnuplot drew nothing: " + svg.substr(0, 200));
-  return svg.substr(begin);
-}
-
-}  // namespace
-
 std::vector<std::string> draw(const Figure& figure) {
   std::vector<FigurePlot> plots;
   for (const FigurePlot& plot : figure.plots) {
@@ -183,44 +150,6 @@ std::vector<std::string> draw(const Figure& figure) {
   std::vector<std::string> pictures;
   for (std::size_t i = 0; i < plots.size(); ++i) pictures.push_back(element(run_gnuplot(script(figure, plots[i], i))));
   return pictures;
-}
-
-FigurePlot energy_panel(FigurePlot axes, const std::vector<EnergyCurve>& energies, const RowFilter& where) {
-  axes.y_label = "energy [J]";
-  axes.y = {0, no_number};
-  for (const auto& [column, legend, colour] : energies)
-    axes.curves.push_back({.x = "time", .y = column, .legend = legend, .where = where, .colour = colour});
-  return axes;
-}
-
-void add_history_columns(Figure& figure) {
-  figure.columns.insert(figure.columns.end(), {{"time", "s", "since the first touch-down"},
-                                               {"Fn", "N", "normal contact force"},
-                                               {"E", "J", "total energy"},
-                                               {"E_kinetic", "J", "kinetic energy"},
-                                               {"E_potential", "J", "potential energy"}});
-}
-
-void add_history_row(Figure& figure, std::vector<double> front, const numeric::HistorySample& s) {
-  front.insert(front.end(),
-               {s.time, s.force.z(), s.energy_total(), s.energy_translation + s.energy_rotation, s.energy_potential});
-  figure.rows.push_back(std::move(front));
-}
-
-void add_history_panels(Figure& figure, const std::string& caption, const std::string& force_legend,
-                        const RowFilter& where) {
-  const std::string time = figure.label("time", "time");
-  figure.plots.push_back(
-      {.title = "(a)" + caption,
-       .x_label = time,
-       .y_label = figure.label("normal contact force Fₙ", "Fn"),
-       .curves = {{.x = "time", .y = "Fn", .legend = force_legend, .where = where, .colour = palette::continuous}},
-       .y = {0, no_number}});
-  figure.plots.push_back(energy_panel({.title = "(b)" + caption, .x_label = time},
-                                      {{"E", "total", ink},
-                                       {"E_kinetic", "kinetic", palette::translation},
-                                       {"E_potential", "potential", palette::potential}},
-                                      where));
 }
 
 }  // namespace clatter::validation

@@ -48,12 +48,8 @@ struct FigureParameters {
 /// Positions of the rod in its first flight (Fig. 8).
 [[nodiscard]] Figure figure_rod_positions(const std::vector<double>& angles_deg);
 
-/// β(θ) (Fig. 7); P₁, P₂ (Fig. 9); β, γ (Fig. 10); the same with gravity (Figs. 11, 12).
-[[nodiscard]] Figure figure_second_angle(const std::vector<double>& gravity_numbers);
-[[nodiscard]] Figure figure_two_impulses(const std::vector<double>& gravity_numbers);
-[[nodiscard]] Figure figure_both_angles(const std::vector<double>& gravity_numbers);
-[[nodiscard]] Figure figure_angles_with_gravity(const std::vector<double>& gravity_numbers);
-[[nodiscard]] Figure figure_impulses_with_gravity(const std::vector<double>& gravity_numbers);
+/// β(θ) (7); P₁, P₂ (9); β, γ (10); the same with gravity (11, 12).
+[[nodiscard]] Figure figure_of_impacts(int number, const std::vector<double>& gravity_numbers);
 
 /// The rod over the angle (Fig. 14) and over friction (Fig. 15), the course of its first contact (Fig. 16), several
 /// impacts (Fig. 17).
@@ -68,51 +64,10 @@ struct FigureParameters {
 [[nodiscard]] Figure figure_phone_energies(CaseRuns& case_runs);
 [[nodiscard]] Figure figure_phone_over_angle(CaseRuns& case_runs);
 
-// Figures as files.
-
-/// Creates the folder if it is not there.  @throws BadInput if it cannot be, or is a file.
-void make_folder(const std::string& folder, const std::string& option);
-
-/// Where figures go, and in what form.
-struct FigureFiles {
-  std::string folder;
-  TextStyle style;
-
-  /// FOLDER/figure_07.csv, or .txt, .json, .md, .tex.
-  [[nodiscard]] std::string path(int number) const;
-};
-
-/// @throws BadInput if a file of these figures cannot be written, or two of them are one by links.
-void check_figure_files(const std::vector<int>& numbers, const FigureFiles& files);
-
-/// Writes the figure's file, whole or not at all.  @throws BadInput naming the file if it cannot be written.
-void write_figure(const Figure& figure, const FigureFiles& files);
-
 // The paper's figures as SVG, drawn by gnuplot.
 
 /// One SVG element per plot of the figure, a zoom after its plot, ready to stand in an HTML page.
 /// @throws as run_gnuplot.
 [[nodiscard]] std::vector<std::string> draw(const Figure& figure);
-
-// What the figures of forces and energies over time share.
-
-/// A column, its name in the legend and its colour.
-struct EnergyCurve {
-  const char *column, *legend, *colour;
-};
-
-/// `axes` with these energies of the figure over its column "time", from 0 on.
-[[nodiscard]] FigurePlot energy_panel(FigurePlot axes, const std::vector<EnergyCurve>& energies,
-                                      const RowFilter& where = {});
-
-/// Adds columns for time, normal force and energies: total, kinetic, potential.
-void add_history_columns(Figure& figure);
-/// Adds a row: `front`, then the values of those columns.
-void add_history_row(Figure& figure, std::vector<double> front, const numeric::HistorySample& sample);
-/// Adds two panels, force and energies over all the times.
-/// @param caption  behind the titles "(a)" and "(b)"
-/// @param force_legend  name of the force's curve
-void add_history_panels(Figure& figure, const std::string& caption, const std::string& force_legend,
-                        const RowFilter& where = {});
 
 }  // namespace clatter::validation

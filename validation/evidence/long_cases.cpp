@@ -7,14 +7,9 @@
 #include <map>
 #include <stdexcept>
 
-#include "analytic/base/errors.hpp"
-#include "analytic/plane/sequence.hpp"
 #include "numeric/errors.hpp"
-#include "numeric/simulate.hpp"
-#include "validation/evidence/continuous_cases.hpp"
 #include "validation/evidence/extreme_cases.hpp"
 #include "validation/evidence/oracles.hpp"
-#include "validation/scene/names.hpp"
 #include "validation/sweep/counter_random.hpp"
 
 namespace clatter::validation {
@@ -189,7 +184,7 @@ void run_continuous(Draw draw, int index, Tally& tally) {
   }
 }
 
-CellMeasure run_scenes(int count, double bound, const std::function<bool()>& goes_on, const auto& run) {
+CellMeasure run_scenes(int count, double bound, const GoesOn& goes_on, const auto& run) {
   Tally tally;
   CellMeasure measure{.bound = bound};
   int done = 0;
@@ -205,35 +200,28 @@ CellMeasure run_scenes(int count, double bound, const std::function<bool()>& goe
 
 }  // namespace
 
-std::vector<ExtremeCase> long_cases(const LongRuns& runs, const std::function<bool()>& goes_on) {
+std::vector<ExtremeCase> long_cases(const LongRuns& runs, const GoesOn& goes_on) {
   std::vector<ExtremeCase> cases;
+  const auto add = [&](int count, const char* of, ModelLevel model, auto work) {
+    cases.push_back({{"long", static_cast<double>(count), count_label(count) + of, model, true},
+                     [work](const CellClock&) { return work(); }});
+  };
   for (const ModelLevel model : {ModelLevel::planar, ModelLevel::spatial}) {
-    cases.push_back({"long", static_cast<double>(runs.impacts), count_label(runs.impacts) + " hits", model,
-                     [=](const CellClock&) {
-                       return kept_energy(runs.impacts, 2000L * runs.impacts, model == ModelLevel::planar, goes_on);
-                     },
-                     true});
+    add(runs.impacts, " hits", model,
+        [=] { return kept_energy(runs.impacts, 2000L * runs.impacts, model == ModelLevel::planar, goes_on); });
   }
-  cases.push_back({"long", static_cast<double>(runs.discrete_scenes), count_label(runs.discrete_scenes) + " sc",
-                   ModelLevel::discrete,
-                   [=](const CellClock&) {
-                     CellMeasure measure = run_scenes(runs.discrete_scenes, 0, goes_on, [&](int i, Tally& tally) {
-                       run_discrete(Draw(runs.seed, i), i, tally);
-                     });
-                     measure.oracle = "finite numbers, impulses that push";
-                     return measure;
-                   },
-                   true});
-  cases.push_back({"long", static_cast<double>(runs.continuous_scenes), count_label(runs.continuous_scenes) + " sc",
-                   ModelLevel::spatial,
-                   [=](const CellClock&) {
-                     CellMeasure measure =
-                         run_scenes(runs.continuous_scenes, ledger_bound, goes_on,
-                                    [&](int i, Tally& tally) { run_continuous(Draw(runs.seed + 1, i), i, tally); });
-                     measure.oracle = "energy ledger";
-                     return measure;
-                   },
-                   true});
+  add(runs.discrete_scenes, " sc", ModelLevel::discrete, [=] {
+    CellMeasure measure = run_scenes(runs.discrete_scenes, 0, goes_on,
+                                     [&](int i, Tally& tally) { run_discrete(Draw(runs.seed, i), i, tally); });
+    measure.oracle = "finite numbers, impulses that push";
+    return measure;
+  });
+  add(runs.continuous_scenes, " sc", ModelLevel::spatial, [=] {
+    CellMeasure measure = run_scenes(runs.continuous_scenes, ledger_bound, goes_on,
+                                     [&](int i, Tally& tally) { run_continuous(Draw(runs.seed + 1, i), i, tally); });
+    measure.oracle = "energy ledger";
+    return measure;
+  });
   return cases;
 }
 

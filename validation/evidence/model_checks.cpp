@@ -69,7 +69,7 @@ Measure random_scenes(int count) {
     if (!result.complete) throw CaseRuns::Interrupted{};
     return {100 * result.covered, result.farthest, holds_if(result.covered >= 0.95 && result.median_bar <= 10),
             fmt::format("% of {} numbers of {} scenes lie within their bars; bars are {} times the gap in the median",
-                        result.samples.size(), result.with_limit, significant(result.median_bar, 2))};
+                        result.samples, result.with_limit, significant(result.median_bar, 2))};
   };
 }
 

@@ -9,7 +9,7 @@
 #include <limits>
 #include <numbers>
 
-#include "validation/evidence/cell.hpp"
+#include "validation/evidence/extremes.hpp"
 #include "validation/oracles/digits.hpp"
 #include "validation/oracles/impulse_path.hpp"
 #include "validation/oracles/rod.hpp"

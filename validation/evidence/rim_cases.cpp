@@ -3,11 +3,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "analytic/base/errors.hpp"
 #include "analytic/space/sequence/sequence.hpp"
 #include "validation/evidence/extreme_cases.hpp"
 #include "validation/oracles/free_top.hpp"
-#include "validation/scene/names.hpp"
 
 namespace clatter::validation {
 namespace {
@@ -21,17 +19,6 @@ using RoundTop = oracle::Top<long double>;
 constexpr double ulps_of_laws = 64;
 /// Sequences extrapolate the end of an accumulation to these digits of what is left.
 constexpr int digits_of_end = 6;
-
-space::Sequence timed_in_space(const space::Drop& drop, const analytic::SequenceOptions& options,
-                               CellMeasure& measure) {
-  space::Sequence sequence;
-  measure.seconds = timed([&] { sequence = impact_sequence(drop, options); });
-  if (sequence.outcome == analytic::Outcome::not_computed) throw analytic::NumericalError(sequence.message);
-  if (sequence.outcome == analytic::Outcome::outside_model) throw analytic::OutsideModelError(sequence.message);
-  measure.outcome = outcome_name(sequence.outcome);
-  measure.evaluations = sequence.root_evaluations;
-  return sequence;
-}
 
 /// Lowest point of a rim above the ground, for the vertical in body axes and the height of the centre of mass.
 long double rim_height(const space::Rim& rim, const Wide& up, long double centre) {
@@ -129,7 +116,7 @@ space::Drop round_drop(const space::Cylinder& shape, double elevation) {
 
 CellMeasure by_flights(const space::Drop& drop) {
   CellMeasure measure{.bound = ulps_of_laws * eps, .oracle = "laws of motion and flights by Taylor series at 64 bits"};
-  measure.error = round_residual(drop, timed_in_space(drop, {.impacts = 6, .amplification = false}, measure).rows);
+  measure.error = round_residual(drop, timed_sequence(drop, {.impacts = 6, .amplification = false}, measure).rows);
   return measure;
 }
 
@@ -140,7 +127,7 @@ CellMeasure by_geometric_series(double restitution) {
   drop.angular_velocity.setZero();
   drop.law = {.restitution = restitution};
   CellMeasure measure{.bound = ulps_of_laws * eps, .oracle = "sum of the geometric series"};
-  const space::Sequence sequence = timed_in_space(drop, {.impacts = 4, .amplification = false}, measure);
+  const space::Sequence sequence = timed_sequence(drop, {.impacts = 4, .amplification = false}, measure);
   const auto e = static_cast<long double>(restitution), hop = 2 / static_cast<long double>(drop.gravity);
   const long double time = restitution < 1 ? hop * e / (1 - e) : 3 * hop;
   const long double impulse = restitution < 1 ? 1 + drop.gravity * time : 8;
@@ -158,9 +145,9 @@ CellMeasure by_more_hops(double restitution) {
   drop.law.restitution = restitution;
   CellMeasure measure{.bound = std::pow(10.0, -digits_of_end), .oracle = "the same after as many hops as doubles tell"};
   constexpr int hops = 4000;
-  const auto early = timed_in_space(drop, {.impacts = hops, .digits = digits_of_end, .amplification = false}, measure);
+  const auto early = timed_sequence(drop, {.impacts = hops, .digits = digits_of_end, .amplification = false}, measure);
   CellMeasure late_measure;
-  const auto late = timed_in_space(drop, {.impacts = hops, .digits = 13, .amplification = false}, late_measure);
+  const auto late = timed_sequence(drop, {.impacts = hops, .digits = 13, .amplification = false}, late_measure);
   if (early.tail.has_value() != late.tail.has_value()) throw analytic::NumericalError("only one of two runs ends");
   if (!early.tail) throw analytic::OutsideModelError("its hops come to no end: " + early.message);
   measure.error = std::fabs(early.tail->end_time / late.tail->end_time - 1);

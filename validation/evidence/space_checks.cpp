@@ -230,16 +230,10 @@ PlanarPair planar_pair(int index) {
   planar.law = {.restitution = random(0.3, 1), .law = RestitutionLaw::stronge};
   planar.law.friction = FrictionKind::coulomb;
   planar.law.friction_value = random(0, 1);
-  Drop& drop = pair.in_space;
-  const double inertia = planar.body.mass * planar.body.gyration_square, half = planar.inclination.radians / 2;
-  drop.body = {.mass = 1, .inertia = Vector3(0.7, 1, 0.9).asDiagonal(), .vertices = {}, .rims = {}};
-  drop.body.inertia *= inertia;
-  for (const analytic::Vertex& v : planar.body.vertices) drop.body.vertices.emplace_back(v.x, 0, v.z);
-  drop.attitude = Quaternion(std::cos(half), 0, -std::sin(half), 0);
-  drop.velocity = {planar.velocity.tangential, 0, planar.velocity.normal};
-  drop.angular_velocity = {0, planar.velocity.angular, 0};
-  drop.gravity = planar.gravity;
-  drop.law = planar.law;
+  Body body{.mass = 1, .inertia = Vector3(0.7, 1, 0.9).asDiagonal(), .vertices = {}, .rims = {}};
+  body.inertia *= planar.body.mass * planar.body.gyration_square;
+  for (const analytic::Vertex& v : planar.body.vertices) body.vertices.emplace_back(v.x, 0, v.z);
+  pair.in_space = in_space(planar, body);
   return pair;
 }
 

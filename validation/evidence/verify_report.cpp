@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "validation/evidence/verify_report.hpp"
+#include "validation/evidence/check.hpp"
 
 #include <fmt/format.h>
 

@@ -7,8 +7,11 @@
 #include <cmath>
 
 #include "analytic/base/angle.hpp"
+#include "validation/command/command.hpp"
+#include "validation/command/options.hpp"
 #include "validation/explain/formula.hpp"
 #include "validation/explain/steps.hpp"
+#include "validation/output/bad_input.hpp"
 #include "validation/output/number.hpp"
 #include "validation/output/symbols.hpp"
 #include "validation/output/version.hpp"
@@ -34,143 +37,6 @@ Step missing_impact(const Run& run, int n) {
       {.quantity = number("Δh", miss.margin, "m"), .words = {"margin, the rounding error of that height"}});
   return step;
 }
-
-}  // namespace
-
-Explanation explain_impact(const PreparedScene& prepared, int n) {
-  Scene scene = prepared.scene;
-  scene.request.impacts = std::max(scene.request.impacts, n);
-  const auto explained = [&](const auto& drop) -> Explanation {
-    const auto sequence = impact_sequence(drop, {.impacts = n, .digits = scene.accuracy.digits});
-    const Run run = run_of(sequence);
-    const bool has_impact = static_cast<std::size_t>(n) <= sequence.rows.size();
-    const bool falls_short = scene.require_digits || !has_impact;
-    return {.scene = scene,
-            .impact = n,
-            .approach_speed = first_approach_speed(prepared.drop),
-            .steps = has_impact ? impact_steps(scene, drop, sequence, n) : std::vector<Step>{missing_impact(run, n)},
-            .warnings = sequence.warnings,
-            .shortfall = falls_short ? shortfall(scene, run) : "",
-            .shortfall_status = shortfall_status(run)};
-  };
-  return std::visit(explained, prepared.drop);
-}
-
-Quantity number(const Symbol& symbol, double value, const std::string& unit, double error, double size) {
-  return {symbol, Eigen::MatrixXd::Constant(1, 1, value), unit, error, size};
-}
-
-Quantity StepWriter::with_error(Quantity quantity) const {
-  if (quantity.value.size() > 1 && quantity.size == 0) quantity.size = quantity.value.norm();
-  const double largest = std::max(quantity.value.cwiseAbs().maxCoeff(), quantity.size);
-  if (quantity.error == 0 && largest > 0) quantity.error = relative_ * largest;
-  return quantity;
-}
-
-void StepWriter::say(const Words& words) {
-  Words& all = steps_.back().words;
-  all.insert(all.end(), words.begin(), words.end());
-}
-
-Quantity StepWriter::given(const Quantity& exact, const Words& words) {
-  steps_.back().equations.push_back({exact, {}, words});
-  return exact;
-}
-
-Quantity StepWriter::found(const Quantity& quantity, const Words& words) { return given(with_error(quantity), words); }
-
-Quantity StepWriter::found(const Quantity& quantity, const Expression& formula, const Words& words) {
-  const Quantity known = with_error(quantity);
-  steps_.back().equations.push_back({known, {formula}, words});
-  return known;
-}
-
-Quantity StepWriter::computed(const Symbol& symbol, const std::string& unit, const Expression& formula,
-                              const Words& words, double size) {
-  Quantity quantity{symbol, evaluated(formula), unit, 0, size};
-  if (unit == "°") quantity.value *= analytic::degrees_per_radian;
-  return found(quantity, formula, words);
-}
-
-Given write_body(StepWriter& writer, double mass, double gravity) {
-  writer.open("What is given", {});
-  const Quantity m = writer.given(number("m", mass, "kg"), {"mass"});
-  const Quantity g = number("g", gravity, "m/s²");
-  if (gravity > 0) writer.given(g, {"gravity"});
-  return {.mass = m, .gravity = g};
-}
-
-void write_law(StepWriter& writer, const Scene& scene, const analytic::ImpactLaw& law, Given& given) {
-  if (law.law == analytic::RestitutionLaw::viscoelastic) {
-    const double stiffness = scene.world.ground.stiffness, damping = scene.world.ground.damping;
-    const Quantity tau = number("τ", law.damping_per_stiffness, "s/m");
-    if (!scene.world.ground.has_dissipation() && stiffness > 0 && damping / stiffness == law.damping_per_stiffness) {
-      const Quantity k = writer.given(number("k_G", stiffness, "N/m³"), {"stiffness of the ground"});
-      const Quantity c = writer.given(number("c_G", damping, "N·s/m⁴"), {"its damping"});
-      given.damping_time = writer.found(tau, c / k, {"from which the restitution follows at each speed"});
-    } else if (scene.world.ground.has_dissipation()) {
-      given.damping_time =
-          writer.given(tau, {scene.world.ground.is_pad() ? "dissipation of the ground, a pad"
-                                                         : "dissipation of the ground, an elastic half-space"});
-    } else {
-      given.damping_time = writer.given(tau, {"damping over stiffness of the ground, c_G/k_G"});
-    }
-  } else {
-    given.restitution = writer.given(number("e", law.restitution, ""), {words_of(law.law).coefficient});
-  }
-  const Quantity coefficient = number("μ", law.friction_value, "");
-  if (law.friction == analytic::FrictionKind::coulomb && law.friction_value > 0)
-    given.friction = writer.given(coefficient, {"Coulomb's coefficient of friction"});
-  if (law.friction == analytic::FrictionKind::moreau && law.friction_value > 0)
-    given.moreau = writer.given(coefficient, {"coefficient of friction, by the slip after the impact"});
-  if (law.friction == analytic::FrictionKind::impulse_ratio)
-    given.impulse_ratio =
-        writer.given(number("μ_i", law.friction_value, ""), {"impulse ratio, tangential over normal"});
-}
-
-Quantity write_restitution(StepWriter& writer, const Given& given, const Quantity& u, double value) {
-  if (given.restitution) return *given.restitution;
-  const Quantity e = number("e", value, "", 0, 1), zeta = number("ζ", 0, "");
-  writer.open("Restitution from the ground's damping",
-              {"The ground's springs and dampers act together as the contact sinks in, and let go of it when they no "
-               "longer push. The damping number ",
-               zeta, " is that of the speed of approach; the coefficient of restitution ", e,
-               " solves the equation below, by the function of Lambert."});
-  writer.law(function("ln", (1 + zeta) / (1 - zeta * e)), zeta * (1 + e));
-  const Quantity s = writer.computed("ζ", "", -(*given.damping_time * u));
-  if (evaluated(s)(0, 0) == 0) return writer.found(e, {"a ground without damping gives all back"});
-  const Expression sum = 1 + s;
-  return writer.found(e, (1 + function("W_0", -(sum * function("exp", -sum)))) / s);
-}
-
-void write_fall(StepWriter& writer, const Scene& scene, const Given& given, const Quantity& z, const Quantity& speed) {
-  if (scene.clearance) {
-    const Quantity c = writer.given(number("H", *scene.clearance, "m"), {"height of the lowest point at release"});
-    writer.found(speed, -function("√", 2 * given.gravity * c),
-                 {"velocity of the centre of mass along the normal, after the fall"});
-    return;
-  }
-  if (scene.is_released()) {
-    writer.found(speed, {"velocity of the centre of mass along the normal, after the free flight from the release"});
-    return;
-  }
-  if (!scene.height || !(given.gravity.value(0, 0) > 0)) {
-    writer.given(speed, {"velocity of the centre of mass along the normal, before"});
-    return;
-  }
-  const Quantity h = writer.given(number("H", *scene.height, "m"), {"height of the centre of mass at release"});
-  const Expression fall = 2 * given.gravity * (h - z);
-  writer.found(speed, -function("√", fall), {"velocity of the centre of mass along the normal, after the fall"});
-}
-
-void write_energy(StepWriter& writer, const Words& words, const Energies& energies) {
-  writer.open("Energy", words);
-  writer.found(energies.before_value, energies.before, {"energy before"});
-  writer.found(energies.after_value, energies.after, {"energy after"});
-  writer.found(energies.loss_value, energies.loss, {"energy that the impact took, the difference of both"});
-}
-
-namespace {
 
 /// An equation in its parts; numbers are left out where they would only repeat the value.
 struct Parts {
@@ -320,7 +186,158 @@ Value equation_fields(const Equation& equation, int digits) {
                        {"unit", equation.quantity.unit}};
 }
 
+struct ExplainInput {
+  int number = 1;
+  SceneFlags scene;
+  OutputChoice output;
+};
+
+int run_explain(const ExplainInput& input) {
+  const PreparedScene scene = read_discrete_flags(input.scene);
+  require_level(scene.scene, "explain");
+  check_files(input.output);
+  const Explanation explanation = explain_impact(scene, input.number);
+  for (const std::string& warning : explanation.warnings) say(warning);
+  write_out(input.output, explanation_text(explanation, input.output.style));
+  if (explanation.shortfall.empty()) return 0;
+  say(explanation.shortfall);
+  return explanation.shortfall_status;
+}
+
 }  // namespace
+
+Explanation explain_impact(const PreparedScene& prepared, int n) {
+  Scene scene = prepared.scene;
+  scene.request.impacts = std::max(scene.request.impacts, n);
+  const auto explained = [&](const auto& drop) -> Explanation {
+    const auto sequence = impact_sequence(drop, {.impacts = n, .digits = scene.accuracy.digits});
+    const Run run = run_of(sequence);
+    const bool has_impact = static_cast<std::size_t>(n) <= sequence.rows.size();
+    const bool falls_short = scene.require_digits || !has_impact;
+    return {.scene = scene,
+            .impact = n,
+            .approach_speed = first_approach_speed(prepared.drop),
+            .steps = has_impact ? impact_steps(scene, drop, sequence, n) : std::vector<Step>{missing_impact(run, n)},
+            .warnings = sequence.warnings,
+            .shortfall = falls_short ? shortfall(scene, run) : "",
+            .shortfall_status = shortfall_status(run)};
+  };
+  return std::visit(explained, prepared.drop);
+}
+
+Quantity number(const Symbol& symbol, double value, const std::string& unit, double error, double size) {
+  return {symbol, Eigen::MatrixXd::Constant(1, 1, value), unit, error, size};
+}
+
+Quantity StepWriter::with_error(Quantity quantity) const {
+  if (quantity.value.size() > 1 && quantity.size == 0) quantity.size = quantity.value.norm();
+  const double largest = std::max(quantity.value.cwiseAbs().maxCoeff(), quantity.size);
+  if (quantity.error == 0 && largest > 0) quantity.error = relative_ * largest;
+  return quantity;
+}
+
+void StepWriter::say(const Words& words) {
+  Words& all = steps_.back().words;
+  all.insert(all.end(), words.begin(), words.end());
+}
+
+Quantity StepWriter::given(const Quantity& exact, const Words& words) {
+  steps_.back().equations.push_back({exact, {}, words});
+  return exact;
+}
+
+Quantity StepWriter::found(const Quantity& quantity, const Words& words) { return given(with_error(quantity), words); }
+
+Quantity StepWriter::found(const Quantity& quantity, const Expression& formula, const Words& words) {
+  const Quantity known = with_error(quantity);
+  steps_.back().equations.push_back({known, {formula}, words});
+  return known;
+}
+
+Quantity StepWriter::computed(const Symbol& symbol, const std::string& unit, const Expression& formula,
+                              const Words& words, double size) {
+  Quantity quantity{symbol, evaluated(formula), unit, 0, size};
+  if (unit == "°") quantity.value *= analytic::degrees_per_radian;
+  return found(quantity, formula, words);
+}
+
+Given write_body(StepWriter& writer, double mass, double gravity) {
+  writer.open("What is given", {});
+  const Quantity m = writer.given(number("m", mass, "kg"), {"mass"});
+  const Quantity g = number("g", gravity, "m/s²");
+  if (gravity > 0) writer.given(g, {"gravity"});
+  return {.mass = m, .gravity = g};
+}
+
+void write_law(StepWriter& writer, const Scene& scene, const analytic::ImpactLaw& law, Given& given) {
+  if (law.law == analytic::RestitutionLaw::viscoelastic) {
+    const double stiffness = scene.world.ground.stiffness, damping = scene.world.ground.damping;
+    const Quantity tau = number("τ", law.damping_per_stiffness, "s/m");
+    if (!scene.world.ground.has_dissipation() && stiffness > 0 && damping / stiffness == law.damping_per_stiffness) {
+      const Quantity k = writer.given(number("k_G", stiffness, "N/m³"), {"stiffness of the ground"});
+      const Quantity c = writer.given(number("c_G", damping, "N·s/m⁴"), {"its damping"});
+      given.damping_time = writer.found(tau, c / k, {"from which the restitution follows at each speed"});
+    } else if (scene.world.ground.has_dissipation()) {
+      given.damping_time =
+          writer.given(tau, {scene.world.ground.is_pad() ? "dissipation of the ground, a pad"
+                                                         : "dissipation of the ground, an elastic half-space"});
+    } else {
+      given.damping_time = writer.given(tau, {"damping over stiffness of the ground, c_G/k_G"});
+    }
+  } else {
+    given.restitution = writer.given(number("e", law.restitution, ""), {words_of(law.law).coefficient});
+  }
+  const Quantity coefficient = number("μ", law.friction_value, "");
+  if (law.friction == analytic::FrictionKind::coulomb && law.friction_value > 0)
+    given.friction = writer.given(coefficient, {"Coulomb's coefficient of friction"});
+  if (law.friction == analytic::FrictionKind::moreau && law.friction_value > 0)
+    given.moreau = writer.given(coefficient, {"coefficient of friction, by the slip after the impact"});
+  if (law.friction == analytic::FrictionKind::impulse_ratio)
+    given.impulse_ratio =
+        writer.given(number("μ_i", law.friction_value, ""), {"impulse ratio, tangential over normal"});
+}
+
+Quantity write_restitution(StepWriter& writer, const Given& given, const Quantity& u, double value) {
+  if (given.restitution) return *given.restitution;
+  const Quantity e = number("e", value, "", 0, 1), zeta = number("ζ", 0, "");
+  writer.open("Restitution from the ground's damping",
+              {"The ground's springs and dampers act together as the contact sinks in, and let go of it when they no "
+               "longer push. The damping number ",
+               zeta, " is that of the speed of approach; the coefficient of restitution ", e,
+               " solves the equation below, by the function of Lambert."});
+  writer.law(function("ln", (1 + zeta) / (1 - zeta * e)), zeta * (1 + e));
+  const Quantity s = writer.computed("ζ", "", -(*given.damping_time * u));
+  if (evaluated(s)(0, 0) == 0) return writer.found(e, {"a ground without damping gives all back"});
+  const Expression sum = 1 + s;
+  return writer.found(e, (1 + function("W_0", -(sum * function("exp", -sum)))) / s);
+}
+
+void write_fall(StepWriter& writer, const Scene& scene, const Given& given, const Quantity& z, const Quantity& speed) {
+  if (scene.clearance) {
+    const Quantity c = writer.given(number("H", *scene.clearance, "m"), {"height of the lowest point at release"});
+    writer.found(speed, -function("√", 2 * given.gravity * c),
+                 {"velocity of the centre of mass along the normal, after the fall"});
+    return;
+  }
+  if (scene.is_released()) {
+    writer.found(speed, {"velocity of the centre of mass along the normal, after the free flight from the release"});
+    return;
+  }
+  if (!scene.height || !(given.gravity.value(0, 0) > 0)) {
+    writer.given(speed, {"velocity of the centre of mass along the normal, before"});
+    return;
+  }
+  const Quantity h = writer.given(number("H", *scene.height, "m"), {"height of the centre of mass at release"});
+  const Expression fall = 2 * given.gravity * (h - z);
+  writer.found(speed, -function("√", fall), {"velocity of the centre of mass along the normal, after the fall"});
+}
+
+void write_energy(StepWriter& writer, const Words& words, const Energies& energies) {
+  writer.open("Energy", words);
+  writer.found(energies.before_value, energies.before, {"energy before"});
+  writer.found(energies.after_value, energies.after, {"energy after"});
+  writer.found(energies.loss_value, energies.loss, {"energy that the impact took, the difference of both"});
+}
 
 std::vector<Column> explain_columns() {
   return {{"step", "", "", "title of the step"},
@@ -387,6 +404,19 @@ std::string explanation_text(const Explanation& explanation, const TextStyle& st
     case Format::csv: break;
   }
   return report_text(report, style);
+}
+
+/// `clatter explain N SCENE`
+Command explain_command() {
+  return command_of<ExplainInput>(run_explain, [](Command& command, ExplainInput& input) {
+    Argument number = whole_argument("N", input.number, 1, 1'000'000, "", "number of the impact, from 1");
+    number.required = true;
+    command.add(std::move(number));
+    add_scene_flags(command, input.scene, Model::discrete);
+    add_output_options(command, input.output);
+    command.footer = "Example: clatter explain 2 --angle 10";
+    command.columns = {{"explain", explain_columns}};
+  });
 }
 
 }  // namespace clatter::validation

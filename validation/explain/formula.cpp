@@ -79,6 +79,49 @@ MatrixXd sum(const MatrixXd& a, const MatrixXd& b) {
   return a + b;
 }
 
+/// How tightly an operation binds.
+enum Binding { sums = 1, quotients, products, powers, atoms };
+
+struct Sign {
+  std::string_view text, tex;
+};
+constexpr Sign signs[]{{"Ω", "\\Omega "}, {"ω", "\\omega "},  {"α", "\\alpha "}, {"β", "\\beta "}, {"γ", "\\gamma "},
+                       {"θ", "\\theta "}, {"φ", "\\varphi "}, {"Γ", "\\Gamma "}, {"μ", "\\mu "},   {"σ", "\\sigma "},
+                       {"Δ", "\\Delta "}, {"λ", "\\lambda "}, {"τ", "\\tau "},   {"ζ", "\\zeta "}, {"ψ", "\\psi "},
+                       {"ρ", "\\rho "},   {"²", "^2"},        {"³", "^3"},       {"⁴", "^4"},      {"·", "\\cdot "},
+                       {"°", "^\\circ "}};
+
+/// Each sign by its TeX.
+std::string tex_of(std::string_view text) {
+  std::string out;
+  while (!text.empty()) {
+    const auto* const sign = std::ranges::find_if(signs, [&](const Sign& one) { return text.starts_with(one.text); });
+    const bool found = sign != std::end(signs);
+    out += found ? sign->tex : text.substr(0, 1);
+    text.remove_prefix(found ? sign->text.size() : 1);
+  }
+  return out.ends_with(' ') ? out.substr(0, out.size() - 1) : out;
+}
+
+bool is_whole(const std::string& text) {
+  return std::ranges::all_of(text, [](unsigned char c) { return std::isdigit(c) != 0; });
+}
+
+/// Digits as an index.
+std::string lowered(const std::string& digits) {
+  constexpr std::string_view low[]{"₀", "₁", "₂", "₃", "₄", "₅", "₆", "₇", "₈", "₉"};
+  std::string out;
+  for (const char digit : digits) out += low[digit - '0'];
+  return out;
+}
+
+/// "1.5e-05" as 1.5 · 10^{-5}.
+std::string tex_number(const std::string& text) {
+  const std::size_t at = text.find('e');
+  if (at == std::string::npos) return text;
+  return fmt::format("{} \\cdot 10^{{{}}}", text.substr(0, at), std::stoi(text.substr(at + 1)));
+}
+
 }  // namespace
 
 Symbol::Symbol(const std::string& text) : name(text) {
@@ -148,53 +191,6 @@ std::vector<Quantity> quantities_in(const Expression& expression) {
   }
   return all;
 }
-
-namespace {
-
-/// How tightly an operation binds.
-enum Binding { sums = 1, quotients, products, powers, atoms };
-
-struct Sign {
-  std::string_view text, tex;
-};
-constexpr Sign signs[]{{"Ω", "\\Omega "}, {"ω", "\\omega "},  {"α", "\\alpha "}, {"β", "\\beta "}, {"γ", "\\gamma "},
-                       {"θ", "\\theta "}, {"φ", "\\varphi "}, {"Γ", "\\Gamma "}, {"μ", "\\mu "},   {"σ", "\\sigma "},
-                       {"Δ", "\\Delta "}, {"λ", "\\lambda "}, {"τ", "\\tau "},   {"ζ", "\\zeta "}, {"ψ", "\\psi "},
-                       {"ρ", "\\rho "},   {"²", "^2"},        {"³", "^3"},       {"⁴", "^4"},      {"·", "\\cdot "},
-                       {"°", "^\\circ "}};
-
-/// Each sign by its TeX.
-std::string tex_of(std::string_view text) {
-  std::string out;
-  while (!text.empty()) {
-    const auto* const sign = std::ranges::find_if(signs, [&](const Sign& one) { return text.starts_with(one.text); });
-    const bool found = sign != std::end(signs);
-    out += found ? sign->tex : text.substr(0, 1);
-    text.remove_prefix(found ? sign->text.size() : 1);
-  }
-  return out.ends_with(' ') ? out.substr(0, out.size() - 1) : out;
-}
-
-bool is_whole(const std::string& text) {
-  return std::ranges::all_of(text, [](unsigned char c) { return std::isdigit(c) != 0; });
-}
-
-/// Digits as an index.
-std::string lowered(const std::string& digits) {
-  constexpr std::string_view low[]{"₀", "₁", "₂", "₃", "₄", "₅", "₆", "₇", "₈", "₉"};
-  std::string out;
-  for (const char digit : digits) out += low[digit - '0'];
-  return out;
-}
-
-/// "1.5e-05" as 1.5 · 10^{-5}.
-std::string tex_number(const std::string& text) {
-  const std::size_t at = text.find('e');
-  if (at == std::string::npos) return text;
-  return fmt::format("{} \\cdot 10^{{{}}}", text.substr(0, at), std::stoi(text.substr(at + 1)));
-}
-
-}  // namespace
 
 std::string FormulaWriter::symbol(const Quantity& quantity) const {
   const Symbol& symbol = quantity.symbol;

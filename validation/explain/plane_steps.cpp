@@ -54,8 +54,6 @@ class PlanarImpact {
   [[nodiscard]] Symbol after_last(const std::string& symbol) const {
     return symbol + (symbol.find('_') == std::string::npos ? "_" : "") + std::to_string(n_ - 1);
   }
-  [[nodiscard]] double error_of(double analytic::PlanarVelocity::*part) const { return row_.error.after.*part; }
-
   void body() {
     const double k2 = drop_.body.gyration_square;
     if (drop_.body.uniform_thin_rod) {
@@ -324,8 +322,7 @@ class PlanarImpact {
                 .stop = stop},
                e);
     const Expression tangential = r1 * stop + r2 * (*normal_ - stop);
-    tangential_ =
-        writer_.found(number("P_t", row_.impact.tangential_impulse, "N·s", row_.error.tangential_impulse), tangential);
+    tangential_ = writer_.found(unknowns().pt, tangential);
     ratio_ = writer_.found(number("μ_i", row_.impact.impulse_ratio(), "", row_.error.impulse_ratio, 1),
                            *tangential_ / *normal_, {"impulse ratio"});
   }
@@ -350,8 +347,7 @@ class PlanarImpact {
   }
 
   void end(const Expression& formula) {
-    normal_ = writer_.found(number("P_n", row_.impact.normal_impulse, "N·s", row_.error.normal_impulse), formula,
-                            {"normal impulse, where the law of restitution ends the path"});
+    normal_ = writer_.found(unknowns().p, formula, {"normal impulse, where the law of restitution ends the path"});
   }
 
   Quantity compression(const Phases& path, const Quantity& us) {
@@ -397,20 +393,15 @@ class PlanarImpact {
   void eq8(const Quantity& a, const Quantity& b, const Quantity& e, bool is_newton) {
     const Expression m = given_.mass;
     const analytic::Impact& impact = row_.impact;
-    const Quantity p = number("P_n", impact.normal_impulse, "N·s", row_.error.normal_impulse);
-    const Quantity vn = number("V_n", impact.after.normal, "m/s", error_of(&analytic::PlanarVelocity::normal), speed_);
-    const Quantity vt =
-        number("V_t", impact.after.tangential, "m/s", error_of(&analytic::PlanarVelocity::tangential), speed_);
-    const Quantity w = number("Ω", impact.after.angular, "rad/s", error_of(&analytic::PlanarVelocity::angular));
+    const auto [p, pt, vn, vt, w] = unknowns();
     const std::optional<Quantity> ratio = ratio_ ? ratio_ : given_.impulse_ratio;
-    state_eq8({.p = p, .vn = vn, .vt = vt, .w = w}, ratio, is_newton ? &e : nullptr);
+    state_eq8(ratio, is_newton ? &e : nullptr);
     if (!normal_) {
       const Expression below = ratio ? a - *ratio * b : Expression(a);
       normal_ = writer_.found(p, -((1 + e) * m * u_ / below), {"normal impulse"});
     }
     if (ratio && !tangential_) {
-      tangential_ = writer_.found(number("P_t", impact.tangential_impulse, "N·s", row_.error.tangential_impulse),
-                                  *ratio * *normal_, {"tangential impulse"});
+      tangential_ = writer_.found(pt, *ratio * *normal_, {"tangential impulse"});
     }
     const Expression pn = *normal_;
     vn_after_ = writer_.found(vn, vn_ + pn / m);
@@ -437,13 +428,24 @@ class PlanarImpact {
     writer_.computed("P_n", "N·s", -(2 * m * vn_ / d));
   }
 
+  /// Impulses and velocities after the impact.
   struct Unknowns {
-    Quantity p, vn, vt, w;
+    Quantity p, pt, vn, vt, w;
   };
+  [[nodiscard]] Unknowns unknowns() const {
+    const analytic::Impact& impact = row_.impact;
+    const analytic::PlanarVelocity &after = impact.after, &error = row_.error.after;
+    return {.p = number("P_n", impact.normal_impulse, "N·s", row_.error.normal_impulse),
+            .pt = number("P_t", impact.tangential_impulse, "N·s", row_.error.tangential_impulse),
+            .vn = number("V_n", after.normal, "m/s", error.normal, speed_),
+            .vt = number("V_t", after.tangential, "m/s", error.tangential, speed_),
+            .w = number("Ω", after.angular, "rad/s", error.angular)};
+  }
 
   /// The lines of Eq. 8 with what they ask for.
   /// @param e  of Newton's law, whose line is the last; none: another law ends the impact
-  void state_eq8(const Unknowns& of, const std::optional<Quantity>& ratio, const Quantity* e) {
+  void state_eq8(const std::optional<Quantity>& ratio, const Quantity* e) {
+    const Unknowns of = unknowns();
     const Expression m = given_.mass, p = of.p, vn = of.vn, w = of.w;
     Words words{"Momentum along the normal and along the ground, angular momentum",
                 e ? ", and restitution" : "",
@@ -479,12 +481,7 @@ class PlanarImpact {
     const analytic::Impact& impact = row_.impact;
     const Quantity e = write_restitution(writer_, given_, vn_, impact.restitution());
     const Expression m = given_.mass;
-    const Quantity p = number("P_n", impact.normal_impulse, "N·s", row_.error.normal_impulse);
-    const Quantity vn = number("V_n", impact.after.normal, "m/s", error_of(&analytic::PlanarVelocity::normal), speed_);
-    const Quantity vt =
-        number("V_t", impact.after.tangential, "m/s", error_of(&analytic::PlanarVelocity::tangential), speed_);
-    const Quantity pt = number("P_t", impact.tangential_impulse, "N·s", row_.error.tangential_impulse);
-    const Quantity w = number("Ω", impact.after.angular, "rad/s", error_of(&analytic::PlanarVelocity::angular));
+    const auto [p, pt, vn, vt, w] = unknowns();
     writer_.open(
         "Eq. 10: vertices strike together (flat landing)",
         {"The body rebounds as a whole, its turning reversed like its fall. Unknown are the impulses ", p, " and ", pt,

@@ -14,6 +14,8 @@
 #include "analytic/plane/body_motion.hpp"
 #include "analytic/space/flight/point_height.hpp"
 #include "analytic/space/sequence/gradient.hpp"
+#include "validation/command/command.hpp"
+#include "validation/command/options.hpp"
 #include "validation/output/bad_input.hpp"
 #include "validation/output/number.hpp"
 #include "validation/run/scene_value.hpp"
@@ -96,38 +98,6 @@ double arm_of(const space::Drop& drop, std::size_t turn) {
   }
   return axis.cross(arm).z();
 }
-
-}  // namespace
-
-std::span<const GradientNumber> gradient_numbers(bool in_space) {
-  if (in_space) return numbers_in_space;
-  return numbers_in_plane;
-}
-
-void Derivatives::add(const Derivatives& other, double factor) {
-  for (std::size_t k = 0; k < value.size(); ++k) {
-    value[k] += factor * other.value[k];
-    error[k] += std::fabs(factor) * other.error[k];
-  }
-}
-
-void Derivatives::scale(double factor) {
-  for (double& one : value) one *= factor;
-  for (double& one : error) one *= std::fabs(factor);
-}
-
-DropGradient drop_gradient(const DiscreteDrop& drop, int impacts) {
-  if (const auto* const in_space = std::get_if<space::Drop>(&drop))
-    return listed({"angle", "tilt", "speed", "restitution", "friction"}, space::sequence_gradient(*in_space, impacts));
-  return listed({"angle", "speed", "restitution", "friction"},
-                analytic::sequence_gradient(std::get<analytic::Drop>(drop), impacts));
-}
-
-double arm_of_turn(const DiscreteDrop& drop, std::size_t turn) {
-  return std::visit([&](const auto& one) { return arm_of(one, turn); }, drop);
-}
-
-namespace {
 
 /// A number of the drop: its name in rows, and the unit that derivatives are taken per.
 struct Parameter {
@@ -217,7 +187,49 @@ std::string add_refusals(const std::vector<Parameter>& parameters, const DropGra
   return shortfall;
 }
 
+struct GradientInput {
+  SceneFlags scene;
+  OutputChoice output;
+};
+
+int run_gradient(const GradientInput& input) {
+  const PreparedScene prepared = read_discrete_flags(input.scene);
+  check_files(input.output);
+  const GradientReport made = gradient_report(prepared);
+  write_report(input.output, made.report);
+  if (!made.shortfall.empty()) say(made.shortfall);
+  return made.status;
+}
+
 }  // namespace
+
+std::span<const GradientNumber> gradient_numbers(bool in_space) {
+  if (in_space) return numbers_in_space;
+  return numbers_in_plane;
+}
+
+void Derivatives::add(const Derivatives& other, double factor) {
+  for (std::size_t k = 0; k < value.size(); ++k) {
+    value[k] += factor * other.value[k];
+    error[k] += std::fabs(factor) * other.error[k];
+  }
+}
+
+void Derivatives::scale(double factor) {
+  for (double& one : value) one *= factor;
+  for (double& one : error) one *= std::fabs(factor);
+}
+
+DropGradient drop_gradient(const DiscreteDrop& drop, int impacts) {
+  if (const auto* const in_space = std::get_if<space::Drop>(&drop))
+    return listed({"angle", "tilt", "speed", "restitution", "friction"}, space::sequence_gradient(*in_space, impacts));
+  return listed({"angle", "speed", "restitution", "friction"},
+                analytic::sequence_gradient(std::get<analytic::Drop>(drop), impacts));
+}
+
+double arm_of_turn(const DiscreteDrop& drop, std::size_t turn) {
+  return std::visit([&](const auto& one) { return arm_of(one, turn); }, drop);
+}
 
 std::vector<Column> gradient_columns(bool in_space) {
   std::vector<Column> columns{{"n", "n", "", "number of the impact"},
@@ -263,6 +275,20 @@ GradientReport gradient_report(const PreparedScene& prepared) {
   report.fields["outcome"] = run.outcome;
   report.fields["shortfall"] = text_or_nothing(made.shortfall);
   return made;
+}
+
+/// `clatter gradient SCENE`
+Command gradient_command() {
+  return command_of<GradientInput>(run_gradient, [](Command& command, GradientInput& input) {
+    add_scene_flags(command, input.scene, Model::discrete);
+    add_output_options(command, input.output);
+    command.footer =
+        "Example: clatter gradient --angle 10 --gravity 9.81 --restitution 0.8 --impacts 3\n"
+        "With respect to the angle and in space the tilt (per radian), the speed or height, restitution and\n"
+        "friction. None at a fold, where an impact grazes, and where drops on both sides have other impacts:\n"
+        "exit status 3.";
+    command.columns = {{"gradient", [] { return with_more(gradient_columns(false), gradient_columns(true)); }}};
+  });
 }
 
 }  // namespace clatter::validation

@@ -53,6 +53,96 @@ Vector3 first_angular_velocity(std::span<const Frame> frames) {
   return {median(parts[0]), median(parts[1]), median(parts[2])};
 }
 
+constexpr double explained = 5;  // standard deviations
+constexpr std::size_t seed_frames = 4;
+constexpr std::size_t window = 12;  // frames that a new one is fitted with
+constexpr std::size_t rest_frames = 5;
+constexpr std::size_t gravity_frames = 8, noise_frames = 16;
+constexpr std::size_t gravity_flights = 5;
+constexpr std::size_t most_torn = 2;  // in a row
+constexpr double unknown_gravity = 0.05, least_spread = 1e-3;
+
+/// Grows flights through the frames of a track up to `end`.
+class FlightSearch {
+ public:
+  FlightSearch(const Track& track, const FlightModel& model, std::size_t end)
+      : track_(track), model_(model), end_(end) {}
+
+  TrackFlights run() {
+    std::size_t start = 0;
+    while (start + seed_frames <= end_) {
+      FlightFrames flight;
+      for (std::size_t i = 0; i < seed_frames; ++i) flight.push_back(start + i);
+      if (!explains(flight)) {
+        result_.contact.push_back(start++);
+        continue;
+      }
+      grow(flight);
+      start = flight.back() + 1;
+      result_.flights.push_back(std::move(flight));
+    }
+    for (; start < end_; ++start) result_.contact.push_back(start);
+    return std::move(result_);
+  }
+
+ private:
+  void grow(FlightFrames& flight) {
+    for (std::size_t next = flight.back() + 1; next < end_;) {
+      const std::size_t step = step_to(flight, next);
+      if (step == 0) return;
+      for (std::size_t torn = next; torn < next + step - 1; ++torn) result_.torn.push_back(torn);
+      flight.push_back(next + step - 1);
+      next += step;
+    }
+  }
+
+  /// 1 if the next frame belongs; more if that many but one are torn; 0 if the flight has ended.
+  std::size_t step_to(const FlightFrames& flight, std::size_t next) {
+    if (explains_with(flight, {next})) return 1;
+    for (std::size_t torn = 1; torn <= most_torn; ++torn) {
+      const std::size_t after = next + torn;
+      if (after + 1 < end_ && explains_with(flight, {after, after + 1})) return torn + 1;
+    }
+    return 0;
+  }
+
+  bool explains_with(const FlightFrames& flight, std::initializer_list<std::size_t> more) {
+    FlightFrames last(flight.end() - static_cast<std::ptrdiff_t>(std::min(flight.size(), window)), flight.end());
+    last.insert(last.end(), more);
+    return explains(last);
+  }
+
+  bool explains(const FlightFrames& indices) {
+    frames_.clear();
+    for (const std::size_t i : indices) frames_.push_back(track_.frames[i]);
+    const FlightFit fit(frames_, model_);
+    return std::all_of(frames_.begin(), frames_.end(),
+                       [&](const Frame& frame) { return fit.residual(frame) <= explained; });
+  }
+
+  const Track& track_;
+  const FlightModel& model_;
+  std::size_t end_;
+  std::vector<Frame> frames_;
+  TrackFlights result_;
+};
+
+/// Frames at the end during which the body does not move: their position and attitude stay within 5 standard
+/// deviations; 0 if fewer than 5.
+std::size_t resting_frames(const Track& track, const PoseNoise& noise) {
+  const std::vector<Frame>& f = track.frames;
+  if (f.empty()) return 0;
+  std::size_t count = 0;
+  for (; count < f.size(); ++count) {
+    const Frame &frame = f[f.size() - 1 - count], &last = f.back();
+    const double moved = (frame.position - last.position).cwiseAbs().maxCoeff() / noise.position;
+    const double turned =
+        rotation_vector(frame.attitude * last.attitude.conjugate()).cwiseAbs().maxCoeff() / noise.rotation;
+    if (!(std::max(moved, turned) <= std::sqrt(2.0) * explained)) break;
+  }
+  return count >= rest_frames ? count : 0;
+}
+
 }  // namespace
 
 std::optional<UnlikeMoments> unlike_moments(const TrackedBody& body) {
@@ -242,98 +332,6 @@ StateVector FlightFit::residuals(const Frame& frame) const {
 
 double FlightFit::residual(const Frame& frame) const { return residuals(frame).cwiseAbs().maxCoeff(); }
 
-namespace {
-
-constexpr double explained = 5;  // standard deviations
-constexpr std::size_t seed_frames = 4;
-constexpr std::size_t window = 12;  // frames that a new one is fitted with
-constexpr std::size_t rest_frames = 5;
-constexpr std::size_t gravity_frames = 8, noise_frames = 16;
-constexpr std::size_t gravity_flights = 5;
-constexpr std::size_t most_torn = 2;  // in a row
-constexpr double unknown_gravity = 0.05, least_spread = 1e-3;
-
-/// Grows flights through the frames of a track up to `end`.
-class FlightSearch {
- public:
-  FlightSearch(const Track& track, const FlightModel& model, std::size_t end)
-      : track_(track), model_(model), end_(end) {}
-
-  TrackFlights run() {
-    std::size_t start = 0;
-    while (start + seed_frames <= end_) {
-      FlightFrames flight;
-      for (std::size_t i = 0; i < seed_frames; ++i) flight.push_back(start + i);
-      if (!explains(flight)) {
-        result_.contact.push_back(start++);
-        continue;
-      }
-      grow(flight);
-      start = flight.back() + 1;
-      result_.flights.push_back(std::move(flight));
-    }
-    for (; start < end_; ++start) result_.contact.push_back(start);
-    return std::move(result_);
-  }
-
- private:
-  void grow(FlightFrames& flight) {
-    for (std::size_t next = flight.back() + 1; next < end_;) {
-      const std::size_t step = step_to(flight, next);
-      if (step == 0) return;
-      for (std::size_t torn = next; torn < next + step - 1; ++torn) result_.torn.push_back(torn);
-      flight.push_back(next + step - 1);
-      next += step;
-    }
-  }
-
-  /// 1 if the next frame belongs; more if that many but one are torn; 0 if the flight has ended.
-  std::size_t step_to(const FlightFrames& flight, std::size_t next) {
-    if (explains_with(flight, {next})) return 1;
-    for (std::size_t torn = 1; torn <= most_torn; ++torn) {
-      const std::size_t after = next + torn;
-      if (after + 1 < end_ && explains_with(flight, {after, after + 1})) return torn + 1;
-    }
-    return 0;
-  }
-
-  bool explains_with(const FlightFrames& flight, std::initializer_list<std::size_t> more) {
-    FlightFrames last(flight.end() - static_cast<std::ptrdiff_t>(std::min(flight.size(), window)), flight.end());
-    last.insert(last.end(), more);
-    return explains(last);
-  }
-
-  bool explains(const FlightFrames& indices) {
-    frames_.clear();
-    for (const std::size_t i : indices) frames_.push_back(track_.frames[i]);
-    const FlightFit fit(frames_, model_);
-    return std::all_of(frames_.begin(), frames_.end(),
-                       [&](const Frame& frame) { return fit.residual(frame) <= explained; });
-  }
-
-  const Track& track_;
-  const FlightModel& model_;
-  std::size_t end_;
-  std::vector<Frame> frames_;
-  TrackFlights result_;
-};
-
-}  // namespace
-
-std::size_t resting_frames(const Track& track, const PoseNoise& noise) {
-  const std::vector<Frame>& f = track.frames;
-  if (f.empty()) return 0;
-  std::size_t count = 0;
-  for (; count < f.size(); ++count) {
-    const Frame &frame = f[f.size() - 1 - count], &last = f.back();
-    const double moved = (frame.position - last.position).cwiseAbs().maxCoeff() / noise.position;
-    const double turned =
-        rotation_vector(frame.attitude * last.attitude.conjugate()).cwiseAbs().maxCoeff() / noise.rotation;
-    if (!(std::max(moved, turned) <= std::sqrt(2.0) * explained)) break;
-  }
-  return count >= rest_frames ? count : 0;
-}
-
 TrackFlights find_flights(const Track& track, const FlightModel& model) {
   const std::size_t rest = resting_frames(track, model.noise);
   TrackFlights flights = FlightSearch(track, model, track.frames.size() - rest).run();
@@ -387,12 +385,8 @@ FallGravity fall_gravity(const TrackFile& file, const PoseNoise& noise) {
     own.push_back(fall.gravity_error());
   }
   if (falls.size() < gravity_flights) return known;
-  const double middle = median(falls);
-  for (double& fall : falls) fall = std::fabs(fall - middle);
-  const double spread = deviation_of_median * median(falls), known_to = median(own);
-  const double rest =
-      std::max(0.0, spread * spread - known_to * known_to) + spread * spread / static_cast<double>(falls.size());
-  return {middle, std::max(least_spread, std::sqrt(rest))};
+  const Middle middle = middle_of(falls, own);
+  return {middle.value, std::max(least_spread, middle.spread)};
 }
 
 }  // namespace clatter::validation

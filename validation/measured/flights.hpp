@@ -121,10 +121,6 @@ struct TrackFlights {
 /// off while the next two go on are torn.  From where the body rests nothing is a flight.
 [[nodiscard]] TrackFlights find_flights(const Track& track, const FlightModel& model);
 
-/// Frames at the end during which the body does not move: their position and attitude stay within 5 standard
-/// deviations; 0 if fewer than 5.
-[[nodiscard]] std::size_t resting_frames(const Track& track, const PoseNoise& noise);
-
 /// The flight of these frames, of the first or the last `most` of them.
 enum class FlightSide { first, last };
 [[nodiscard]] FlightFit fit_flight(const Track& track, const FlightFrames& frames, const FlightModel& model,

@@ -9,6 +9,7 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <memory>
 
@@ -23,18 +24,25 @@ constexpr int most_steps = 2000, most_idle = 200;
 constexpr double shrunk = 1e-6, derivative_step = 0.05;
 
 using Vector = Eigen::VectorXd;
+
+/// The loss of each item (a drop, say) for given parameters.
+using Losses = std::function<Eigen::VectorXd(const Eigen::VectorXd& parameters)>;
+
+struct FitStart {
+  std::vector<double> value;
+  std::vector<double> step;  ///< size of the first simplex, and twenty times the step of derivatives
+};
+
 using GslVector = std::unique_ptr<gsl_vector, void (*)(gsl_vector*)>;
 
-GslVector gsl_copy(const std::vector<double>& values) {
-  GslVector copy(gsl_vector_alloc(values.size()), gsl_vector_free);
-  for (std::size_t i = 0; i < values.size(); ++i) gsl_vector_set(copy.get(), i, values[i]);
-  return copy;
+GslVector gsl_constant(std::size_t count, double value) {
+  GslVector all(gsl_vector_alloc(count), gsl_vector_free);
+  gsl_vector_set_all(all.get(), value);
+  return all;
 }
 
 Vector eigen_copy(const gsl_vector* values) {
-  Vector copy(static_cast<Eigen::Index>(values->size));
-  for (Eigen::Index i = 0; i < copy.size(); ++i) copy[i] = gsl_vector_get(values, static_cast<std::size_t>(i));
-  return copy;
+  return Eigen::Map<const Vector>(values->data, static_cast<Eigen::Index>(values->size));  // of stride 1
 }
 
 double mean_loss(const gsl_vector* point, void* losses) {
@@ -45,16 +53,12 @@ double mean_loss(const gsl_vector* point, void* losses) {
 Vector least_point(const Losses& losses, const FitStart& start) {
   gsl_set_error_handler_off();  // each status is looked at
   const std::size_t count = start.value.size();
-  const Losses scaled = [&](const Vector& point) {
-    Vector parameters(point.size());
-    for (Eigen::Index i = 0; i < point.size(); ++i) {
-      const auto k = static_cast<std::size_t>(i);
-      parameters[i] = start.value[k] + start.step[k] * point[i];
-    }
-    return losses(parameters);
-  };
+  const Eigen::Map<const Vector> value(start.value.data(), static_cast<Eigen::Index>(count)),
+      unit(start.step.data(), static_cast<Eigen::Index>(count));
+  const auto at = [&](const Vector& point) -> Vector { return value + unit.cwiseProduct(point); };
+  const Losses scaled = [&](const Vector& point) { return losses(at(point)); };
   gsl_multimin_function function{&mean_loss, count, const_cast<Losses*>(&scaled)};
-  const GslVector origin = gsl_copy(std::vector<double>(count, 0)), size = gsl_copy(std::vector<double>(count, 1));
+  const GslVector origin = gsl_constant(count, 0), size = gsl_constant(count, 1);
   const std::unique_ptr<gsl_multimin_fminimizer, void (*)(gsl_multimin_fminimizer*)> simplex(
       gsl_multimin_fminimizer_alloc(gsl_multimin_fminimizer_nmsimplex2, count), gsl_multimin_fminimizer_free);
   gsl_multimin_fminimizer_set(simplex.get(), &function, origin.get(), size.get());
@@ -65,12 +69,7 @@ Vector least_point(const Losses& losses, const FitStart& start) {
     idle = simplex->fval < before ? 0 : idle + 1;
     // On a plain, where a parameter does not matter, the simplex turns on the spot among losses that are equal.
     if (gsl_multimin_fminimizer_size(simplex.get()) < shrunk || idle == most_idle) {
-      Vector value = eigen_copy(simplex->x);
-      for (Eigen::Index i = 0; i < value.size(); ++i) {
-        const auto k = static_cast<std::size_t>(i);
-        value[i] = start.value[k] + start.step[k] * value[i];
-      }
-      return value;
+      return at(eigen_copy(simplex->x));
     }
   }
   throw analytic::NumericalError("a fit's simplex did not shrink");
@@ -148,19 +147,10 @@ Eigen::MatrixXd jackknife(const Losses& losses, const Vector& at, const std::vec
   return covariance * static_cast<double>(n - 1) / static_cast<double>(n);
 }
 
-}  // namespace
-
-double pseudo_huber(double r, double s) {
-  const double q = r / s;
-  return s * s * q * q / (std::sqrt(1 + q * q) + 1);
-}
-
-double RobustFit::half_width(int parameter) const {
-  const auto freedom = static_cast<double>(losses.size() - value.size());
-  if (!(freedom > 0)) return std::numeric_limits<double>::infinity();
-  return gsl_cdf_tdist_Pinv(0.975, freedom) * std::sqrt(covariance(parameter, parameter));
-}
-
+/// Least mean loss by the simplex of Nelder and Mead (GSL).  Losses need no derivatives: friction's have kinks.
+/// @throws NumericalError if the simplex does not shrink to 1e-6 of its first size in 2000 steps, but where 200 steps
+/// do
+///         not lower the loss, as on a plain.
 RobustFit fit_robustly(const Losses& losses, const FitStart& start) {
   RobustFit fit;
   fit.value = least_point(losses, start);
@@ -168,16 +158,6 @@ RobustFit fit_robustly(const Losses& losses, const FitStart& start) {
   fit.covariance = jackknife(losses, fit.value, start.step);
   return fit;
 }
-
-PairedDifference paired_difference(const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
-  const Vector difference = a - b;
-  const auto n = static_cast<double>(difference.size());
-  const double mean = difference.mean();
-  const double spread = std::sqrt((difference.array() - mean).square().sum() / std::max(1.0, n - 1));
-  return {mean, spread / std::sqrt(n)};
-}
-
-namespace {
 
 constexpr double least_ground_error = 1e-6;  // [m]
 constexpr std::size_t enough = 3;            // resting poses to calibrate on
@@ -259,13 +239,11 @@ void calibrate_ground(const MeasuredFile& file, const TrackPart& part, Calibrati
     }
   }
   result.touches = heights.size();
-  result.calibration.ground = heights.empty() ? stated : median(heights);
-  for (double& height : heights) height = std::fabs(height - result.calibration.ground);
+  result.calibration.ground = stated;
   if (heights.empty()) return;
-  const double spread = deviation_of_median * median(heights), noise = median(own);
-  result.ground_spread =
-      std::sqrt(std::max(0.0, spread * spread - noise * noise) + spread * spread / static_cast<double>(heights.size()));
-  result.ground_spread = std::max(least_ground_error, result.ground_spread);
+  const Middle middle = middle_of(heights, own);
+  result.calibration.ground = middle.value;
+  result.ground_spread = std::max(least_ground_error, middle.spread);
 }
 
 /// How far an impulse at the touching point fails to explain the change of turning: with k² = I/m of the uniform body,
@@ -346,7 +324,44 @@ void calibrate_inertia(const MeasuredFile& file, const TrackPart& part, Calibrat
   result.lever_after = middle_of_points(turning.misses(result.calibration.inertia_factor, result.calibration.rounding));
 }
 
+using analytic::RestitutionLaw;
+using analytic::space::State;
+
+constexpr double quadratic_below = 0.05;  // relative error
+constexpr double larger_friction = 1.5;   // over the fitted one: what must fit worse
+constexpr double level_loss = 1e-3;       // rise over the loss below which it is level
+constexpr int floor_iterations = 2000;
+constexpr double floor_settled = 1e-12;
+constexpr std::size_t least_points = 5;
+
+Matrix3 world_inverse_inertia(const TrackedBody& body, const Quaternion& attitude) {
+  const Matrix3 axes = attitude.toRotationMatrix();
+  return axes * body.core().inertia.inverse() * axes.transpose();
+}
+
+/// s² (√(1 + (r/s)²) − 1): r²/2 for small r, s |r| for large ones.
+double pseudo_huber(double r, double s) {
+  const double q = r / s;
+  return s * s * q * q / (std::sqrt(1 + q * q) + 1);
+}
+
+double outside(double value, double low, double high) { return std::max({0.0, low - value, value - high}); }
+
 }  // namespace
+
+double RobustFit::half_width(int parameter) const {
+  const auto freedom = static_cast<double>(losses.size() - value.size());
+  if (!(freedom > 0)) return std::numeric_limits<double>::infinity();
+  return gsl_cdf_tdist_Pinv(0.975, freedom) * std::sqrt(covariance(parameter, parameter));
+}
+
+PairedDifference paired_difference(const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
+  const Vector difference = a - b;
+  const auto n = static_cast<double>(difference.size());
+  const double mean = difference.mean();
+  const double spread = std::sqrt((difference.array() - mean).square().sum() / std::max(1.0, n - 1));
+  return {mean, spread / std::sqrt(n)};
+}
 
 CalibrationResult calibrate(const MeasuredFile& file, const TrackPart& part, const CalibrationParts& parts) {
   CalibrationResult result;
@@ -370,27 +385,6 @@ std::vector<PartImpact> impacts_of(const MeasuredFile& file, const TrackPart& pa
   }
   return impacts;
 }
-
-namespace {
-
-using analytic::RestitutionLaw;
-using analytic::space::State;
-
-constexpr double quadratic_below = 0.05;  // relative error
-constexpr double larger_friction = 1.5;   // over the fitted one: what must fit worse
-constexpr double level_loss = 1e-3;       // rise over the loss below which it is level
-constexpr int floor_iterations = 2000;
-constexpr double floor_settled = 1e-12;
-constexpr std::size_t least_points = 5;
-
-Matrix3 world_inverse_inertia(const TrackedBody& body, const Quaternion& attitude) {
-  const Matrix3 axes = attitude.toRotationMatrix();
-  return axes * body.core().inertia.inverse() * axes.transpose();
-}
-
-double outside(double value, double low, double high) { return std::max({0.0, low - value, value - high}); }
-
-}  // namespace
 
 double FittedLaw::restitution_at(double effective_mass) const {
   return std::clamp(restitution + slope * effective_mass, 0.0, 1.0);
@@ -422,17 +416,15 @@ State struck(const TrackedBody& body, const State& before, int corner, const Fit
   return after;
 }
 
-double motion_distance(const TrackedBody& body, const State& a, const State& b) {
-  return std::sqrt((a.velocity - b.velocity).squaredNorm() +
-                   body.gyration_square() * (a.angular_velocity - b.angular_velocity).squaredNorm());
-}
-
 double motion_size(const TrackedBody& body, const State& state) {
   return std::sqrt(state.velocity.squaredNorm() + body.gyration_square() * state.angular_velocity.squaredNorm());
 }
 
 double relative_error(const TrackedBody& body, const TrackImpact& impact, const State& predicted) {
-  return motion_distance(body, impact.after.state, predicted) / motion_size(body, impact.before.state);
+  State apart = impact.after.state;
+  apart.velocity -= predicted.velocity;
+  apart.angular_velocity -= predicted.angular_velocity;
+  return motion_size(body, apart) / motion_size(body, impact.before.state);
 }
 
 LawFit fit_law(const TrackedBody& body, const std::vector<PartImpact>& impacts, RestitutionLaw law, bool slope) {
@@ -496,11 +488,6 @@ double floor_error(const TrackedBody& body, const TrackImpact& impact, double fr
     if (done) break;
   }
   return (y - a * p).norm() / motion_size(body, before);
-}
-
-const std::array<RestitutionLaw, 3>& fitted_laws() {
-  static const std::array laws{RestitutionLaw::newton, RestitutionLaw::poisson, RestitutionLaw::stronge};
-  return laws;
 }
 
 }  // namespace clatter::validation

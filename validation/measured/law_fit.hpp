@@ -4,7 +4,6 @@
 
 #include <Eigen/Core>
 #include <array>
-#include <functional>
 #include <vector>
 
 #include "analytic/plane/impact.hpp"
@@ -13,14 +12,6 @@
 namespace clatter::validation {
 
 // Parameters that make the sum of bounded or slowly growing losses least, with confidence from the items' scatter.
-
-/// The loss of each item (a drop, say) for given parameters.
-using Losses = std::function<Eigen::VectorXd(const Eigen::VectorXd& parameters)>;
-
-struct FitStart {
-  std::vector<double> value;
-  std::vector<double> step;  ///< size of the first simplex, and twenty times the step of derivatives
-};
 
 struct RobustFit {
   Eigen::VectorXd value;
@@ -33,15 +24,6 @@ struct RobustFit {
   /// Half the width of a parameter's 95 % interval, by Student's distribution.
   [[nodiscard]] double half_width(int parameter) const;
 };
-
-/// Least mean loss by the simplex of Nelder and Mead (GSL).  Losses need no derivatives: friction's have kinks.
-/// @throws NumericalError if the simplex does not shrink to 1e-6 of its first size in 2000 steps, but where 200 steps
-/// do
-///         not lower the loss, as on a plain.
-[[nodiscard]] RobustFit fit_robustly(const Losses& losses, const FitStart& start);
-
-/// s² (√(1 + (r/s)²) − 1): r²/2 for small r, s |r| for large ones.
-[[nodiscard]] double pseudo_huber(double r, double s);
 
 /// Mean of a − b, item by item, and its standard error: whether one model beats another on the same items.
 struct PairedDifference {
@@ -107,10 +89,7 @@ struct FittedLaw {
 /// ν of (1).
 [[nodiscard]] double effective_mass(const TrackedBody& body, const analytic::space::State& state, int corner);
 
-/// √(|ΔV|² + k² |ΔΩ|²) between two motions, k² = I/m.
-[[nodiscard]] double motion_distance(const TrackedBody& body, const analytic::space::State& a,
-                                     const analytic::space::State& b);
-/// The same of one motion.
+/// √(|V|² + k² |Ω|²), k² = I/m.
 [[nodiscard]] double motion_size(const TrackedBody& body, const analytic::space::State& state);
 /// Error of a predicted motion after an impact, over the size of the motion before.
 [[nodiscard]] double relative_error(const TrackedBody& body, const TrackImpact& impact,
@@ -135,6 +114,7 @@ struct LawFit {
 /// no law with one point can beat.
 [[nodiscard]] double floor_error(const TrackedBody& body, const TrackImpact& impact, double friction);
 
-[[nodiscard]] const std::array<analytic::RestitutionLaw, 3>& fitted_laws();
+inline constexpr std::array fitted_laws{analytic::RestitutionLaw::newton, analytic::RestitutionLaw::poisson,
+                                        analytic::RestitutionLaw::stronge};
 
 }  // namespace clatter::validation

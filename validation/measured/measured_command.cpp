@@ -3,8 +3,7 @@
 #include <fmt/format.h>
 
 #include <filesystem>
-
-#include "validation/measured/measured_command.hpp"
+#include <numeric>
 
 #include "validation/command/command.hpp"
 #include "validation/command/options.hpp"
@@ -48,7 +47,7 @@ void split_file(const MeasuredRequest& input, MeasuredRun& run) {
 
 TrackPart all_of(const MeasuredFile& file) {
   TrackPart all(file.tracks.size());
-  for (std::size_t i = 0; i < all.size(); ++i) all[i] = i;
+  std::iota(all.begin(), all.end(), std::size_t{0});
   return all;
 }
 
@@ -64,33 +63,6 @@ void fit_elsewhere(const MeasuredRequest& input, const TrackDescription& descrip
   run.split_words = fmt::format("fitted on the {} drops of {}, scored on {}", other.tracks.size(), input.fit_from,
                                 run.split.scored.size());
 }
-
-}  // namespace
-
-Arguments measured_arguments(MeasuredRequest& request) {
-  const auto as_it_is = [](const std::string&, const std::string& text) { return text; };
-  return {read_argument("--body", request.body, as_it_is, "FILE",
-                        "what was tracked: a TOML file, square-drops or cube-tosses (the file's own name with .toml)"),
-          whole_argument("--seed", request.seed, 0, 2147483647, "N", "draws the drops to fit on (1)"),
-          number_argument("--share", request.share, {0, 1, true, "greater than 0, at most 1"}, "X",
-                          "of the drops to fit on (0.5)"),
-          read_argument("--fit-on", request.fit_on, as_it_is, "LIST",
-                        "fit on these drops, as in 1,3,10-20; score the others"),
-          read_argument("--fit-from", request.fit_from, as_it_is, "FILE",
-                        "fit on another file's drops, score all of this one")};
-}
-
-MeasuredRun read_measured_run(const MeasuredRequest& input) {
-  refuse_two_splits(input);
-  const TrackDescription description = description_of(input.file, input.body);
-  MeasuredRun run{
-      .file = measure_tracks(read_tracks(input.file, description)), .split = {}, .fit = {}, .split_words = {}};
-  if (!input.fit_from.empty()) fit_elsewhere(input, description, run);
-  else split_file(input, run);
-  return run;
-}
-
-namespace {
 
 const std::vector<std::string>& actions() {
   static const std::vector<std::string> names{"fit", "predict", "score"};
@@ -145,6 +117,29 @@ int run_measured(const MeasuredInput& input) {
 }
 
 }  // namespace
+
+Arguments measured_arguments(MeasuredRequest& request) {
+  const auto as_it_is = [](const std::string&, const std::string& text) { return text; };
+  return {read_argument("--body", request.body, as_it_is, "FILE",
+                        "what was tracked: a TOML file, square-drops or cube-tosses (the file's own name with .toml)"),
+          whole_argument("--seed", request.seed, 0, 2147483647, "N", "draws the drops to fit on (1)"),
+          number_argument("--share", request.share, {0, 1, true, "greater than 0, at most 1"}, "X",
+                          "of the drops to fit on (0.5)"),
+          read_argument("--fit-on", request.fit_on, as_it_is, "LIST",
+                        "fit on these drops, as in 1,3,10-20; score the others"),
+          read_argument("--fit-from", request.fit_from, as_it_is, "FILE",
+                        "fit on another file's drops, score all of this one")};
+}
+
+MeasuredRun read_measured_run(const MeasuredRequest& input) {
+  refuse_two_splits(input);
+  const TrackDescription description = description_of(input.file, input.body);
+  MeasuredRun run{
+      .file = measure_tracks(read_tracks(input.file, description)), .split = {}, .fit = {}, .split_words = {}};
+  if (!input.fit_from.empty()) fit_elsewhere(input, description, run);
+  else split_file(input, run);
+  return run;
+}
 
 Command measured_command() {
   return command_of<MeasuredInput>(run_measured, [](Command& command, MeasuredInput& input) {

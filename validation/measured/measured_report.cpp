@@ -213,6 +213,160 @@ std::string contact_words(const MeasuredFit& fit) {
       significant(1e3 * fit.contact_time, 2), significant(1e3 * fit.contact_time_error, 1));
 }
 
+/// 95 % interval of a share (Wilson).
+std::pair<double, double> share_interval(const Share& share) {
+  constexpr double z = 1.96;
+  const double n = share.of, p = share.value(), middle = (p + z * z / (2 * n)) / (1 + z * z / n);
+  const double half = z / (1 + z * z / n) * std::sqrt(p * (1 - p) / n + z * z / (4 * n * n));
+  return {std::fmax(middle - half, 0), std::fmin(middle + half, 1)};  // rounding must not leave what a share can be
+}
+
+Row error_row(const std::string& group, const std::string& name, const std::vector<double>& errors) {
+  const auto percent = [&](double share) { return Cell(100 * quantile(errors, share), 3); };
+  return {Cell(group), Cell(name), percent(0.5), percent(0.25), percent(0.75), percent(0.9), Cell(errors.size())};
+}
+
+Row share_row(const std::string& group, const std::string& name, const Share& share) {
+  const auto [low, high] = share_interval(share);
+  return {Cell(group),   Cell(name),    Cell(100 * share.value(), 3), Cell(100 * low, 3), Cell(100 * high, 3),
+          Cell(Value()), Cell(share.of)};
+}
+
+void add_score_rows(const Scores& scores, Report& report) {
+  auto& rows = report.grid.rows;
+  for (const ErrorRow& row : scores.rows) rows.push_back(error_row("velocity", row.name, row.errors));
+  rows.push_back(error_row("impact 2", "time", scores.time_errors));
+  rows.push_back(error_row("impact 2", "P2/P1", scores.ratio_errors));
+  const auto put = [&](const std::string& name, const Share& share) {
+    if (share.of > 0) rows.push_back(share_row("right", name, share));
+  };
+  put("point impacts", scores.points);
+  put("first corner", scores.first_corner);
+  put("second corner", scores.second_corner);
+  put("… the start leaves no doubt", scores.second_corner_sure);
+  put("… nor does the law's scatter", scores.second_corner_clear);
+  put("… from V and Ω as measured", scores.second_corner_flown);
+  put("inside 90 % intervals", scores.inside);
+  put("face at rest", scores.face);
+  put("… by published parameters", scores.published_face);
+  put("number of impacts within 1", scores.count);
+  for (const ResidualBin& bin : scores.bins) {
+    rows.push_back({Cell("by " + bin.quantity),
+                    Cell(fmt::format("{} to {} {}", shortest(bin.low), shortest(bin.high), bin.unit)),
+                    Cell(100 * bin.error, 3), Cell(Value()), Cell(Value()), Cell(Value()), Cell(bin.points)});
+  }
+}
+
+Value bins_value(const Scores& scores) {
+  Value bins = Value::List{};
+  for (const ResidualBin& bin : scores.bins) {
+    bins.push_back(Value::Fields{{"quantity", bin.quantity},
+                                 {"unit", bin.unit},
+                                 {"from", bin.low},
+                                 {"to", bin.high},
+                                 {"impacts", bin.impacts},
+                                 {"points", bin.points},
+                                 {"error", bin.error},
+                                 {"lever_miss", bin.lever},
+                                 {"restitution", bin.restitution}});
+  }
+  return bins;
+}
+
+std::string bin_words(const Scores& scores) {
+  std::string words = "point impacts by angle between arm and vertical:";
+  for (const ResidualBin& bin : scores.bins) {
+    if (bin.quantity != "angle") continue;
+    words += fmt::format(" {}–{}° {} of {}, e {};", shortest(bin.low), shortest(bin.high), bin.points, bin.impacts,
+                         bin.points > 0 ? significant(bin.restitution, 2) : "–");
+  }
+  words.back() = '.';
+  return words;
+}
+
+constexpr int points_of_a_flight = 40;
+constexpr double predicted = 1, measured = 0;
+
+const ScoredDrop& chosen_drop(const Scores& scores, const std::string& name) {
+  const auto found = std::find_if(scores.drops.begin(), scores.drops.end(), [&](const ScoredDrop& drop) {
+    return name.empty() ? drop.measured.is_point : drop.name == name;
+  });
+  if (found != scores.drops.end()) return *found;
+  throw BadInput(name.empty() ? "--plot: no point impact was scored"
+                              : fmt::format("--drop {}: not among those scored", name));
+}
+
+PicturePanel track_panel(const MeasuredRun& run, const ScoredDrop& drop) {
+  const ForecastModel model = forecast_model(run.file, run.fit);
+  PicturePanel panel{
+      .columns = {{"time", "s", "since impact 1"},
+                  {"height", "m", "of the centre"},
+                  {"kind", "1", "0 measured, 1 predicted"}},
+      .plot = {
+          .x_label = "time after impact 1 [s]",
+          .y_label = "height of the centre [m]",
+          .curves = {
+              {.x = "time",
+               .y = "height",
+               .legend = "drop " + drop.name + ", measured",
+               .style = FigureCurve::Style::points,
+               .where = {{"kind", measured}}},
+              {.x = "time", .y = "height", .legend = "predicted from impact 1 on", .where = {{"kind", predicted}}}}}};
+  const auto track = std::find_if(run.file.file.tracks.begin(), run.file.file.tracks.end(),
+                                  [&](const Track& t) { return t.name == drop.name; });
+  const double ground = run.fit.calibration.calibration.ground;
+  double last = 0;
+  for (const Frame& frame : track->frames) {
+    last = frame.time - drop.measured.time;
+    panel.rows.push_back({last, frame.position.z() - ground, measured});
+  }
+  for (const HeightAt& at : predicted_heights(model, drop.measured, last, points_of_a_flight))
+    panel.rows.push_back({at.time, at.height, predicted});
+  return panel;
+}
+
+PicturePanel residual_panel(const Scores& scores) {
+  PicturePanel panel{.columns = {{"angle", "deg", "between the corner's arm and the vertical"},
+                                 {"error", "%", "of the motion after impact 1"},
+                                 {"point", "1", "1: a point impact"}},
+                     .plot = {.x_label = "angle between the corner's arm and the vertical [°]",
+                              .y_label = "error of the motion after impact 1 [%]",
+                              .curves = {{.x = "angle",
+                                          .y = "error",
+                                          .legend = "point impacts",
+                                          .style = FigureCurve::Style::points,
+                                          .where = {{"point", 1.0}}},
+                                         {.x = "angle",
+                                          .y = "error",
+                                          .legend = "others",
+                                          .style = FigureCurve::Style::points,
+                                          .where = {{"point", 0.0}}}}}};
+  for (const ScoredDrop& drop : scores.drops)
+    panel.rows.push_back({drop.measured.angle_degrees(), 100 * drop.error, drop.measured.is_point ? 1.0 : 0.0});
+  return panel;
+}
+
+PicturePanel coverage_panel(const MeasuredRun& run, const Scores& scores) {
+  PicturePanel panel{
+      .columns = {{"width", "1", "over that of the 90 % interval"}, {"share", "%", "of the numbers within"}},
+      .plot = {.x_label = "distance over half the 90 % interval",
+               .y_label = "velocities within that distance [%]",
+               .curves = {{.x = "width", .y = "share", .legend = "velocities after impact 1; 90 % belong at 1"}},
+               .y = {0, 100}}};
+  const TrackedBody body(run.file.file.description, run.fit.calibration.calibration);
+  std::vector<double> ratios;
+  for (const ScoredDrop& drop : scores.drops) {
+    if (!drop.measured.is_point) continue;
+    const MotionParts off = motion_parts(body, drop.measured.after.state) - motion_parts(body, drop.predicted.after);
+    for (const int part : active_parts(run.file.file.description))
+      ratios.push_back(std::fabs(off[part]) / drop.predicted.half_width[part]);
+  }
+  std::sort(ratios.begin(), ratios.end());
+  for (std::size_t i = 0; i < ratios.size(); ++i)
+    panel.rows.push_back({ratios[i], 100 * static_cast<double>(i + 1) / static_cast<double>(ratios.size())});
+  return panel;
+}
+
 }  // namespace
 
 std::vector<Column> measured_fit_columns() {
@@ -328,81 +482,6 @@ Report measured_predict_report(const MeasuredRun& run, const Scores& scores) {
   return report;
 }
 
-namespace {
-
-/// 95 % interval of a share (Wilson).
-std::pair<double, double> share_interval(const Share& share) {
-  constexpr double z = 1.96;
-  const double n = share.of, p = share.value(), middle = (p + z * z / (2 * n)) / (1 + z * z / n);
-  const double half = z / (1 + z * z / n) * std::sqrt(p * (1 - p) / n + z * z / (4 * n * n));
-  return {std::fmax(middle - half, 0), std::fmin(middle + half, 1)};  // rounding must not leave what a share can be
-}
-
-Row error_row(const std::string& group, const std::string& name, const std::vector<double>& errors) {
-  const auto percent = [&](double share) { return Cell(100 * quantile(errors, share), 3); };
-  return {Cell(group), Cell(name), percent(0.5), percent(0.25), percent(0.75), percent(0.9), Cell(errors.size())};
-}
-
-Row share_row(const std::string& group, const std::string& name, const Share& share) {
-  const auto [low, high] = share_interval(share);
-  return {Cell(group),   Cell(name),    Cell(100 * share.value(), 3), Cell(100 * low, 3), Cell(100 * high, 3),
-          Cell(Value()), Cell(share.of)};
-}
-
-void add_score_rows(const Scores& scores, Report& report) {
-  auto& rows = report.grid.rows;
-  for (const ErrorRow& row : scores.rows) rows.push_back(error_row("velocity", row.name, row.errors));
-  rows.push_back(error_row("impact 2", "time", scores.time_errors));
-  rows.push_back(error_row("impact 2", "P2/P1", scores.ratio_errors));
-  const auto put = [&](const std::string& name, const Share& share) {
-    if (share.of > 0) rows.push_back(share_row("right", name, share));
-  };
-  put("point impacts", scores.points);
-  put("first corner", scores.first_corner);
-  put("second corner", scores.second_corner);
-  put("… the start leaves no doubt", scores.second_corner_sure);
-  put("… nor does the law's scatter", scores.second_corner_clear);
-  put("… from V and Ω as measured", scores.second_corner_flown);
-  put("inside 90 % intervals", scores.inside);
-  put("face at rest", scores.face);
-  put("… by published parameters", scores.published_face);
-  put("number of impacts within 1", scores.count);
-  for (const ResidualBin& bin : scores.bins) {
-    rows.push_back({Cell("by " + bin.quantity),
-                    Cell(fmt::format("{} to {} {}", shortest(bin.low), shortest(bin.high), bin.unit)),
-                    Cell(100 * bin.error, 3), Cell(Value()), Cell(Value()), Cell(Value()), Cell(bin.points)});
-  }
-}
-
-Value bins_value(const Scores& scores) {
-  Value bins = Value::List{};
-  for (const ResidualBin& bin : scores.bins) {
-    bins.push_back(Value::Fields{{"quantity", bin.quantity},
-                                 {"unit", bin.unit},
-                                 {"from", bin.low},
-                                 {"to", bin.high},
-                                 {"impacts", bin.impacts},
-                                 {"points", bin.points},
-                                 {"error", bin.error},
-                                 {"lever_miss", bin.lever},
-                                 {"restitution", bin.restitution}});
-  }
-  return bins;
-}
-
-std::string bin_words(const Scores& scores) {
-  std::string words = "point impacts by angle between arm and vertical:";
-  for (const ResidualBin& bin : scores.bins) {
-    if (bin.quantity != "angle") continue;
-    words += fmt::format(" {}–{}° {} of {}, e {};", shortest(bin.low), shortest(bin.high), bin.points, bin.impacts,
-                         bin.points > 0 ? significant(bin.restitution, 2) : "–");
-  }
-  words.back() = '.';
-  return words;
-}
-
-}  // namespace
-
 std::vector<Column> measured_score_columns() {
   return {word_column("group", "of", "what is scored"),
           word_column("quantity", "quantity", "the model or the number"),
@@ -429,93 +508,6 @@ Report measured_score_report(const MeasuredRun& run, const Scores& scores) {
   report.fields["law"] = law_words(run.fit.laws[run.fit.best].law);
   return report;
 }
-
-namespace {
-
-constexpr int points_of_a_flight = 40;
-constexpr double predicted = 1, measured = 0;
-
-const ScoredDrop& chosen_drop(const Scores& scores, const std::string& name) {
-  const auto found = std::find_if(scores.drops.begin(), scores.drops.end(), [&](const ScoredDrop& drop) {
-    return name.empty() ? drop.measured.is_point : drop.name == name;
-  });
-  if (found != scores.drops.end()) return *found;
-  throw BadInput(name.empty() ? "--plot: no point impact was scored"
-                              : fmt::format("--drop {}: not among those scored", name));
-}
-
-PicturePanel track_panel(const MeasuredRun& run, const ScoredDrop& drop) {
-  const ForecastModel model = forecast_model(run.file, run.fit);
-  PicturePanel panel{
-      .columns = {{"time", "s", "since impact 1"},
-                  {"height", "m", "of the centre"},
-                  {"kind", "1", "0 measured, 1 predicted"}},
-      .plot = {
-          .x_label = "time after impact 1 [s]",
-          .y_label = "height of the centre [m]",
-          .curves = {
-              {.x = "time",
-               .y = "height",
-               .legend = "drop " + drop.name + ", measured",
-               .style = FigureCurve::Style::points,
-               .where = {{"kind", measured}}},
-              {.x = "time", .y = "height", .legend = "predicted from impact 1 on", .where = {{"kind", predicted}}}}}};
-  const auto track = std::find_if(run.file.file.tracks.begin(), run.file.file.tracks.end(),
-                                  [&](const Track& t) { return t.name == drop.name; });
-  const double ground = run.fit.calibration.calibration.ground;
-  double last = 0;
-  for (const Frame& frame : track->frames) {
-    last = frame.time - drop.measured.time;
-    panel.rows.push_back({last, frame.position.z() - ground, measured});
-  }
-  for (const HeightAt& at : predicted_heights(model, drop.measured, last, points_of_a_flight))
-    panel.rows.push_back({at.time, at.height, predicted});
-  return panel;
-}
-
-PicturePanel residual_panel(const Scores& scores) {
-  PicturePanel panel{.columns = {{"angle", "deg", "between the corner's arm and the vertical"},
-                                 {"error", "%", "of the motion after impact 1"},
-                                 {"point", "1", "1: a point impact"}},
-                     .plot = {.x_label = "angle between the corner's arm and the vertical [°]",
-                              .y_label = "error of the motion after impact 1 [%]",
-                              .curves = {{.x = "angle",
-                                          .y = "error",
-                                          .legend = "point impacts",
-                                          .style = FigureCurve::Style::points,
-                                          .where = {{"point", 1.0}}},
-                                         {.x = "angle",
-                                          .y = "error",
-                                          .legend = "others",
-                                          .style = FigureCurve::Style::points,
-                                          .where = {{"point", 0.0}}}}}};
-  for (const ScoredDrop& drop : scores.drops)
-    panel.rows.push_back({drop.measured.angle_degrees(), 100 * drop.error, drop.measured.is_point ? 1.0 : 0.0});
-  return panel;
-}
-
-PicturePanel coverage_panel(const MeasuredRun& run, const Scores& scores) {
-  PicturePanel panel{
-      .columns = {{"width", "1", "over that of the 90 % interval"}, {"share", "%", "of the numbers within"}},
-      .plot = {.x_label = "distance over half the 90 % interval",
-               .y_label = "velocities within that distance [%]",
-               .curves = {{.x = "width", .y = "share", .legend = "velocities after impact 1; 90 % belong at 1"}},
-               .y = {0, 100}}};
-  const TrackedBody body(run.file.file.description, run.fit.calibration.calibration);
-  std::vector<double> ratios;
-  for (const ScoredDrop& drop : scores.drops) {
-    if (!drop.measured.is_point) continue;
-    const MotionParts off = motion_parts(body, drop.measured.after.state) - motion_parts(body, drop.predicted.after);
-    for (const int part : active_parts(run.file.file.description))
-      ratios.push_back(std::fabs(off[part]) / drop.predicted.half_width[part]);
-  }
-  std::sort(ratios.begin(), ratios.end());
-  for (std::size_t i = 0; i < ratios.size(); ++i)
-    panel.rows.push_back({ratios[i], 100 * static_cast<double>(i + 1) / static_cast<double>(ratios.size())});
-  return panel;
-}
-
-}  // namespace
 
 Picture measured_picture(const MeasuredRun& run, const Scores& scores, const std::string& drop) {
   return {.what = "Predictions held against measured drops",

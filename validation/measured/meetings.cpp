@@ -111,8 +111,9 @@ double low_error(const Meeting& meeting, const TrackedBody& body, const PoseNois
   return std::sqrt(variance);
 }
 
-}  // namespace
-
+/// The changes of motion in a track.  Flights between which no component of velocity or angular velocity changes by
+/// more than 6 standard deviations are one; so are, away from the ground, those whose motion changes by less than a
+/// twentieth: walls slow a fall and its turning.
 std::vector<Meeting> find_meetings(const Track& track, const TrackFlights& flights, const FlightModel& model,
                                    const TrackedBody& body) {
   std::vector<Meeting> meetings;
@@ -133,8 +134,6 @@ std::vector<Meeting> find_meetings(const Track& track, const TrackFlights& fligh
   }
   return meetings;
 }
-
-namespace {
 
 /// Height of the ground over that of the description: where the first two flights of each track meet, in the middle.
 double first_ground(const MeasuredFile& measured) {
@@ -182,58 +181,15 @@ void sort_changes(MeasuredTrack& track, double ground, const MeasuredFile& measu
   track.meetings = std::move(impacts);
 }
 
-}  // namespace
-
-MeasuredFile measure_tracks(TrackFile file) {
-  MeasuredFile measured{.file = std::move(file), .model = {}, .tracks = {}};
-  const TrackDescription& description = measured.file.description;
-  const TrackedBody body(description, {});
-  measured.model = {.noise = pose_noise(measured.file),
-                    .gravity = {},
-                    .planar = description.is_planar(),
-                    .moments = unlike_moments(body)};
-  measured.model.gravity = fall_gravity(measured.file, measured.model.noise);
-  std::vector<TrackFlights> flights;
-  for (const Track& track : measured.file.tracks) flights.push_back(find_flights(track, measured.model));
-  measured.model.noise = flight_noise(measured.file, flights, measured.model);
-  for (std::size_t i = 0; i < flights.size(); ++i) {
-    const Track& track = measured.file.tracks[i];
-    MeasuredTrack result{.name = track.name, .missing = track.missing};
-    result.flights = std::move(flights[i]);
-    result.meetings = find_meetings(track, result.flights, measured.model, body);
-    if (result.flights.rests) {
-      result.rest = track.frames.back().attitude;
-      result.rest_position = track.frames.back().position;
-    }
-    measured.tracks.push_back(std::move(result));
-  }
-  const double ground = first_ground(measured);
-  for (MeasuredTrack& track : measured.tracks) sort_changes(track, ground, measured);
-  return measured;
-}
-
-namespace {
-
 using analytic::space::FirstContact;
 using analytic::space::FreeFlight;
 using analytic::space::PrincipalAxes;
-using analytic::space::State;
 
 constexpr double bar = 3;  // standard deviations
 
 Matrix3 gyration(const TrackedBody& body, const Quaternion& attitude) {
   const Matrix3 axes = attitude.toRotationMatrix();
   return axes * (body.core().inertia / body.core().mass) * axes.transpose();
-}
-
-/// Rows: derivative of the touching point's velocity by position, attitude, velocity and angular velocity.
-/// @param turning  the part of the arm that turns with the body
-Eigen::Matrix<double, 3, 12> point_velocity_map(const State& state, const Vector3& arm, const Vector3& turning) {
-  Eigen::Matrix<double, 3, 12> map = Eigen::Matrix<double, 3, 12>::Zero();
-  map.block<3, 3>(0, 3) = -cross_matrix(state.angular_velocity) * cross_matrix(turning);
-  map.block<3, 3>(0, 6) = Matrix3::Identity();
-  map.block<3, 3>(0, 9) = -cross_matrix(arm);
-  return map;
 }
 
 void add_lever(const TrackedBody& body, TrackImpact& impact, double tolerance) {
@@ -258,57 +214,37 @@ void add_lever(const TrackedBody& body, TrackImpact& impact, double tolerance) {
   }
 }
 
-/// Derivative of the touching point's height by position, attitude, velocity and angular velocity.
-Eigen::Matrix<double, 1, 12> height_map(const Vector3& arm) {
-  Eigen::Matrix<double, 1, 12> map = Eigen::Matrix<double, 1, 12>::Zero();
-  map(2) = 1;
-  map.segment<3>(3) = arm.cross(Vector3::UnitZ()).transpose();
-  return map;
-}
-
-void add_ratios(const TrackedBody& body, TrackImpact& impact, double ground_error) {
-  const State &before = impact.before.state, &after = impact.after.state;
-  const Vector3 u = before.velocity + before.angular_velocity.cross(impact.arm);
-  const Vector3 w = after.velocity + after.angular_velocity.cross(impact.arm);
-  impact.approach = -u.z();
-  impact.slip = u.head<2>().norm();
-  impact.restitution = w.z() / impact.approach;
-  const Vector3 turning = body.turning_part(impact.arm);
-  const Eigen::Matrix<double, 3, 12> start = point_velocity_map(before, impact.arm, turning),
-                                     end = point_velocity_map(after, impact.arm, turning);
-  // The arm is common to both: its error, that of the attitude before, enters through both velocities.
-  Eigen::Matrix<double, 1, 12> by_before = impact.restitution * start.row(2);
-  by_before.segment<3>(3) += end.row(2).segment<3>(3);
-  Eigen::Matrix<double, 1, 12> by_after = end.row(2);
-  by_after.segment<3>(3).setZero();
-  // A touch dt later: the arm turns with the body, and both velocities are those of another time.
-  const Vector3 turned = before.angular_velocity.cross(turning);
-  const double by_time = after.angular_velocity.cross(turned).z() +
-                         impact.restitution * before.angular_velocity.cross(turned).z() -
-                         (1 + impact.restitution) * impact.gravity;
-  // The pose before settles the moment of the touch.
-  by_before += by_time / impact.approach * height_map(impact.arm);
-  impact.restitution_error = std::sqrt((by_before * impact.before.covariance * by_before.transpose())(0) +
-                                       (by_after * impact.after.covariance * by_after.transpose())(0) +
-                                       std::pow(by_time * ground_error / impact.approach, 2)) /
-                             impact.approach;
-  const Vector3 jump = after.velocity - before.velocity;
-  const double tangential = jump.head<2>().norm();
-  impact.impulse_ratio = tangential / jump.z();
-  Vector3 by_jump(0, 0, -impact.impulse_ratio / jump.z());
-  if (tangential > 0) by_jump.head<2>() = jump.head<2>() / (tangential * jump.z());
-  const Matrix3 spread = impact.before.covariance.block<3, 3>(6, 6) + impact.after.covariance.block<3, 3>(6, 6);
-  impact.impulse_ratio_error = std::sqrt(by_jump.dot(spread * by_jump));
-  const double along = u.head<2>().dot(w.head<2>());
-  impact.slips_throughout = along > 0.5 * u.head<2>().norm() * w.head<2>().norm();
-}
-
 MeasuredState calibrated(const TrackedBody& body, MeasuredState measured) {
   measured.state.attitude = body.attitude(measured.state.attitude);
   return measured;
 }
 
 }  // namespace
+
+MeasuredFile measure_tracks(TrackFile file) {
+  MeasuredFile measured{.file = std::move(file), .model = {}, .tracks = {}};
+  const TrackDescription& description = measured.file.description;
+  const TrackedBody body(description, {});
+  measured.model = {.noise = pose_noise(measured.file),
+                    .gravity = {},
+                    .planar = description.is_planar(),
+                    .moments = unlike_moments(body)};
+  measured.model.gravity = fall_gravity(measured.file, measured.model.noise);
+  std::vector<TrackFlights> flights;
+  for (const Track& track : measured.file.tracks) flights.push_back(find_flights(track, measured.model));
+  measured.model.noise = flight_noise(measured.file, flights, measured.model);
+  for (std::size_t i = 0; i < flights.size(); ++i) {
+    const Track& track = measured.file.tracks[i];
+    MeasuredTrack result{.name = track.name, .missing = track.missing};
+    result.flights = std::move(flights[i]);
+    result.meetings = find_meetings(track, result.flights, measured.model, body);
+    if (result.flights.rests) result.rest = track.frames.back().attitude;
+    measured.tracks.push_back(std::move(result));
+  }
+  const double ground = first_ground(measured);
+  for (MeasuredTrack& track : measured.tracks) sort_changes(track, ground, measured);
+  return measured;
+}
 
 double lever(const TrackedBody& body, const TrackImpact& impact, const Vector3& arm) {
   const State &before = impact.before.state, &after = impact.after.state;
@@ -352,12 +288,18 @@ TrackImpact measured_impact(const Meeting& meeting, const TrackedBody& body, dou
   const State met = before.state_at(meeting.time);
   const Quaternion met_attitude = body.attitude(met.attitude);
   impact.height = met.position.z() + body.arm(met_attitude, body.lowest(met_attitude)).z() - body.calibration().ground;
-  const double fall =
-      std::fabs((impact.before.state.velocity + impact.before.state.angular_velocity.cross(impact.arm)).z());
-  const auto height = height_map(impact.arm);
+  const auto point_velocity = [&](const State& state) -> Vector3 {
+    return state.velocity + state.angular_velocity.cross(impact.arm);
+  };
+  const Vector3 before_touch = point_velocity(impact.before.state), after_touch = point_velocity(impact.after.state);
+  impact.approach = -before_touch.z();
+  impact.slip = before_touch.head<2>().norm();
+  impact.restitution = after_touch.z() / impact.approach;
+  Eigen::Matrix<double, 1, 12> height = Eigen::Matrix<double, 1, 12>::Zero();  // by the state before
+  height(2) = 1;
+  height.segment<3>(3) = impact.arm.cross(Vector3::UnitZ()).transpose();
   const double low_error = std::sqrt((height * impact.before.covariance * height.transpose())(0));
-  impact.time_error = std::hypot(ground_error, low_error) / std::max(fall, 1e-3);
-  add_ratios(body, impact, ground_error);
+  impact.time_error = std::hypot(ground_error, low_error) / std::max(std::fabs(impact.approach), 1e-3);
   add_lever(body, impact, lever_tolerance);
   return impact;
 }

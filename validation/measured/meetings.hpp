@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "analytic/base/angle.hpp"
 #include "validation/measured/flights.hpp"
 
 namespace clatter::validation {
@@ -30,12 +31,6 @@ struct Meeting {
   double skipped = 0;    ///< of Change::skipped: the time that the samples leave out [s]
 };
 
-/// The changes of motion in a track.  Flights between which no component of velocity or angular velocity changes by
-/// more than 6 standard deviations are one; so are, away from the ground, those whose motion changes by less than a
-/// twentieth: walls slow a fall and its turning.
-[[nodiscard]] std::vector<Meeting> find_meetings(const Track& track, const TrackFlights& flights,
-                                                 const FlightModel& model, const TrackedBody& body);
-
 /// Everything read from one track.
 struct MeasuredTrack {
   std::string name{};
@@ -44,7 +39,6 @@ struct MeasuredTrack {
   std::vector<Meeting> meetings{};       ///< impacts
   std::vector<Meeting> other_changes{};  ///< of the motion, away from the ground
   std::optional<Quaternion> rest{};      ///< attitude at rest, as tracked
-  std::optional<Vector3> rest_position{};
 };
 
 /// A file taken apart, with what its frames say of themselves.
@@ -75,13 +69,9 @@ struct TrackImpact {
   double approach = 0;            ///< −normal velocity of the touching point before [m/s]
   double slip = 0;                ///< its tangential speed before [m/s]
   double restitution = 0;         ///< separation over approach
-  double restitution_error = 0;   ///< standard deviation
-  double impulse_ratio = 0;       ///< P_t/P_n
-  double impulse_ratio_error = 0;
-  bool slips_throughout = false;  ///< the slip keeps its direction within 60°: then impulse_ratio is μ
   double angle = 0;               ///< between the arm and the downward vertical [rad]
 
-  [[nodiscard]] double angle_degrees() const { return angle * 57.29577951308232; }
+  [[nodiscard]] double angle_degrees() const { return angle * analytic::degrees_per_radian; }
 };
 
 /// Momentum about the touching point that an impulse there leaves unexplained, over |ΔV| times the corner's distance R:

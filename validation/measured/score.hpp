@@ -76,16 +76,8 @@ struct ForecastRequest {
 [[nodiscard]] std::optional<NextImpact> next_contact(const TrackedBody& body, analytic::space::State after, int corner,
                                                      double gravity);
 
-/// Motion after all impacts within `duration` of the first, as a sequence of impacts and flights; gravity aside, which
-/// the flights on both sides have.
-[[nodiscard]] analytic::space::State after_touches(const ForecastModel& model, const TrackImpact& start,
-                                                   double duration);
-
 /// Number `column` of sample `sample`: standard normal, from uniform_at().
 [[nodiscard]] double normal_at(std::uint64_t seed, std::uint64_t sample, std::uint32_t column);
-/// A sample of a measured state.
-[[nodiscard]] analytic::space::State sample_of(const MeasuredState& state, std::uint64_t seed, std::uint64_t sample);
-
 /// Which drops to fit on and which to score: never the same.
 struct TrackSplit {
   TrackPart fitted, scored;
@@ -126,10 +118,9 @@ struct ScoredDrop {
   std::string name;
   TrackImpact measured;
   Forecast predicted;
-  double error = 0;                           ///< relative_error of the prediction
-  std::optional<TrackImpact> second;          ///< as measured
-  std::optional<std::size_t> face;            ///< that lies down at rest, as measured
-  std::optional<std::size_t> published_face;  ///< as the authors' parameters have it
+  double error = 0;                   ///< relative_error of the prediction
+  std::optional<TrackImpact> second;  ///< as measured
+  std::optional<std::size_t> face;    ///< that lies down at rest, as measured
   int measured_impacts = 0;
 };
 
@@ -142,6 +133,7 @@ struct ErrorRow {
 /// A share of drops, or nothing to count.
 struct Share {
   int right = 0, of = 0;
+  void take(bool is_right) { ++of, right += is_right ? 1 : 0; }
   [[nodiscard]] double value() const;
 };
 
@@ -166,7 +158,7 @@ struct Scores {
   Share second_corner_flown;         ///< from the motion measured after impact 1: the flight alone
   Share inside;                      ///< numbers inside their 90 % intervals
   Share face, published_face;        ///< at rest, with the fitted and the published parameters
-  Share count, count_published;      ///< number of impacts met within one;
+  Share count;                       ///< number of impacts met within one
   std::vector<double> time_errors;   ///< of the second impact, over the flight's measured duration
   std::vector<double> ratio_errors;  ///< of P₂/P₁, relative
   std::vector<ResidualBin> bins;

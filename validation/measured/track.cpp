@@ -8,6 +8,7 @@
 #include <cmath>
 #include <filesystem>
 #include <limits>
+#include <sstream>
 
 #include "validation/embedded/embedded.hpp"
 #include "validation/output/bad_input.hpp"
@@ -28,39 +29,20 @@ constexpr Range not_negative{0, 1e100, false, "from 0 to 1e100"};
 
 const std::string folder = "validation/measured/", ending = ".toml";
 
-const std::vector<std::string>& description_keys() {
-  static const std::vector<std::string> keys{"body.size",
-                                             "body.radius",
-                                             "body.mesh.file",
-                                             "body.mesh.unit",
-                                             "body.mass",
-                                             "track.point",
-                                             "track.motion",
-                                             "track.rate",
-                                             "track.drop",
-                                             "track.sample",
-                                             "track.time",
-                                             "track.time_unit",
-                                             "track.quaternion",
-                                             "track.x",
-                                             "track.y",
-                                             "track.z",
-                                             "track.angle",
-                                             "track.q0",
-                                             "track.q1",
-                                             "track.q2",
-                                             "track.q3",
-                                             "track.unit",
-                                             "track.turns",
-                                             "track.attitude",
-                                             "track.angle_unit",
-                                             "world.ground",
-                                             "world.gravity",
-                                             "source.text",
-                                             "source.licence",
-                                             "impact.lever_tolerance",
-                                             "published.restitution",
-                                             "published.friction"};
+std::vector<std::string> description_keys() {
+  std::vector<std::string> keys;
+  for (const auto& [table, names] :
+       {std::pair{"body", "size radius mesh.file mesh.unit mass"},
+        {"track",
+         "point motion rate drop sample time time_unit quaternion x y z angle q0 q1 q2 q3 unit turns attitude "
+         "angle_unit"},
+        {"world", "ground gravity"},
+        {"source", "text licence"},
+        {"impact", "lever_tolerance"},
+        {"published", "restitution friction"}}) {
+    std::istringstream words(names);
+    for (std::string name; words >> name;) keys.push_back(fmt::format("{}.{}", table, name));
+  }
   return keys;
 }
 
@@ -203,101 +185,6 @@ Body body_with(const TrackDescription& d, double rounding, double inertia_factor
   return body;
 }
 
-}  // namespace
-
-std::string TrackDescription::frame_words() const {
-  if (is_planar())
-    return fmt::format("x to the right and z up, angles {}", clockwise ? "clockwise" : "counter-clockwise");
-  const std::string words = fmt::format("z up; quaternions with the scalar part {}, {}", scalar_last ? "last" : "first",
-                                        to_body ? "world to body" : "body to world");
-  if (!mesh) return words;
-  return fmt::format("of the {}, axes of {}; {}", of_origin ? "file's origin" : "centre of mass", mesh->name, words);
-}
-
-std::vector<std::string> carried_descriptions() {
-  std::vector<std::string> names;
-  for (const EmbeddedFile& file : embedded_files()) {
-    if (!file.name.starts_with(folder) || !file.name.ends_with(ending)) continue;
-    names.emplace_back(file.name.substr(folder.size(), file.name.size() - folder.size() - ending.size()));
-  }
-  return names;
-}
-
-bool means_carried(const std::string& path) {
-  const std::vector<std::string> names = carried_descriptions();
-  return std::find(names.begin(), names.end(), path) != names.end() && !std::filesystem::exists(path);
-}
-
-TrackDescription read_description(const std::string& path) {
-  const std::vector<std::string> names = carried_descriptions();
-  if (std::find(names.begin(), names.end(), path) != names.end()) {
-    const std::string file = folder + path + ending;
-    return described(SceneValues(file, embedded_text(file), description_keys()));
-  }
-  if (!std::filesystem::exists(path))
-    throw BadInput(fmt::format("--body {}: neither a file nor one of {}", path, fmt::join(names, ", ")));
-  return described(SceneValues(path, description_keys()));
-}
-
-TrackDescription description_of(const std::string& csv, const std::string& given) {
-  if (!given.empty()) return read_description(given);
-  if (means_carried(csv)) return read_description(csv);
-  const std::string beside = std::filesystem::path(csv).replace_extension(ending).string();
-  if (!std::filesystem::exists(beside)) {
-    throw BadInput(
-        fmt::format("{}: what was tracked is not known: no file {} beside it; --body takes a file or one of {}", csv,
-                    beside, fmt::join(carried_descriptions(), ", ")));
-  }
-  return read_description(beside);
-}
-
-TrackedBody::TrackedBody(const TrackDescription& d, const Calibration& calibration)
-    : calibration_(calibration), core_(body_with(d, calibration.rounding, calibration.inertia_factor)),
-      sharp_(body_with(d, 0, calibration.inertia_factor)),
-      turn_(Eigen::AngleAxisd(calibration.turn.norm(), calibration.turn.norm() > 0
-                                                           ? Vector3(calibration.turn.normalized())
-                                                           : Vector3::UnitX())) {
-  for (int axis = 0; axis < 3 && d.is_box(); ++axis) {
-    if (d.is_planar() && axis == 1) continue;
-    for (const double side : {-1.0, 1.0}) faces_.push_back(side * Vector3::Unit(axis));
-  }
-  if (d.mesh) {
-    for (const HullFace& face : d.mesh->faces) faces_.push_back(face.normal);
-  }
-  gyration_square_ = sharp_.inertia.trace() / (3 * d.mass * calibration.inertia_factor);
-  reach_ = d.is_ball() ? d.radius : 0;
-  for (const Vector3& corner : sharp_.vertices) reach_ = std::max(reach_, corner.norm());
-  constexpr double alike = 1e-6;  // so small a difference bends no flight between two impacts
-  const analytic::space::PrincipalAxes principal(core_.inertia);
-  turns_steadily_ = !(principal.moments[2] - principal.moments[0] > alike * principal.moments[2]);
-}
-
-Vector3 TrackedBody::core_arm(const Quaternion& attitude, int corner) const {
-  if (is_ball()) return -reach_ * Vector3::UnitZ();
-  return attitude * core_.vertices[static_cast<std::size_t>(corner)];
-}
-
-Vector3 TrackedBody::arm(const Quaternion& attitude, int corner) const {
-  return core_arm(attitude, corner) - calibration_.rounding * Vector3::UnitZ();
-}
-
-int TrackedBody::lowest(const Quaternion& attitude) const {
-  if (is_ball()) return 0;
-  const auto height = [&](const Vector3& corner) { return (attitude * corner).z(); };
-  const auto place = std::min_element(core_.vertices.begin(), core_.vertices.end(),
-                                      [&](const Vector3& a, const Vector3& b) { return height(a) < height(b); });
-  return static_cast<int>(place - core_.vertices.begin());
-}
-
-std::size_t TrackedBody::down_face(const Quaternion& attitude) const {
-  const auto height = [&](const Vector3& normal) { return (attitude * normal).z(); };
-  const auto place = std::min_element(faces_.begin(), faces_.end(),
-                                      [&](const Vector3& a, const Vector3& b) { return height(a) < height(b); });
-  return static_cast<std::size_t>(place - faces_.begin());
-}
-
-namespace {
-
 constexpr double least_noise = 1e-7;     // [m], [rad]
 constexpr double least_motion = 0.1;     // in three frames, over the body's size
 constexpr double worst_length = 0.05;    // of a quaternion, off 1
@@ -396,7 +283,100 @@ TrackFile tracks_of(const NumericTable& table, TrackDescription description) {
   return file;
 }
 
+/// Names of the descriptions that the program carries.
+std::vector<std::string> carried_descriptions() {
+  std::vector<std::string> names;
+  for (const EmbeddedFile& file : embedded_files()) {
+    if (!file.name.starts_with(folder) || !file.name.ends_with(ending)) continue;
+    names.emplace_back(file.name.substr(folder.size(), file.name.size() - folder.size() - ending.size()));
+  }
+  return names;
+}
+
+/// Whether a path names tracks that the program carries, and no file.
+bool means_carried(const std::string& path) {
+  const std::vector<std::string> names = carried_descriptions();
+  return std::find(names.begin(), names.end(), path) != names.end() && !std::filesystem::exists(path);
+}
+
 }  // namespace
+
+std::string TrackDescription::frame_words() const {
+  if (is_planar())
+    return fmt::format("x to the right and z up, angles {}", clockwise ? "clockwise" : "counter-clockwise");
+  const std::string words = fmt::format("z up; quaternions with the scalar part {}, {}", scalar_last ? "last" : "first",
+                                        to_body ? "world to body" : "body to world");
+  if (!mesh) return words;
+  return fmt::format("of the {}, axes of {}; {}", of_origin ? "file's origin" : "centre of mass", mesh->name, words);
+}
+
+TrackDescription read_description(const std::string& path) {
+  const std::vector<std::string> names = carried_descriptions();
+  if (std::find(names.begin(), names.end(), path) != names.end()) {
+    const std::string file = folder + path + ending;
+    return described(SceneValues(file, embedded_text(file), description_keys()));
+  }
+  if (!std::filesystem::exists(path))
+    throw BadInput(fmt::format("--body {}: neither a file nor one of {}", path, fmt::join(names, ", ")));
+  return described(SceneValues(path, description_keys()));
+}
+
+TrackDescription description_of(const std::string& csv, const std::string& given) {
+  if (!given.empty()) return read_description(given);
+  if (means_carried(csv)) return read_description(csv);
+  const std::string beside = std::filesystem::path(csv).replace_extension(ending).string();
+  if (!std::filesystem::exists(beside)) {
+    throw BadInput(
+        fmt::format("{}: what was tracked is not known: no file {} beside it; --body takes a file or one of {}", csv,
+                    beside, fmt::join(carried_descriptions(), ", ")));
+  }
+  return read_description(beside);
+}
+
+TrackedBody::TrackedBody(const TrackDescription& d, const Calibration& calibration)
+    : calibration_(calibration), core_(body_with(d, calibration.rounding, calibration.inertia_factor)),
+      sharp_(body_with(d, 0, calibration.inertia_factor)),
+      turn_(Eigen::AngleAxisd(calibration.turn.norm(), calibration.turn.norm() > 0
+                                                           ? Vector3(calibration.turn.normalized())
+                                                           : Vector3::UnitX())) {
+  for (int axis = 0; axis < 3 && d.is_box(); ++axis) {
+    if (d.is_planar() && axis == 1) continue;
+    for (const double side : {-1.0, 1.0}) faces_.push_back(side * Vector3::Unit(axis));
+  }
+  if (d.mesh) {
+    for (const HullFace& face : d.mesh->faces) faces_.push_back(face.normal);
+  }
+  gyration_square_ = sharp_.inertia.trace() / (3 * d.mass * calibration.inertia_factor);
+  reach_ = d.is_ball() ? d.radius : 0;
+  for (const Vector3& corner : sharp_.vertices) reach_ = std::max(reach_, corner.norm());
+  constexpr double alike = 1e-6;  // so small a difference bends no flight between two impacts
+  const analytic::space::PrincipalAxes principal(core_.inertia);
+  turns_steadily_ = !(principal.moments[2] - principal.moments[0] > alike * principal.moments[2]);
+}
+
+Vector3 TrackedBody::core_arm(const Quaternion& attitude, int corner) const {
+  if (is_ball()) return -reach_ * Vector3::UnitZ();
+  return attitude * core_.vertices[static_cast<std::size_t>(corner)];
+}
+
+Vector3 TrackedBody::arm(const Quaternion& attitude, int corner) const {
+  return core_arm(attitude, corner) - calibration_.rounding * Vector3::UnitZ();
+}
+
+int TrackedBody::lowest(const Quaternion& attitude) const {
+  if (is_ball()) return 0;
+  const auto height = [&](const Vector3& corner) { return (attitude * corner).z(); };
+  const auto place = std::min_element(core_.vertices.begin(), core_.vertices.end(),
+                                      [&](const Vector3& a, const Vector3& b) { return height(a) < height(b); });
+  return static_cast<int>(place - core_.vertices.begin());
+}
+
+std::size_t TrackedBody::down_face(const Quaternion& attitude) const {
+  const auto height = [&](const Vector3& normal) { return (attitude * normal).z(); };
+  const auto place = std::min_element(faces_.begin(), faces_.end(),
+                                      [&](const Vector3& a, const Vector3& b) { return height(a) < height(b); });
+  return static_cast<std::size_t>(place - faces_.begin());
+}
 
 Vector3 rotation_vector(const Quaternion& rotation) {
   const Quaternion q = rotation.w() < 0 ? Quaternion(-rotation.coeffs()) : rotation;
@@ -425,17 +405,22 @@ double quantile(std::vector<double> values, double share) {
 
 double median(std::vector<double> values) { return quantile(std::move(values), 0.5); }
 
+Middle middle_of(std::vector<double> values, const std::vector<double>& own_errors) {
+  const double middle = median(values);
+  for (double& value : values) value = std::fabs(value - middle);
+  const double spread = deviation_of_median * median(values), own = median(own_errors);
+  return {middle,
+          std::sqrt(std::max(0.0, spread * spread - own * own) + spread * spread / static_cast<double>(values.size()))};
+}
+
 TrackFile read_tracks(const std::string& path, const TrackDescription& description) {
   if (means_carried(path)) return carried_tracks(path, description);
   return tracks_of(NumericTable::read(path, request_for(description)), description);
 }
 
 TrackFile carried_tracks(const std::string& name, const TrackDescription& description) {
-  return parse_tracks(name, std::string(embedded_text("validation/measured/" + name + ".csv")), description);
-}
-
-TrackFile parse_tracks(const std::string& path, std::string text, const TrackDescription& description) {
-  return tracks_of(NumericTable::parse(path, std::move(text), request_for(description)), description);
+  std::string text(embedded_text("validation/measured/" + name + ".csv"));
+  return tracks_of(NumericTable::parse(name, std::move(text), request_for(description)), description);
 }
 
 PoseNoise pose_noise(const TrackFile& file) {

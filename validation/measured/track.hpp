@@ -85,11 +85,6 @@ struct TrackDescription {
 [[nodiscard]] TrackDescription read_description(const std::string& path);
 /// The description of a CSV file: `given`, or without it the file of the same name that ends in .toml.
 [[nodiscard]] TrackDescription description_of(const std::string& csv, const std::string& given);
-/// Names of the descriptions that the program carries.
-[[nodiscard]] std::vector<std::string> carried_descriptions();
-/// Whether a path names tracks that the program carries, and no file.
-[[nodiscard]] bool means_carried(const std::string& path);
-
 /// How the body differs from the one described: what resting poses and momentum about the touched corner say.  A ball
 /// rests on no face, so that its axes stay as tracked; corners are rounded of a box alone.
 struct Calibration {
@@ -177,9 +172,6 @@ struct TrackFile {
 /// The data set of this name that the program carries.
 [[nodiscard]] TrackFile carried_tracks(const std::string& name, const TrackDescription& description);
 
-/// The same from a text; `path` is its name in errors.
-[[nodiscard]] TrackFile parse_tracks(const std::string& path, std::string text, const TrackDescription& description);
-
 /// Standard deviations of a pose's noise, of each component.
 struct PoseNoise {
   double position = 0;  ///< [m]
@@ -199,6 +191,12 @@ struct PoseNoise {
 inline constexpr double deviation_of_median = 1.4826;
 /// The middle of a list; NaN of none.
 [[nodiscard]] double median(std::vector<double> values);
+/// The middle of a list, and how far its members are spread beyond their own errors, as standard deviation, with the
+/// uncertainty of the middle.
+struct Middle {
+  double value = 0, spread = 0;
+};
+[[nodiscard]] Middle middle_of(std::vector<double> values, const std::vector<double>& own_errors);
 /// The value below which a share of a list lies, between neighbours in proportion; NaN of none.
 [[nodiscard]] double quantile(std::vector<double> values, double share);
 

@@ -11,6 +11,13 @@
 
 namespace clatter::validation {
 
+double upper_median(std::vector<double> values) {
+  if (values.empty()) return 0;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::ranges::nth_element(values, middle);
+  return *middle;
+}
+
 std::string shortest(double value) { return fmt::format("{}", value + 0.0); }
 
 std::string significant(double value, int digits) {

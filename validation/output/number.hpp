@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Numbers as text.
+// Numbers as text, and the middle of several.
 #pragma once
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace clatter::validation {
+
+/// The middle of a list, of an even number of values the larger of two; 0 of none.
+[[nodiscard]] double upper_median(std::vector<double> values);
 
 /// Shortest decimal text that reads back as the same double; "nan", "inf", "-inf" otherwise.
 [[nodiscard]] std::string shortest(double value);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "validation/rod/angles_report.hpp"
+#include "validation/rod/rod.hpp"
 
 #include <fmt/format.h>
 
@@ -50,104 +50,12 @@ std::vector<std::string> notes_of(const AnglesRequest& request) {
   return notes;
 }
 
-}  // namespace
-
-Arguments angles_arguments(AnglesOptions& options) {
-  Arguments rows = range_arguments(options.range, "angle theta in degrees (0 to 90 by 5)");
-  for (Argument& row : rod_arguments(options.rod)) rows.push_back(std::move(row));
-  rows.push_back({.name = "--as-printed",
-                  .target = &options.as_printed,
-                  .help = "beta by the paper's printed gravity term beside the corrected one",
-                  .group = "Rod"});
-  rows.push_back(whole_argument("--digits", options.digits, 1, 17, "N", "significant digits in tables (6)", "Output"));
-  return rows;
-}
-
-AnglesRequest angles_request(const AnglesOptions& options) {
-  const Sweep sweep = sweep_of(options.range, {0, 90, 5}, {0, 90, false, "from 0 to 90 degrees"});
-  return {.theta = [sweep](long long i) { return sweep.value(i); },
-          .count = sweep.count,
-          .rod = rod_parameters(options.rod),
-          .rod_words = rod_summary(options.rod),
-          .as_printed = options.as_printed,
-          .digits = options.digits};
-}
-
-std::vector<Column> angles_columns(const AnglesRequest& request) {
-  const bool p = request.as_printed;
-  const bool returns_all = request.rod.restitution == 1 && request.rod.gravity_number == 0;  // or ΣP need not be near 2
-  std::vector<Column> columns{
-      {"theta_deg", "θ", "°", "contact angle of impact 1"},
-      {"beta_deg", "β", "°", "contact angle of impact 2"},
-      {"gamma_deg", "γ", "°", "contact angle of impact 3", !p},
-      {"P1", "P₁", "m|vₙ|", "impulse 1", !p},
-      {"P2", "P₂", "m|vₙ|", "impulse 2", !p},
-      {"P3", "P₃", "m|vₙ|", "impulse 3", !p},
-      {"V1", "V₁", "|vₙ|", "normal velocity after impact 1", false},
-      {"Omega1", "Ω₁", "|vₙ|/L", "angular velocity after impact 1", false},
-      {"V2", "V₂", "|vₙ|", "normal velocity after impact 2", false},
-      {"Omega2", "Ω₂", "|vₙ|/L", "angular velocity after impact 2", false},
-      {"V3", "V₃", "|vₙ|", "normal velocity after impact 3", false},
-      {"Omega3", "Ω₃", "|vₙ|/L", "angular velocity after impact 3", false},
-      {"T1", "T₁", "L/|vₙ|", "from impact 1 to 2", false},
-      {"T2", "T₂", "L/|vₙ|", "from impact 2 to 3", false},
-      {"gamma_minus_theta_deg", "γ − θ", "°", "γ − θ", false},
-      {"impulse_deficit", "2 − ΣP", "m|vₙ|", "2 less the sum of the impulses", !p && returns_all},
-      {"impacts", "impacts", "",
-       "how many of the first three come with the ends in turn and at contact angles up to 90°"},
-      {"beta_printed_deg", "β printed, g > 0", "°", "β by the printed gravity term", p},
-      {"beta_printed_negative_g_deg", "β printed, g < 0", "°", "the same for g of the other sign", p}};
-  columns.resize(column_count(request));
-  return columns;
-}
-
-namespace {
-
-/// The row of one rod at one angle [°].
-AnglesRow row_of(double theta, const analytic::RodParameters& rod, bool as_printed) {
-  const analytic::Angle angle = analytic::Angle::from_degrees(theta);
-  const analytic::ContactAngles a = analytic::contact_angles(angle, rod);
-  const double beta = angle_or_missing(a.beta);
-  const double gamma = angle_or_missing(a.gamma);
-  AnglesRow row{theta,
-                beta,
-                gamma,
-                a.impulse[0],
-                a.impulse[1],
-                a.impulse[2],
-                a.velocity[0],
-                a.angular[0],
-                a.velocity[1],
-                a.angular[1],
-                a.velocity[2],
-                a.angular[2],
-                std::isnan(beta) ? NAN : a.beta.time,
-                std::isnan(gamma) ? NAN : a.gamma.time,
-                a.gamma_minus_theta * degrees_per_radian,
-                a.impulse_deficit,
-                static_cast<double>(a.impacts()),
-                NAN,
-                NAN};
-  if (!as_printed) return row;
-  const double g = rod.gravity_number;
-  row[plain_columns] = angle_or_missing(analytic::contact_angle_as_printed(angle, g));
-  row[plain_columns + 1] = angle_or_missing(analytic::contact_angle_as_printed(angle, -g));
-  return row;
-}
-
-/// Adds |Δvalue| over the relative change of one parameter, for each value; infinite where only one of the rods has it.
-void add_sensitivity(const AnglesRow& row, const AnglesRow& neighbour, AnglesRow& sum) {
-  for (std::size_t k = 0; k < row.size(); ++k) {
-    if (std::isnan(row[k])) continue;
-    sum[k] += std::isnan(neighbour[k]) ? INFINITY : std::fabs(neighbour[k] - row[k]) / neighbour_shift;
-  }
-}
-
-/// The same by the batch, which is right but for the digits that γ − θ and 2 − ΣP have beyond it close to flat.
-AnglesRow row_of(double theta, const analytic::RodContacts& rod) {
+/// The numbers of a row behind θ, β and γ [°], in both models' words for them.
+AnglesRow row_of(double theta, double beta, double gamma, const auto& rod, const std::array<double, 2>& times,
+                 const std::array<double, 2>& differences, int impacts) {
   return {theta,
-          rod.angle[0] * degrees_per_radian,
-          rod.angle[1] * degrees_per_radian,
+          beta,
+          gamma,
           rod.impulse[0],
           rod.impulse[1],
           rod.impulse[2],
@@ -157,13 +65,43 @@ AnglesRow row_of(double theta, const analytic::RodContacts& rod) {
           rod.angular[1],
           rod.velocity[2],
           rod.angular[2],
-          rod.time[0],
-          rod.time[1],
-          rod.angle[1] * degrees_per_radian - theta,
-          2 - rod.impulse[0] - rod.impulse[1] - rod.impulse[2],
-          static_cast<double>(rod.impacts),
+          times[0],
+          times[1],
+          differences[0],
+          differences[1],
+          static_cast<double>(impacts),
           NAN,
           NAN};
+}
+
+/// The row of one rod at one angle [°].
+AnglesRow row_of(double theta, const analytic::RodParameters& rod, bool as_printed) {
+  const analytic::Angle angle = analytic::Angle::from_degrees(theta);
+  const analytic::ContactAngles a = analytic::contact_angles(angle, rod);
+  const double beta = angle_or_missing(a.beta), gamma = angle_or_missing(a.gamma);
+  AnglesRow row =
+      row_of(theta, beta, gamma, a, {std::isnan(beta) ? NAN : a.beta.time, std::isnan(gamma) ? NAN : a.gamma.time},
+             {a.gamma_minus_theta * degrees_per_radian, a.impulse_deficit}, a.impacts());
+  if (!as_printed) return row;
+  const double g = rod.gravity_number;
+  row[plain_columns] = angle_or_missing(analytic::contact_angle_as_printed(angle, g));
+  row[plain_columns + 1] = angle_or_missing(analytic::contact_angle_as_printed(angle, -g));
+  return row;
+}
+
+/// The same by the batch, which is right but for the digits that γ − θ and 2 − ΣP have beyond it close to flat.
+AnglesRow row_of(double theta, const analytic::RodContacts& rod) {
+  const double gamma = rod.angle[1] * degrees_per_radian;
+  return row_of(theta, rod.angle[0] * degrees_per_radian, gamma, rod, {rod.time[0], rod.time[1]},
+                {gamma - theta, 2 - rod.impulse[0] - rod.impulse[1] - rod.impulse[2]}, rod.impacts);
+}
+
+/// Adds |Δvalue| over the relative change of one parameter, for each value; infinite where only one of the rods has it.
+void add_sensitivity(const AnglesRow& row, const AnglesRow& neighbour, AnglesRow& sum) {
+  for (std::size_t k = 0; k < row.size(); ++k) {
+    if (std::isnan(row[k])) continue;
+    sum[k] += std::isnan(neighbour[k]) ? INFINITY : std::fabs(neighbour[k] - row[k]) / neighbour_shift;
+  }
 }
 
 /// Adds what rows change by where θ is less by the part `shift`, of a rod with other parameters.
@@ -203,14 +141,6 @@ std::vector<AnglesRow> errors_of(const std::vector<AnglesRow>& rows, const Angle
   return errors;
 }
 
-}  // namespace
-
-AnglesRow angles_row(const AnglesRequest& request, long long i) {
-  return row_of(request.theta(i), request.rod, request.as_printed);
-}
-
-namespace {
-
 /// Calls use(row, errors) for rows `begin` … `end` − 1.
 void for_known_rows(const AnglesRequest& request, long long begin, long long end, const auto& use) {
   constexpr long long part = 512;
@@ -222,30 +152,6 @@ void for_known_rows(const AnglesRequest& request, long long begin, long long end
     for (std::size_t i = 0; i < rows.size(); ++i) use(rows[i], errors[i]);
   }
 }
-
-}  // namespace
-
-Report angles_frame(const AnglesRequest& request) {
-  const std::string range =
-      request.count == 0
-          ? "no θ"
-          : fmt::format("θ from {}° to {}°, {} value{}", shortest(request.theta(0)),
-                        shortest(request.theta(request.count - 1)), request.count, request.count == 1 ? "" : "s");
-  Report report = begun_report("angles", "contact angles of the first three impacts");
-  report.head = {request.rod_words + "; " + range};
-  report.notes = notes_of(request);
-  report.grid.columns = angles_columns(request);
-  for (std::size_t k = 0; k < column_count(request); ++k) {
-    if (has_error(k)) report.grid.columns.push_back(error_column(report.grid.columns[k]));
-  }
-  report.fields["model"] = "discrete";
-  report.fields["parameters"] = rod_fields(request.rod);
-  if (const std::string warning = ratio_warning(request.rod); !warning.empty())
-    report.fields["warnings"] = std::vector<std::string>{warning};
-  return report;
-}
-
-namespace {
 
 void add_rows(const AnglesRequest& request, long long begin, long long end, Grid& grid) {
   for_known_rows(request, begin, end, [&](const AnglesRow& row, const AnglesRow& errors) {
@@ -260,30 +166,6 @@ void add_rows(const AnglesRequest& request, long long begin, long long end, Grid
     }
   });
 }
-
-}  // namespace
-
-std::string angles_csv_rows(const AnglesRequest& request, long long begin, long long end) {
-  constexpr std::size_t bytes_per_row = 360;
-  const std::size_t count = column_count(request);
-  std::string out;
-  out.reserve(static_cast<std::size_t>(end - begin) * bytes_per_row);
-  for_known_rows(request, begin, end, [&](const AnglesRow& row, const AnglesRow& errors) {
-    for (std::size_t k = 0; k < count; ++k) {
-      if (k > 0) out += ',';
-      append_number(out, row[k]);
-    }
-    for (std::size_t k = 0; k < count; ++k) {
-      if (!has_error(k)) continue;
-      out += ',';
-      append_rounded_up(out, errors[k]);
-    }
-    out += '\n';
-  });
-  return out;
-}
-
-namespace {
 
 using Style = FigureCurve::Style;
 
@@ -402,6 +284,99 @@ Range2 range_of(const AnglesRequest& request) {
 }
 
 }  // namespace
+
+Arguments angles_arguments(AnglesOptions& options) {
+  Arguments rows = range_arguments(options.range, "angle theta in degrees (0 to 90 by 5)");
+  for (Argument& row : rod_arguments(options.rod)) rows.push_back(std::move(row));
+  rows.push_back({.name = "--as-printed",
+                  .target = &options.as_printed,
+                  .help = "beta by the paper's printed gravity term beside the corrected one",
+                  .group = "Rod"});
+  rows.push_back(whole_argument("--digits", options.digits, 1, 17, "N", "significant digits in tables (6)", "Output"));
+  return rows;
+}
+
+AnglesRequest angles_request(const AnglesOptions& options) {
+  const Sweep sweep = sweep_of(options.range, {0, 90, 5}, {0, 90, false, "from 0 to 90 degrees"});
+  return {.theta = [sweep](long long i) { return sweep.value(i); },
+          .count = sweep.count,
+          .rod = rod_parameters(options.rod),
+          .rod_words = rod_summary(options.rod),
+          .as_printed = options.as_printed,
+          .digits = options.digits};
+}
+
+std::vector<Column> angles_columns(const AnglesRequest& request) {
+  const bool p = request.as_printed;
+  const bool returns_all = request.rod.restitution == 1 && request.rod.gravity_number == 0;  // or ΣP need not be near 2
+  std::vector<Column> columns{
+      {"theta_deg", "θ", "°", "contact angle of impact 1"},
+      {"beta_deg", "β", "°", "contact angle of impact 2"},
+      {"gamma_deg", "γ", "°", "contact angle of impact 3", !p},
+      {"P1", "P₁", "m|vₙ|", "impulse 1", !p},
+      {"P2", "P₂", "m|vₙ|", "impulse 2", !p},
+      {"P3", "P₃", "m|vₙ|", "impulse 3", !p},
+      {"V1", "V₁", "|vₙ|", "normal velocity after impact 1", false},
+      {"Omega1", "Ω₁", "|vₙ|/L", "angular velocity after impact 1", false},
+      {"V2", "V₂", "|vₙ|", "normal velocity after impact 2", false},
+      {"Omega2", "Ω₂", "|vₙ|/L", "angular velocity after impact 2", false},
+      {"V3", "V₃", "|vₙ|", "normal velocity after impact 3", false},
+      {"Omega3", "Ω₃", "|vₙ|/L", "angular velocity after impact 3", false},
+      {"T1", "T₁", "L/|vₙ|", "from impact 1 to 2", false},
+      {"T2", "T₂", "L/|vₙ|", "from impact 2 to 3", false},
+      {"gamma_minus_theta_deg", "γ − θ", "°", "γ − θ", false},
+      {"impulse_deficit", "2 − ΣP", "m|vₙ|", "2 less the sum of the impulses", !p && returns_all},
+      {"impacts", "impacts", "",
+       "how many of the first three come with the ends in turn and at contact angles up to 90°"},
+      {"beta_printed_deg", "β printed, g > 0", "°", "β by the printed gravity term", p},
+      {"beta_printed_negative_g_deg", "β printed, g < 0", "°", "the same for g of the other sign", p}};
+  columns.resize(column_count(request));
+  return columns;
+}
+
+AnglesRow angles_row(const AnglesRequest& request, long long i) {
+  return row_of(request.theta(i), request.rod, request.as_printed);
+}
+
+Report angles_frame(const AnglesRequest& request) {
+  const std::string range =
+      request.count == 0
+          ? "no θ"
+          : fmt::format("θ from {}° to {}°, {} value{}", shortest(request.theta(0)),
+                        shortest(request.theta(request.count - 1)), request.count, request.count == 1 ? "" : "s");
+  Report report = begun_report("angles", "contact angles of the first three impacts");
+  report.head = {request.rod_words + "; " + range};
+  report.notes = notes_of(request);
+  report.grid.columns = angles_columns(request);
+  for (std::size_t k = 0; k < column_count(request); ++k) {
+    if (has_error(k)) report.grid.columns.push_back(error_column(report.grid.columns[k]));
+  }
+  report.fields["model"] = "discrete";
+  report.fields["parameters"] = rod_fields(request.rod);
+  if (const std::string warning = ratio_warning(request.rod); !warning.empty())
+    report.fields["warnings"] = std::vector<std::string>{warning};
+  return report;
+}
+
+std::string angles_csv_rows(const AnglesRequest& request, long long begin, long long end) {
+  constexpr std::size_t bytes_per_row = 360;
+  const std::size_t count = column_count(request);
+  std::string out;
+  out.reserve(static_cast<std::size_t>(end - begin) * bytes_per_row);
+  for_known_rows(request, begin, end, [&](const AnglesRow& row, const AnglesRow& errors) {
+    for (std::size_t k = 0; k < count; ++k) {
+      if (k > 0) out += ',';
+      append_number(out, row[k]);
+    }
+    for (std::size_t k = 0; k < count; ++k) {
+      if (!has_error(k)) continue;
+      out += ',';
+      append_rounded_up(out, errors[k]);
+    }
+    out += '\n';
+  });
+  return out;
+}
 
 Report angles_report(const AnglesRequest& request) {
   Report report = angles_frame(request);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "validation/rod/regimes_report.hpp"
+#include "validation/rod/rod.hpp"
 
 #include <fmt/format.h>
 
@@ -32,27 +32,24 @@ struct VariedQuantity {
   Range range;
 };
 
-const std::vector<VariedQuantity>& all_quantities() {
-  static const std::vector<VariedQuantity> all{{"gravity-number",
-                                                "G",
-                                                "gravity number G = g L/vₙ²",
-                                                &RodParameters::gravity_number,
-                                                {0, 0.001, 0.01, 0.1, 1, 10},
-                                                {0, 1e300, false, "from 0 to 1e300"}},
-                                               {"restitution",
-                                                "e",
-                                                "coefficient of restitution e",
-                                                &RodParameters::restitution,
-                                                {0.25, 0.5, 0.75, 0.9, 1},
-                                                {0, 1, false, "from 0 to 1"}},
-                                               {"impulse-ratio",
-                                                "μᵢ",
-                                                "impulse ratio μᵢ",
-                                                &RodParameters::impulse_ratio,
-                                                {-0.2, -0.1, 0, 0.1, 0.2, 0.3},
-                                                {-1e300, 1e300, false, "from -1e300 to 1e300"}}};
-  return all;
-}
+const std::vector<VariedQuantity> all_quantities{{"gravity-number",
+                                                  "G",
+                                                  "gravity number G = g L/vₙ²",
+                                                  &RodParameters::gravity_number,
+                                                  {0, 0.001, 0.01, 0.1, 1, 10},
+                                                  {0, 1e300, false, "from 0 to 1e300"}},
+                                                 {"restitution",
+                                                  "e",
+                                                  "coefficient of restitution e",
+                                                  &RodParameters::restitution,
+                                                  {0.25, 0.5, 0.75, 0.9, 1},
+                                                  {0, 1, false, "from 0 to 1"}},
+                                                 {"impulse-ratio",
+                                                  "μᵢ",
+                                                  "impulse ratio μᵢ",
+                                                  &RodParameters::impulse_ratio,
+                                                  {-0.2, -0.1, 0, 0.1, 0.2, 0.3},
+                                                  {-1e300, 1e300, false, "from -1e300 to 1e300"}}};
 
 /// A value of the varied quantity that is given by itself is the one value asked for.
 std::vector<double> values_of(const RegimesRequest& input, const VariedQuantity& quantity, const RodParameters& rod) {
@@ -186,85 +183,29 @@ std::vector<double> between(std::vector<double> values, bool logarithmic) {
 /// The parameters that all rows share.
 std::string rod_words(const RodParameters& rod, const VariedQuantity& quantity) {
   std::string words = "thin rod, m = L = |vₙ| = 1";
-  for (const VariedQuantity& other : all_quantities()) {
+  for (const VariedQuantity& other : all_quantities) {
     if (&other != &quantity) words += fmt::format(", {} = {}", other.heading, shortest(rod.*other.member));
   }
   return words;
 }
 
-}  // namespace
-
-Arguments regimes_arguments(RegimesRequest& request) {
-  std::vector<std::string> names;
-  for (const VariedQuantity& quantity : all_quantities()) names.emplace_back(quantity.name);
-  Arguments rows{choice_argument("--over", request.over, names, "what to vary (gravity-number)", "Range")};
-  for (Argument& row : range_arguments(request.range, "value")) rows.push_back(std::move(row));
-  rows.push_back(
-      {.name = "--log", .target = &request.logarithmic, .help = "values in geometric progression", .group = "Range"});
-  for (Argument& row : rod_arguments(request.rod)) rows.push_back(std::move(row));
-  rows.push_back(whole_argument("--digits", request.digits, 1, 17, "N", "significant digits in tables (8)", "Output"));
-  return rows;
-}
-
-FoundRegimes find_regimes(const RegimesRequest& input) {
-  const VariedQuantity& quantity = all_quantities()[input.over];
-  const RodParameters rod = rod_parameters(input.rod);
-  FoundRegimes found;
-  found.name = quantity.name;
-  found.words = quantity.words;
-  found.values = values_of(input, quantity, rod);
-  found.logarithmic =
-      input.logarithmic || (quantity.member == &RodParameters::gravity_number && spans_decades(found.values));
-  found.rod_words = rod_words(rod, quantity);
-  found.script_head = {
-      headline("regimes", regimes_summary),
-      fmt::format("{}; {} from {} to {}, {} value{}", found.rod_words, quantity.heading, shortest(found.values.front()),
-                  shortest(found.values.back()), found.values.size(), found.values.size() == 1 ? "" : "s")};
-  const auto regimes_of = [rod, member = quantity.member](const std::vector<double>& values) {
-    std::vector<Regimes> all;
-    for (const double value : values) {
-      RodParameters varied = rod;
-      varied.*member = value;
-      all.push_back({value, analytic::regime_boundary(ImpactNumber::second, varied),
-                     analytic::regime_boundary(ImpactNumber::third, varied)});
-    }
-    return all;
-  };
-  found.all = regimes_of(found.values);
-  found.curve = [regimes_of, values = found.values, logarithmic = found.logarithmic] {
-    return regimes_of(between(values, logarithmic));
-  };
-  found.report = report_of(found.all, quantity, rod, input.digits);
-  found.report.head = {rod_words(rod, quantity)};
-  return found;
-}
-
-std::vector<Column> regimes_columns() {
-  std::vector<Column> columns;
-  for (const VariedQuantity& quantity : all_quantities()) columns.push_back(columns_of(quantity).front());
-  const std::vector<Column> rest = columns_of(all_quantities().front());
-  columns.insert(columns.end(), rest.begin() + 1, rest.end());
-  return columns;
-}
-
-namespace {
-
-using analytic::BoundaryKind;
-using analytic::degrees_per_radian;
-using analytic::RegimeBoundary;
 using Style = FigureCurve::Style;
 
 constexpr std::size_t most_marked = 60;  // so few values are marked on their curves
 
-/// [°]; without such an impact the area of fewer impacts begins at 0.
-double boundary(const RegimeBoundary& b) { return b.kind == BoundaryKind::never ? 0 : b.theta * degrees_per_radian; }
-
 std::vector<double> row_of(const Regimes& one, bool of_table) {
-  const auto angle = [](const RegimeBoundary& b) {
-    return b.kind == BoundaryKind::never ? std::nan("") : b.theta * degrees_per_radian;
+  const auto angle = [](const RegimeBoundary& b, double without) {
+    return b.kind == BoundaryKind::never ? without : b.theta * degrees_per_radian;
   };
-  return {one.value, angle(one.second), angle(one.third), 0, boundary(one.third), boundary(one.second),
-          90,        of_table ? 1. : 0.};
+  // Without such an impact the area of fewer impacts begins at 0.
+  return {one.value,
+          angle(one.second, no_number),
+          angle(one.third, no_number),
+          0,
+          angle(one.third, 0),
+          angle(one.second, 0),
+          90,
+          of_table ? 1. : 0.};
 }
 
 /// @param colour as in figures/regimes.svg
@@ -306,6 +247,59 @@ void add_boundaries(const FoundRegimes& found, bool has_curve, std::vector<Figur
 }
 
 }  // namespace
+
+Arguments regimes_arguments(RegimesRequest& request) {
+  std::vector<std::string> names;
+  for (const VariedQuantity& quantity : all_quantities) names.emplace_back(quantity.name);
+  Arguments rows{choice_argument("--over", request.over, names, "what to vary (gravity-number)", "Range")};
+  for (Argument& row : range_arguments(request.range, "value")) rows.push_back(std::move(row));
+  rows.push_back(
+      {.name = "--log", .target = &request.logarithmic, .help = "values in geometric progression", .group = "Range"});
+  for (Argument& row : rod_arguments(request.rod)) rows.push_back(std::move(row));
+  rows.push_back(whole_argument("--digits", request.digits, 1, 17, "N", "significant digits in tables (8)", "Output"));
+  return rows;
+}
+
+FoundRegimes find_regimes(const RegimesRequest& input) {
+  const VariedQuantity& quantity = all_quantities[input.over];
+  const RodParameters rod = rod_parameters(input.rod);
+  FoundRegimes found;
+  found.name = quantity.name;
+  found.words = quantity.words;
+  found.values = values_of(input, quantity, rod);
+  found.logarithmic =
+      input.logarithmic || (quantity.member == &RodParameters::gravity_number && spans_decades(found.values));
+  found.rod_words = rod_words(rod, quantity);
+  found.script_head = {
+      headline("regimes", regimes_summary),
+      fmt::format("{}; {} from {} to {}, {} value{}", found.rod_words, quantity.heading, shortest(found.values.front()),
+                  shortest(found.values.back()), found.values.size(), found.values.size() == 1 ? "" : "s")};
+  const auto regimes_of = [rod, member = quantity.member](const std::vector<double>& values) {
+    std::vector<Regimes> all;
+    for (const double value : values) {
+      RodParameters varied = rod;
+      varied.*member = value;
+      all.push_back({value, analytic::regime_boundary(ImpactNumber::second, varied),
+                     analytic::regime_boundary(ImpactNumber::third, varied)});
+    }
+    return all;
+  };
+  found.all = regimes_of(found.values);
+  found.curve = [regimes_of, values = found.values, logarithmic = found.logarithmic] {
+    return regimes_of(between(values, logarithmic));
+  };
+  found.report = report_of(found.all, quantity, rod, input.digits);
+  found.report.head = {found.rod_words};
+  return found;
+}
+
+std::vector<Column> regimes_columns() {
+  std::vector<Column> columns;
+  for (const VariedQuantity& quantity : all_quantities) columns.push_back(columns_of(quantity).front());
+  const std::vector<Column> rest = columns_of(all_quantities.front());
+  columns.insert(columns.end(), rest.begin() + 1, rest.end());
+  return columns;
+}
 
 Picture regimes_picture(const FoundRegimes& found) {
   const std::vector<Regimes> curve = found.curve();

@@ -11,8 +11,7 @@
 #include "validation/output/interrupt.hpp"
 #include "validation/output/json.hpp"
 #include "validation/output/sink.hpp"
-#include "validation/rod/angles_report.hpp"
-#include "validation/rod/regimes_report.hpp"
+#include "validation/rod/rod.hpp"
 
 namespace clatter::validation {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "validation/rod/rod_parameters.hpp"
+#include "validation/rod/rod.hpp"
 
 #include <fmt/format.h>
 

@@ -8,12 +8,10 @@
 
 #include "binding.hpp"
 #include "validation/benchmark/benchmark_report.hpp"
-#include "validation/benchmark/score_report.hpp"
 #include "validation/evidence/check.hpp"
-#include "validation/evidence/extremes_report.hpp"
+#include "validation/evidence/extremes.hpp"
 #include "validation/evidence/figure.hpp"
-#include "validation/evidence/verify_report.hpp"
-#include "validation/measured/measured_command.hpp"
+#include "validation/measured/measured_report.hpp"
 #include "validation/output/bad_input.hpp"
 
 namespace clatter::python {

@@ -9,7 +9,7 @@
 
 #include "binding.hpp"
 #include "numeric/drop/history.hpp"
-#include "validation/compare/comparison_report.hpp"
+#include "validation/compare/comparison.hpp"
 #include "validation/output/bad_input.hpp"
 #include "validation/output/numeric_table.hpp"
 #include "validation/plan/plan_report.hpp"

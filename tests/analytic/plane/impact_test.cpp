@@ -4,7 +4,7 @@
 #include "analytic/base/errors.hpp"
 #include "analytic/plane/rod_impact.hpp"
 #include "tests/support.hpp"
-#include "validation/oracles/viscoelastic_bounce.hpp"
+#include "validation/oracles/impulse_path.hpp"
 
 namespace {
 
@@ -170,7 +170,7 @@ BOOST_AUTO_TEST_CASE(a_flat_landing_on_damped_ground_bounces_as_a_mass_at_its_pr
         BOOST_REQUIRE(flat.has_value());
         // Pushes at the ends that reverse both motions: p_a + p_b = (1+e) V and (p_b − p_a) L/2 = (1+e) k² ω.
         const double centre = half * (square * spin / half) / descent;
-        const double e = test::integrated_restitution(damping, -normal_velocity(before, {centre, -height}));
+        const double e = clatter::oracle::integrated_restitution(damping, -normal_velocity(before, {centre, -height}));
         BOOST_TEST(std::fabs(flat->after.normal - e * descent) <= tolerance);
         BOOST_TEST(std::fabs(flat->after.angular + e * spin) <= tolerance);
       }

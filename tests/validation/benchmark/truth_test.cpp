@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The truth of the benchmark's problems, computed again by another route: the discrete model, Moreau's condition, the
-// simulator.
+// The truth of the benchmark's problems, computed again by another route: the discrete model, the simulator.
 #include <fmt/ranges.h>
 
 #include "analytic/plane/sequence.hpp"
@@ -51,65 +50,42 @@ void check_row(const std::string& what, const TruthRow& truth, const TruthRow& o
 analytic::ImpactLaw with_law(analytic::ImpactLaw law, const std::string& name) {
   if (name.starts_with("poisson")) law.law = analytic::RestitutionLaw::poisson;
   if (name.starts_with("stronge")) law.law = analytic::RestitutionLaw::stronge;
+  if (name.ends_with("moreau")) law.friction = analytic::FrictionKind::moreau;
   return law;
 }
 
-std::vector<TruthRow> planar_rows(const Reference& reference, const std::string& law, int impacts) {
-  analytic::Drop drop = std::get<analytic::Drop>(reference.drop);
-  drop.law = with_law(drop.law, law);
+std::string place_of(const Problem&, const Reference& reference, const analytic::ImpactRow& row) {
+  std::vector<int> group;
+  for (int i = 0; i < static_cast<int>(reference.points.size()); ++i) {
+    if (row.vertices >> i & 1) group.push_back(i);
+  }
+  return reference.place_name(group);
+}
+
+std::string place_of(const Problem& problem, const Reference&, const analytic::space::ImpactRow& row) {
+  BOOST_TEST((row.corners.size() == 1U || row.group.has_value()));
+  std::vector<std::string> names;
+  for (const analytic::space::Corner& corner : row.corners) names.push_back(corner_name(problem.scene, corner));
+  std::sort(names.begin(), names.end(), std::greater<>());
+  return fmt::format("{}", fmt::join(names, " "));
+}
+
+/// What the discrete model makes of a problem.
+std::vector<TruthRow> rows_of(const Problem& problem, const Reference& reference, const std::string& law, int impacts) {
   std::vector<TruthRow> rows;
-  for (const analytic::ImpactRow& row : impact_sequence(drop, {.impacts = impacts}).rows) {
-    const analytic::Impact& impact = row.impact;
-    std::vector<int> group;
-    for (int i = 0; i < drop.body.vertex_count; ++i) {
-      if (row.vertices >> i & 1) group.push_back(i);
+  const auto run = [&](auto drop) {
+    drop.law = with_law(drop.law, law);
+    for (const auto& row : impact_sequence(drop, {.impacts = impacts}).rows) {
+      const Numbers found = impact_of(row).value;
+      rows.push_back({.place = place_of(problem, reference, row),
+                      .time = row.start,
+                      .impulse = Vector3(found.impulse.data()),
+                      .velocity = Vector3(found.velocity_after.data()),
+                      .angular_velocity = Vector3(found.angular_velocity_after.data())});
     }
-    rows.push_back({.place = reference.place_name(group),
-                    .time = row.start,
-                    .impulse = {impact.tangential_impulse, 0, impact.normal_impulse},
-                    .velocity = {impact.after.tangential, 0, impact.after.normal},
-                    .angular_velocity = {0, impact.after.angular, 0}});
-  }
+  };
+  std::visit(run, reference.drop);
   return rows;
-}
-
-std::vector<TruthRow> rows_in_space(const Problem& problem, const std::string& law, int impacts) {
-  auto drop = std::get<analytic::space::Drop>(discrete_drop(problem.scene));
-  drop.law = with_law(drop.law, law);
-  std::vector<TruthRow> rows;
-  for (const analytic::space::ImpactRow& row : impact_sequence(drop, {.impacts = impacts}).rows) {
-    BOOST_TEST((row.corners.size() == 1U || row.group.has_value()));
-    std::vector<std::string> names;
-    for (const analytic::space::Corner& corner : row.corners) names.push_back(corner_name(problem.scene, corner));
-    std::sort(names.begin(), names.end(), std::greater<>());
-    rows.push_back({.place = fmt::format("{}", fmt::join(names, " ")),
-                    .time = row.start,
-                    .impulse = row.group ? row.group->impulse : row.impact.impulse,
-                    .velocity = row.impact.velocity_after,
-                    .angular_velocity = row.impact.angular_velocity_after});
-  }
-  return rows;
-}
-
-/// Moreau's law is not one of the discrete model's: its truth is held against the map at the truth's own states.
-void check_moreau(const Problem& problem, const Reference& reference, const ReferenceSequence& sequence) {
-  analytic::space::State state = reference.start;
-  double time = 0;
-  const Sizes sizes = sizes_of(sequence.truth);
-  for (std::size_t i = 0; i < sequence.truth.size(); ++i) {
-    const TruthRow& row = sequence.truth[i];
-    state = reference.flight(state).at(row.time - time);
-    time = row.time;
-    const auto points = reference.place_named(row.place).value();
-    const auto after = exact_map(reference, sequence.law, state, points);
-    const std::string what = problem.id + " moreau";
-    check_close(what, (after.velocity - row.velocity).norm(), sizes.velocity);
-    check_close(what, (after.angular_velocity - row.angular_velocity).norm(), sizes.angular);
-    const double height =
-        state.position.z() + reference.arms(state.attitude)[static_cast<std::size_t>(points.front())].z();
-    check_close(what + " height", std::fabs(height), reference.reach());
-    state = sequence.after[i];
-  }
 }
 
 }  // namespace
@@ -120,13 +96,8 @@ BOOST_AUTO_TEST_CASE(the_discrete_model_confirms_the_truth_of_every_rigid_proble
     if (problem.is_compliant) continue;
     const Reference reference = reference_of(problem);
     for (const ReferenceSequence& sequence : reference.sequences) {
-      if (sequence.law.is_moreau) {
-        check_moreau(problem, reference, sequence);
-        continue;
-      }
       const int count = static_cast<int>(sequence.truth.size());
-      const std::vector<TruthRow> rows = reference.is_planar ? planar_rows(reference, sequence.law.name, count)
-                                                             : rows_in_space(problem, sequence.law.name, count);
+      const std::vector<TruthRow> rows = rows_of(problem, reference, sequence.law.name, count);
       BOOST_TEST_REQUIRE(rows.size() == sequence.truth.size());
       for (std::size_t i = 0; i < rows.size(); ++i, ++compared)
         check_row(problem.id + " " + sequence.law.name, sequence.truth[i], rows[i], sizes_of(sequence.truth));
@@ -139,7 +110,7 @@ BOOST_AUTO_TEST_CASE(no_impact_comes_before_the_time_until_which_a_problem_says_
   for (const Problem& problem : benchmark_problems()) {
     if (!problem.until || problem.energy_alone) continue;
     const std::size_t asked = truth_of(problem, "any").size();
-    const std::vector<TruthRow> rows = planar_rows(reference_of(problem), "any", static_cast<int>(asked) + 1);
+    const std::vector<TruthRow> rows = rows_of(problem, reference_of(problem), "any", static_cast<int>(asked) + 1);
     BOOST_TEST_CONTEXT(problem.id) {
       BOOST_TEST((rows.size() == asked || rows[asked].time > *problem.until));
       BOOST_TEST(rows[asked - 1].time < *problem.until);
@@ -217,9 +188,7 @@ BOOST_AUTO_TEST_CASE(the_benchmark_has_24_to_36_problems_each_with_its_statement
         const auto touch = reference.flight(state).at(time);
         BOOST_TEST((touch.velocity - reference.start.velocity).norm() <= 1e-13 * reference.speed());
         BOOST_TEST(std::fabs(touch.position.z() - reference.start.position.z()) <= 1e-13 * reference.reach());
-        double lowest = 1;
-        for (const Vector3& arm : reference.arms(state.attitude))
-          lowest = std::min(lowest, state.position.z() + arm.z());
+        const double lowest = reference.height(state, reference.lowest(state.attitude));
         BOOST_TEST(std::fabs(lowest - gap) <= 1e-13 * reference.reach());
       }
     }

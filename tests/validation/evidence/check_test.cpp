@@ -5,7 +5,6 @@
 #include "tests/support.hpp"
 #include "validation/evidence/check.hpp"
 #include "validation/evidence/figure.hpp"
-#include "validation/evidence/verify_report.hpp"
 
 namespace {
 

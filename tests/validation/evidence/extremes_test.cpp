@@ -6,7 +6,7 @@
 
 #include "numeric/motion/free_rotation.hpp"
 #include "tests/support.hpp"
-#include "validation/evidence/extremes_report.hpp"
+#include "validation/evidence/extremes.hpp"
 #include "validation/evidence/oracles.hpp"
 
 namespace {
@@ -30,7 +30,7 @@ const ExtremesMap& whole_map() {
 }
 
 ExtremeCase extreme(std::function<CellMeasure(const CellClock&)> work) {
-  return {"angle", 1, "1", ModelLevel::discrete, std::move(work)};
+  return {{"angle", 1, "1", ModelLevel::discrete}, std::move(work)};
 }
 
 CellMeasure measured(double error, double bound) {

@@ -8,8 +8,8 @@
 #include "tests/analytic/space/impulse/random_contact.hpp"
 #include "tests/analytic/space/impulse/reference_impact.hpp"
 #include "tests/analytic/space/landing/flat_landing.hpp"
+#include "validation/oracles/impulse_path.hpp"
 #include "validation/oracles/reference_table.hpp"
-#include "validation/oracles/viscoelastic_bounce.hpp"
 
 namespace {
 
@@ -228,7 +228,7 @@ BOOST_AUTO_TEST_CASE(faces_and_edges_on_damped_ground_bounce_as_a_mass_at_their_
     // Without friction the impulses, all upwards, have their resultant at (−M_y, M_x)/P_z.
     const Vector3 centre(-whole->moment.y() / whole->impulse.z(), whole->moment.x() / whole->impulse.z(), 0);
     const double approach = -normal_velocity(before.velocity, before.angular_velocity, centre);
-    const double e = clatter::analytic::test::integrated_restitution(law.damping_per_stiffness, approach);
+    const double e = clatter::oracle::integrated_restitution(law.damping_per_stiffness, approach);
     for (const Corner& corner : touching) {
       const Vector3 arm = before.attitude * corner.place;
       BOOST_TEST(std::fabs(normal_velocity(whole->velocity_after, whole->angular_velocity_after, arm) +

@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The quantities that the map of extremes sweeps, up to both ends, and one cell of it: a model at one value of one.
+// The map of extremes: the quantities that it sweeps, up to both ends, its cells, each a model at one value of one, and
+// its report and picture.
 #pragma once
 
 #include <chrono>
+#include <cstdint>
 #include <functional>
 #include <limits>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
+#include "validation/output/report.hpp"
 #include "validation/plan/model_hierarchy.hpp"
 
 namespace clatter::validation {
@@ -56,16 +59,20 @@ struct CellMeasure {
   double seconds = 0;     ///< wall time of the model alone [s]
 };
 
-struct ExtremeCell {
+/// A model at one value of a quantity.
+struct CellPlace {
   std::string axis;
   double value = 0;
   std::string label;  ///< the value for a reader
   ModelLevel model = ModelLevel::discrete;
+  bool long_run = false;  ///< many scenes in one cell: no limit of a second
+};
+
+struct ExtremeCell : CellPlace {
   CellVerdict verdict = CellVerdict::broken;
   CellMeasure measure{};  ///< if there is a number; the outcome also if the run ended early
   std::string reason{};   ///< of a refusal, one line
   double seconds = 0;     ///< wall time of all of it, the oracle included [s]
-  bool long_run = false;  ///< many scenes in one cell: no limit of a second
 
   [[nodiscard]] bool has_number() const { return verdict == CellVerdict::number; }
   /// Whether the error says something of digits: not where faults are counted and none is allowed.
@@ -98,13 +105,8 @@ class EndedEarly : public std::runtime_error {
 };
 
 /// What a cell does.  `work` returns a number or throws: the models' own errors, or EndedEarly.
-struct ExtremeCase {
-  std::string axis;
-  double value = 0;
-  std::string label;
-  ModelLevel model = ModelLevel::discrete;
+struct ExtremeCase : CellPlace {
   std::function<CellMeasure(const CellClock&)> work;
-  bool long_run = false;
 };
 
 /// Adds one case of `model` at each value of the axis; `work` is given the value.
@@ -124,5 +126,59 @@ void add_cases(std::vector<ExtremeCase>& cases, const MapAxis& axis, ModelLevel 
   work();
   return std::chrono::duration<double>(CellClock::Clock::now() - begin).count();
 }
+
+/// Runs longer than a second, one cell each.
+struct LongRuns {
+  int impacts = 10'000;           ///< of the elastic phone, planar and spatial
+  int discrete_scenes = 100'000;  ///< random ones
+  int continuous_scenes = 1'000;
+  std::uint64_t seed = 1;  ///< of the random scenes
+};
+
+// The map of what holds: every model over every quantity up to its ends.
+
+/// Neighbouring values of one quantity for which one model does the same, with digits within one of each other.
+struct MapRegion {
+  std::size_t first = 0, last = 0;  ///< cells
+  double fewest_digits = 0, most_digits = 0;
+  double slowest = 0;  ///< cost of the model in the slowest cell [s]
+};
+
+struct ExtremesMap {
+  std::vector<ExtremeCell> cells{};  ///< axis by axis, model by model, in the order of the values
+  std::vector<MapRegion> regions{};
+  double cell_seconds = 1;  ///< that a cell may take
+  std::uint64_t seed = 1;
+  bool complete = true;  ///< false: interrupted
+};
+
+struct ExtremesOptions {
+  std::vector<std::string> axes;  ///< names; empty: all
+  bool long_runs = true;
+  LongRuns runs = {};
+  double cell_seconds = 1;
+  /// Called with (done, of); return false to end early with the cells so far.
+  std::function<bool(std::size_t, std::size_t)> progress = nullptr;
+};
+
+[[nodiscard]] ExtremesMap measure_extremes(const ExtremesOptions& options);
+
+/// The regions of the cells in their order.
+[[nodiscard]] std::vector<MapRegion> regions_of(const std::vector<ExtremeCell>& cells);
+
+/// "angle = F2, discrete: error 1, at most 1e-13 allowed" for each cell that breaks a promise.
+[[nodiscard]] std::vector<std::string> map_failures(const ExtremesMap& map);
+
+/// 0; 1 if a cell breaks a promise; 130 if the map is not complete.
+[[nodiscard]] int map_status(const ExtremesMap& map);
+
+/// The cell that took longest, long runs left out; null if there is none.
+[[nodiscard]] const ExtremeCell* slowest_cell(const ExtremesMap& map);
+
+[[nodiscard]] std::vector<Column> extremes_columns();
+/// A row for each cell; tables have one for each region, and the reasons of refusals as notes.
+[[nodiscard]] Report extremes_report(const ExtremesMap& map);
+/// SVG: a strip for each quantity and model, its values side by side, coloured by digits, refusals hatched.
+[[nodiscard]] std::string extremes_picture(const ExtremesMap& map);
 
 }  // namespace clatter::validation
