@@ -148,7 +148,7 @@ bool Accumulation::repeats(int period) const {
   const int count = static_cast<int>(events_.size());
   if (count < blocks * period) return false;
   for (int i = count - (blocks - 1) * period; i < count; ++i) {
-    const Event &event = events_[static_cast<std::size_t>(i)], &before = events_[static_cast<std::size_t>(i - period)];
+    const Event &event = events_[i], &before = events_[i - period];
     if (event.vertices != before.vertices || event.mode != before.mode) return false;
   }
   return true;

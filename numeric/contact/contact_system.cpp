@@ -136,8 +136,6 @@ AlongGround unit_slip(const AlongGround& slip, const FrictionPhase& phase, bool 
 
 }  // namespace
 
-double AlongGround::norm() const { return std::hypot(east, north); }
-
 ContactSystem::ContactSystem(const Body& body, const Ground& ground, const Gravity& gravity, bool planar)
     : body_(body), ground_(ground), gravity_(gravity), planar_(planar), equations_(body.mass(), body.inertia()),
       loader_(contact_on(body, ground)) {}

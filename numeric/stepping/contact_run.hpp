@@ -9,12 +9,10 @@
 
 #include "numeric/stepping/contact_result.hpp"
 #include "numeric/stepping/friction_phases.hpp"
-#include "numeric/stepping/local_slip.hpp"
 #include "numeric/stepping/steady_motion.hpp"
 #include "numeric/stepping/step_control.hpp"
 #include "numeric/stepping/step_events.hpp"
 #include "numeric/stepping/stepper.hpp"
-#include "numeric/stepping/touch_counter.hpp"
 
 namespace clatter::numeric {
 

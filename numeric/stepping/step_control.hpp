@@ -5,8 +5,8 @@
 #include <optional>
 
 #include "numeric/stepping/contact_result.hpp"
+#include "numeric/stepping/step_events.hpp"
 #include "numeric/stepping/stepper.hpp"
-#include "numeric/stepping/touch_counter.hpp"
 
 namespace clatter::numeric {
 

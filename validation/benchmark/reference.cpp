@@ -9,7 +9,7 @@
 
 #include "analytic/base/errors.hpp"
 #include "analytic/plane/sequence.hpp"
-#include "analytic/space/flight/point_height.hpp"
+#include "analytic/space/flight/first_contact.hpp"
 #include "analytic/space/landing/level_rim.hpp"
 #include "analytic/space/landing/simultaneous.hpp"
 #include "analytic/space/sequence/sequence.hpp"

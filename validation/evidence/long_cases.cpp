@@ -9,7 +9,7 @@
 
 #include "analytic/base/errors.hpp"
 #include "analytic/plane/sequence.hpp"
-#include "numeric/errors.hpp"
+#include "numeric/base/errors.hpp"
 #include "numeric/simulate.hpp"
 #include "validation/evidence/continuous_cases.hpp"
 #include "validation/evidence/extreme_cases.hpp"

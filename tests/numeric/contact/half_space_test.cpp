@@ -63,7 +63,7 @@ Body plate_on_foot() {
   std::vector<Element> elements;
   for (const Element& element : peg.elements) {
     Vector3 middle = Vector3::Zero();
-    for (const int node : element.nodes) middle += peg.nodes[static_cast<std::size_t>(node)] / 8;
+    for (const int node : element.nodes) middle += peg.nodes[node] / 8;
     if (middle.z() > 0 || middle.head<2>().norm() < 0.01) elements.push_back(element);
   }
   peg.elements = elements;

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "numeric/contact/pad_contact.hpp"
+#include "numeric/contact/half_space.hpp"
 
 #include "numeric/contact/contact_system.hpp"
-#include "numeric/contact/half_space.hpp"
 #include "tests/numeric/bodies.hpp"
 #include "tests/support.hpp"
 

@@ -30,8 +30,8 @@ clatter::oracle::Top<Quad> top_of(const Case& c) {
   for (int i = 0; i < 4; ++i) inverse = inverse * (3 - square * inverse * inverse) / 2;
   for (std::size_t k = 0; k < 4; ++k) top.q[k] = Quad(parts[k]) * inverse;
   for (int k = 0; k < 3; ++k) {
-    top.moments[static_cast<std::size_t>(k)] = c.moments[k];
-    top.w[static_cast<std::size_t>(k)] = c.velocity[k];
+    top.moments[k] = c.moments[k];
+    top.w[k] = c.velocity[k];
   }
   return top;
 }
