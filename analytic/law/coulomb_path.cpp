@@ -82,9 +82,7 @@ Phases<detail::Dual<size>> phases_of(const PathCoefficients<detail::Dual<size>>&
 template <class Number>
 Number impulse_for_rise(const Phases<Number>& phases, const Number& rise) {
   const Number in_first = phases.first.slope * phases.first.length;
-  if (phases.first.length == endless || (phases.first.slope > 0 && rise <= in_first)) {
-    return rise / phases.first.slope;
-  }
+  if (phases.first.length == endless || (phases.first.slope > 0 && rise <= in_first)) return rise / phases.first.slope;
   return phases.first.length + (rise - in_first) / phases.second.slope;
 }
 
@@ -177,9 +175,7 @@ PathEnd<Number> coulomb_path(const PathCoefficients<Number>& path, const PathSta
   const Phases<Number> phases = phases_of(path, start.slip, friction);
   const auto [impulse, separation] = ending(phases, start, law);
   if (friction == 0) return {impulse, 0, separation, ImpactMode::frictionless};
-  if (!(impulse > phases.first.length)) {
-    return {impulse, phases.first.ratio * impulse, separation, phases.mode_first};
-  }
+  if (!(impulse > phases.first.length)) return {impulse, phases.first.ratio * impulse, separation, phases.mode_first};
   const Number second = impulse - phases.first.length;
   return {impulse, phases.first.ratio * phases.first.length + phases.second.ratio * second, separation,
           phases.mode_second};

@@ -16,9 +16,7 @@ using detail::refuse;
 double ImpactLaw::most_friction() const { return friction == FrictionKind::none ? 0 : std::fabs(friction_value); }
 
 void ImpactLaw::validate() const {
-  if (!(restitution >= 0 && restitution <= 1)) {
-    refuse("restitution", restitution, "between 0 and 1");
-  }
+  if (!(restitution >= 0 && restitution <= 1)) refuse("restitution", restitution, "between 0 and 1");
   if (!std::isfinite(friction_value)) refuse("friction", friction_value, "finite");
   if (friction == FrictionKind::none && friction_value != 0) refuse("friction of no kind", friction_value, "0");
   if (has_cone() && !(friction_value >= 0)) refuse("friction", friction_value, "at least 0");

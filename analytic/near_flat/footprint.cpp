@@ -322,9 +322,7 @@ std::optional<CriticalRestitution> merging_eigenvalues(const Footprint& footprin
 void Footprint::validate() const {
   detail::require(corners.size() >= 2 && corners.size() <= 256, "corners", static_cast<double>(corners.size()),
                   "from 2 to 256");
-  for (const Eigen::Vector2d& corner : corners) {
-    detail::require(corner.allFinite(), "corner", corner.sum(), "finite");
-  }
+  for (const Eigen::Vector2d& corner : corners) detail::require(corner.allFinite(), "corner", corner.sum(), "finite");
   detail::require(mobility.allFinite() && mobility(0, 0) > 0 && mobility.determinant() > 0 &&
                       std::fabs(mobility(0, 1) - mobility(1, 0)) <= 1e-12 * mobility.norm(),
                   "mobility", mobility.determinant(), "symmetric and positive definite");

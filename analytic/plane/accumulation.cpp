@@ -157,9 +157,7 @@ bool Accumulation::repeats(int period) const {
 double Accumulation::block(int period, int index, double Event::*quantity) const {
   const auto end = events_.size() - static_cast<std::size_t>((blocks - 1 - index) * period);
   double sum = 0;
-  for (std::size_t i = end - static_cast<std::size_t>(period); i < end; ++i) {
-    sum += events_[i].*quantity;
-  }
+  for (std::size_t i = end - static_cast<std::size_t>(period); i < end; ++i) sum += events_[i].*quantity;
   return sum;
 }
 

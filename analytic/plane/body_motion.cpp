@@ -161,9 +161,7 @@ BodyMotion::BodyMotion(const PlanarBody& body, const Angle& inclination, const P
 
 VertexSet BodyMotion::lowest_vertices() const {
   double lowest = std::numeric_limits<double>::infinity();
-  for (int i = 0; i < body_.vertex_count; ++i) {
-    lowest = std::fmin(lowest, contact_point(i).normal);
-  }
+  for (int i = 0; i < body_.vertex_count; ++i) lowest = std::fmin(lowest, contact_point(i).normal);
   VertexSet set = 0;
   for (int i = 0; i < body_.vertex_count; ++i) {
     if (contact_point(i).normal == lowest) set |= only(i);

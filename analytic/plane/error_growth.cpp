@@ -11,6 +11,8 @@
 
 namespace clatter::analytic {
 
+using detail::epsilon;
+
 namespace {
 
 /// Numbers that a processor computes side by side.
@@ -63,6 +65,38 @@ Block block_of(const auto& rows, std::size_t k) {
   Block block;
   for (std::size_t i = 0; i < state_size; ++i) std::copy_n(&rows[i][k], lanes, block[i].begin());
   return block;
+}
+
+constexpr double unknown = std::numeric_limits<double>::infinity();
+/// Beyond this share of the second order beside the first, the first no longer tells how errors
+/// grow.
+constexpr double largest_curvature = 0.25;
+
+bool holds(const VertexSet set, int vertex) { return (set >> vertex & 1) != 0; }
+
+/// The other outermost vertex of a flat landing.
+ContactPoint partner(const BodyMotion& motion, VertexSet vertices, int reference) {
+  const double x = motion.contact_point(reference).tangential;
+  ContactPoint farthest = motion.contact_point(reference);
+  for (int i = 0; i < motion.body().vertex_count; ++i) {
+    const ContactPoint d = motion.contact_point(i);
+    if ((vertices >> i & 1) != 0 && std::fabs(d.tangential - x) > std::fabs(farthest.tangential - x)) farthest = d;
+  }
+  return farthest;
+}
+
+/// Relative rounding of P_n from that of A − (P_t/P_n) B.
+double impulse_rounding(const StruckState& struck, const Impact& impact) {
+  if (struck.flat) return 2 * epsilon;
+  const ContactInertia inertia = contact_inertia(struck.body.gyration_square, struck.place);
+  const double coupled = inertia.coupling * impact.impulse_ratio();
+  return 2 * epsilon * (inertia.normal + std::fabs(coupled)) / std::fabs(inertia.normal - coupled);
+}
+
+/// Size of the parts that make up P_t: with Coulomb's law those before and after slip has stopped.
+double tangential_size(const StruckState& struck, const Impact& impact) {
+  const bool parts = struck.law.has_cone();
+  return std::fmax(std::fabs(impact.tangential_impulse), parts ? struck.law.friction_value * impact.normal_impulse : 0);
 }
 
 }  // namespace
@@ -147,19 +181,6 @@ double ErrorFactor::deviation(const StateVector& gradient) const {
   }
   return norm(std::span(parts).first(size));
 }
-
-using detail::epsilon;
-
-namespace {
-
-constexpr double unknown = std::numeric_limits<double>::infinity();
-/// Beyond this share of the second order beside the first, the first no longer tells how errors
-/// grow.
-constexpr double largest_curvature = 0.25;
-
-bool holds(const VertexSet set, int vertex) { return (set >> vertex & 1) != 0; }
-
-}  // namespace
 
 ErrorGrowth::ErrorGrowth(const BodyMotion& motion, const Drop& drop, bool sums_only) : sums_only_(sums_only) {
   const ContactPoint d = motion.contact_point(std::countr_zero(motion.lowest_vertices()));
@@ -297,21 +318,6 @@ void ErrorGrowth::add_to(const BodyMotion& motion, Tail& tail) const {
 
 // Errors of an impact's numbers, and what the impact adds to them (error_growth.hpp).
 
-namespace {
-
-/// The other outermost vertex of a flat landing.
-ContactPoint partner(const BodyMotion& motion, VertexSet vertices, int reference) {
-  const double x = motion.contact_point(reference).tangential;
-  ContactPoint farthest = motion.contact_point(reference);
-  for (int i = 0; i < motion.body().vertex_count; ++i) {
-    const ContactPoint d = motion.contact_point(i);
-    if ((vertices >> i & 1) != 0 && std::fabs(d.tangential - x) > std::fabs(farthest.tangential - x)) farthest = d;
-  }
-  return farthest;
-}
-
-}  // namespace
-
 StruckState struck_state(const BodyMotion& motion, const ImpactLaw& law, const ImpactRow& row) {
   const int vertex = motion.local_departure().reference;
   const ContactPoint d = motion.contact_point(vertex);
@@ -325,24 +331,6 @@ StruckState struck_state(const BodyMotion& motion, const ImpactLaw& law, const I
           .second = flat ? partner(motion, row.vertices, vertex) : ContactPoint{},
           .flat = flat};
 }
-
-namespace {
-
-/// Relative rounding of P_n from that of A − (P_t/P_n) B.
-double impulse_rounding(const StruckState& struck, const Impact& impact) {
-  if (struck.flat) return 2 * epsilon;
-  const ContactInertia inertia = contact_inertia(struck.body.gyration_square, struck.place);
-  const double coupled = inertia.coupling * impact.impulse_ratio();
-  return 2 * epsilon * (inertia.normal + std::fabs(coupled)) / std::fabs(inertia.normal - coupled);
-}
-
-/// Size of the parts that make up P_t: with Coulomb's law those before and after slip has stopped.
-double tangential_size(const StruckState& struck, const Impact& impact) {
-  const bool parts = struck.law.has_cone();
-  return std::fmax(std::fabs(impact.tangential_impulse), parts ? struck.law.friction_value * impact.normal_impulse : 0);
-}
-
-}  // namespace
 
 double ErrorGrowth::amplification(const ImpactDerivatives& d, const ImpactRow& row) const {
   double largest = 0;
@@ -434,9 +422,7 @@ void ErrorGrowth::add_rounding(const StruckState& struck, const Impact& impact) 
                                 std::fabs(inertia.coupling) * tangential_size(struck, impact)) /
                                mass);
   }
-  if (impact.slip_after != 0) {
-    factor_.add(at_slip, 2 * epsilon * (std::fabs(impact.slip_before) + std::fabs(push)));
-  }
+  if (impact.slip_after != 0) factor_.add(at_slip, 2 * epsilon * (std::fabs(impact.slip_before) + std::fabs(push)));
   factor_.add(at_turn, 2 * epsilon * (std::fabs(struck.before.angular) + moment));
   factor_.add(at_sum, epsilon * total_impulse_);
 }

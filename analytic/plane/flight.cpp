@@ -255,9 +255,7 @@ FirstRoot parabola_root(const VertexHeight& h, double end) {
 /// Start of the turn that can hold the first root after a first turn without one.
 double second_window(const Centre& centre, double turn) {
   if (centre.gravity < 0) return never;
-  if (centre.gravity == 0) {
-    return centre.velocity < 0 ? std::max(turn, centre.falls_through(centre.reach)) : never;
-  }
+  if (centre.gravity == 0) return centre.velocity < 0 ? std::max(turn, centre.falls_through(centre.reach)) : never;
   // While V > g (t + turn/2), h(t + turn) > h(t): turns after a clean one are clean as well.
   const double rising = centre.velocity / centre.gravity - turn / 2;
   const double clean = rising > 0 ? rising + turn : turn;
@@ -353,9 +351,7 @@ void finish(const PlanarBody& body, const Departure& departure, Flight& flight) 
   Arrival& arrival = flight.arrival;
   arrival.inclination = departure.inclination - departure.angular * arrival.time;
   const double turned = std::fabs(departure.angular * arrival.time);
-  if (departure.angular == 0 || arrival.within_margin || !(std::fabs(arrival.inclination) < turned)) {
-    return;
-  }
+  if (departure.angular == 0 || arrival.within_margin || !(std::fabs(arrival.inclination) < turned)) return;
   const FinalHeight height(body, departure, arrival.vertex);
   arrival.inclination = height.polish(arrival.inclination);
   arrival.time = (departure.inclination - arrival.inclination) / departure.angular;
@@ -370,9 +366,7 @@ VertexSet together(const std::array<VertexHeight, max_vertices>& heights, int co
   for (int i = 0; i < count; ++i) {
     if (i == arrival.vertex) continue;
     const auto [height, velocity, scale] = heights[i].at(arrival.time, turn);
-    if (std::fabs(height) <= 4 * epsilon * scale && velocity < 0) {
-      set |= static_cast<VertexSet>(1u << i);
-    }
+    if (std::fabs(height) <= 4 * epsilon * scale && velocity < 0) set |= static_cast<VertexSet>(1u << i);
   }
   return set;
 }

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "numeric/contact/half_space.hpp"
+#include "numeric/contact/contact_load.hpp"
 #include "numeric/motion/equations_of_motion.hpp"
 
 namespace clatter::numeric {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "numeric/contact/half_space.hpp"
+#include "numeric/contact/contact_load.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "numeric/contact/footprint.hpp"
-#include "numeric/contact/smooth_contact.hpp"
 
 namespace clatter::numeric {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "numeric/contact/smooth_contact.hpp"
+#include "numeric/contact/contact_load.hpp"
 
 #include <algorithm>
 #include <array>
@@ -1004,7 +1004,7 @@ class SmoothContact final : public ContactSurface {
 
 std::unique_ptr<ContactSurface> contact_surface(const Body& body, const Ground& ground, Footprint* footprint) {
   if (body.smooth()) return std::make_unique<SmoothContact>(body, ground, footprint);
-  return std::make_unique<ContactLoader>(body, ground, footprint);
+  return facet_surface(body, ground, footprint);
 }
 
 }  // namespace clatter::numeric

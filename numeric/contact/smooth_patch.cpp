@@ -120,9 +120,7 @@ SphereBoundary::SphereBoundary(const HalfSpaces& half_spaces) {
       arc.to = whole  ? 2 * std::numbers::pi
                : last ? angles[0] + 2 * std::numbers::pi
                       : angles[static_cast<std::size_t>(j) + 1];
-      if (arc.to > arc.from && half_spaces.contain(arc.at((arc.from + arc.to) / 2), i)) {
-        arcs[count++] = arc;
-      }
+      if (arc.to > arc.from && half_spaces.contain(arc.at((arc.from + arc.to) / 2), i)) arcs[count++] = arc;
     }
   }
 }
@@ -275,9 +273,7 @@ Slices::Slice Slices::slice(int interval, double part) const {
     const double above = f.at(bottom) + (z < 0 ? y * y / (size - z) : size + z);
     if (!(size > 0) || !(above > 0) || !(above < 2 * size)) continue;
     const double half = 2 * std::asin(std::sqrt(above / (2 * size))), peak = std::atan2(y, -z);
-    for (const double angle : {peak - half, peak + half}) {
-      angles[found++] = std::remainder(angle, 2 * std::numbers::pi);
-    }
+    for (const double angle : {peak - half, peak + half}) angles[found++] = std::remainder(angle, 2 * std::numbers::pi);
   }
   sort_few(angles.begin(), angles.begin() + static_cast<std::ptrdiff_t>(found));
   for (std::size_t i = 0; i + 1 < found && slice.count < most; ++i) {

@@ -270,9 +270,7 @@ double power_of_two(double size) { return size > 0 ? std::ldexp(1.0, std::ilogb(
 
 /// Unit attitude, and the velocity in units of `rate`.
 Rotation scaled(const Rotation& start, double rate) {
-  if (!start.angular_velocity.allFinite()) {
-    throw std::domain_error("angular velocity must be finite");
-  }
+  if (!start.angular_velocity.allFinite()) throw std::domain_error("angular velocity must be finite");
   const double norm = start.attitude.coeffs().stableNorm();
   if (!(norm > 0 && std::isfinite(norm))) {
     throw std::domain_error("attitude must be a finite quaternion other than zero");

@@ -16,6 +16,70 @@ constexpr double minor_part = 1e-6;             ///< of energy or time: a phase 
 constexpr double minor_part_of_impulse = 0.01;  ///< slip without work, by μ_k = 0, counts from this part on
 constexpr std::size_t most_entries = 64;
 
+constexpr double direction_rounding = 1e-14;  ///< of its unit length
+
+/// Slip slower than this part, times √tolerance, of the contact's speed keeps its direction: across it friction is a
+/// damper that stiffens like 1/|v|, which explicit steps could not follow.  Slip that begins at the touch keeps it less
+/// long: how it turns then decides whether it stops.
+constexpr double slow_part = 0.1, slow_part_at_onset = 0.01;
+constexpr double digits_beyond_tolerance = 3;  ///< of friction over a patch: steps see nothing of its error
+constexpr double least_spin = 1;               ///< times tolerance and the contact's speed: slip from spin that counts
+constexpr double fading_per_contact = 50;      ///< rate at which stick ends a remaining slip, times the contact time
+constexpr double faint_part = 1e-9;            ///< of the contact's mean force: below it friction switches no more
+constexpr double slip_per_spin = 3;            ///< slip over slip from spin, below which both can end
+constexpr double slip_resolution = 100;        ///< times tolerance and the contact's speed: a range of slip that counts
+constexpr double least_resolution = 1e-9;      ///< of that speed
+constexpr double turning_resolution = 1e-13;   ///< of that speed: a range above it comes from turning, not rounding
+constexpr double steps_of_range = 4;           ///< of a fixed length within which friction may cross the range
+
+/// The unit vector along `v`, or against it with `sign` −1.  The inverse of a length below 1e-308 overflows.
+AlongGround direction_of(const AlongGround& v, double sign) {
+  const AlongGround scaled = v * (v.norm() < 1e-290 ? 0x1p900 : 1);
+  return scaled * (sign / scaled.norm());
+}
+
+constexpr double enough = 1e-9;  ///< of the bound of friction: a difference of the laws that needs no solving
+constexpr double parts_per_range = 4, most_parts = 32;  ///< of a step
+constexpr int sweeps = 2, most_trials = 12;
+constexpr double near = 0.05;  ///< relative, of the deviation
+
+/// A place where a rising function is at most `small`, searched from `start` in steps that begin with `reach`.
+double zero_of(auto&& function, double start, double reach, double small) {
+  const double at_start = function(start);
+  if (std::fabs(at_start) <= small) return start;
+  double inner = start, outer = start, at_inner = at_start, at_outer = at_start;
+  for (double step = reach; (at_outer > 0) == (at_start > 0); step *= 4) {
+    if (!(step < 1e6 * reach)) return start;
+    inner = outer;
+    at_inner = at_outer;
+    outer = start + (at_start > 0 ? -step : step);
+    at_outer = function(outer);
+  }
+  for (int i = 0; i < most_trials && std::fabs(outer - inner) > near * (std::fabs(outer) + std::fabs(inner)); ++i) {
+    double next = i % 3 == 2 ? (inner + outer) / 2 : inner - at_inner * (outer - inner) / (at_outer - at_inner);
+    if (!(next > std::min(inner, outer) && next < std::max(inner, outer))) next = (inner + outer) / 2;
+    const double value = function(next);
+    if (std::fabs(value) <= small) return next;
+    ((value > 0) == (at_inner > 0) ? inner : outer) = next;
+    ((value > 0) == (at_inner > 0) ? at_inner : at_outer) = value;
+  }
+  return std::fabs(at_inner) < std::fabs(at_outer) ? inner : outer;
+}
+
+/// The slip at which the misfit is small, one component after the other; `reach` is how far a component may go.
+AlongGround without_misfit(const auto& misfit, AlongGround slip, const AlongGround& reach, double small, bool planar) {
+  for (int sweep = 0; sweep < (planar ? 1 : sweeps); ++sweep) {
+    slip.east = zero_of([&](double east) { return misfit({east, slip.north}).east; }, slip.east, reach.east, small);
+    if (planar) continue;
+    slip.north = zero_of(
+        [&](double north) {
+          return misfit({slip.east, north}).north;
+        },
+        slip.north, reach.north, small);
+  }
+  return slip;
+}
+
 }  // namespace
 
 FrictionLog::FrictionLog() { entries_.reserve(most_entries); }
@@ -52,34 +116,6 @@ FrictionMode FrictionLog::mode() const {
   }
 }
 
-namespace {
-
-using Kind = FrictionPhase::Kind;
-
-constexpr double direction_rounding = 1e-14;  ///< of its unit length
-
-/// Slip slower than this part, times √tolerance, of the contact's speed keeps its direction: across it friction is a
-/// damper that stiffens like 1/|v|, which explicit steps could not follow.  Slip that begins at the touch keeps it less
-/// long: how it turns then decides whether it stops.
-constexpr double slow_part = 0.1, slow_part_at_onset = 0.01;
-constexpr double digits_beyond_tolerance = 3;  ///< of friction over a patch: steps see nothing of its error
-constexpr double least_spin = 1;               ///< times tolerance and the contact's speed: slip from spin that counts
-constexpr double fading_per_contact = 50;      ///< rate at which stick ends a remaining slip, times the contact time
-constexpr double faint_part = 1e-9;            ///< of the contact's mean force: below it friction switches no more
-constexpr double slip_per_spin = 3;            ///< slip over slip from spin, below which both can end
-constexpr double slip_resolution = 100;        ///< times tolerance and the contact's speed: a range of slip that counts
-constexpr double least_resolution = 1e-9;      ///< of that speed
-constexpr double turning_resolution = 1e-13;   ///< of that speed: a range above it comes from turning, not rounding
-constexpr double steps_of_range = 4;           ///< of a fixed length within which friction may cross the range
-
-/// The unit vector along `v`, or against it with `sign` −1.  The inverse of a length below 1e-308 overflows.
-AlongGround direction_of(const AlongGround& v, double sign) {
-  const AlongGround scaled = v * (v.norm() < 1e-290 ? 0x1p900 : 1);
-  return scaled * (sign / scaled.norm());
-}
-
-}  // namespace
-
 void FrictionPhases::begin(const MotionState& touch, const Vector3& point, const ContactScales& scales,
                            const Settings& settings, const ContactInstant& now) {
   settings_ = settings;
@@ -93,9 +129,7 @@ void FrictionPhases::begin(const MotionState& touch, const Vector3& point, const
   const AlongGround slip{moving.x(), system_.planar() ? 0.0 : moving.y()};
   const double speed = slip.norm();
   from_rest_ = !(speed > 1e-12 * std::max(scales_.speed, touch.velocity.norm()));
-  if (!from_rest_) {
-    return start(Kind::slip, direction_of(slip, 1), now);
-  }
+  if (!from_rest_) return start(Kind::slip, direction_of(slip, 1), now);
   AlongGround ratio = system_.sticking_ratio(point);
   if (settings_.is_pressed) {
     system_.set_phase({.kind = Kind::none, .direction = {}, .point = !spin_counts()});
@@ -257,52 +291,6 @@ FrictionMode FrictionPhases::end(const ContactInstant& now) {
   if (ground.friction == FrictionLaw::regularised) return FrictionMode::regularised;
   return ground.friction == FrictionLaw::local ? FrictionMode::local : log_.mode();
 }
-
-namespace {
-
-constexpr double enough = 1e-9;  ///< of the bound of friction: a difference of the laws that needs no solving
-constexpr double parts_per_range = 4, most_parts = 32;  ///< of a step
-constexpr int sweeps = 2, most_trials = 12;
-constexpr double near = 0.05;  ///< relative, of the deviation
-
-/// A place where a rising function is at most `small`, searched from `start` in steps that begin with `reach`.
-double zero_of(auto&& function, double start, double reach, double small) {
-  const double at_start = function(start);
-  if (std::fabs(at_start) <= small) return start;
-  double inner = start, outer = start, at_inner = at_start, at_outer = at_start;
-  for (double step = reach; (at_outer > 0) == (at_start > 0); step *= 4) {
-    if (!(step < 1e6 * reach)) return start;
-    inner = outer;
-    at_inner = at_outer;
-    outer = start + (at_start > 0 ? -step : step);
-    at_outer = function(outer);
-  }
-  for (int i = 0; i < most_trials && std::fabs(outer - inner) > near * (std::fabs(outer) + std::fabs(inner)); ++i) {
-    double next = i % 3 == 2 ? (inner + outer) / 2 : inner - at_inner * (outer - inner) / (at_outer - at_inner);
-    if (!(next > std::min(inner, outer) && next < std::max(inner, outer))) next = (inner + outer) / 2;
-    const double value = function(next);
-    if (std::fabs(value) <= small) return next;
-    ((value > 0) == (at_inner > 0) ? inner : outer) = next;
-    ((value > 0) == (at_inner > 0) ? at_inner : at_outer) = value;
-  }
-  return std::fabs(at_inner) < std::fabs(at_outer) ? inner : outer;
-}
-
-/// The slip at which the misfit is small, one component after the other; `reach` is how far a component may go.
-AlongGround without_misfit(const auto& misfit, AlongGround slip, const AlongGround& reach, double small, bool planar) {
-  for (int sweep = 0; sweep < (planar ? 1 : sweeps); ++sweep) {
-    slip.east = zero_of([&](double east) { return misfit({east, slip.north}).east; }, slip.east, reach.east, small);
-    if (planar) continue;
-    slip.north = zero_of(
-        [&](double north) {
-          return misfit({slip.east, north}).north;
-        },
-        slip.north, reach.north, small);
-  }
-  return slip;
-}
-
-}  // namespace
 
 void LocalSlipEstimate::begin(double least) {
   assert(least >= 0);

@@ -85,9 +85,7 @@ std::vector<int> opposite_corners(const Polygons& polygons) {
   const int count = static_cast<int>(polygons.corners.size());
   Edges edges;
   edges.reserve(polygons.corners.size());
-  for (int c = 0; c < count; ++c) {
-    edges.add(polygons.corners[c], polygons.corners[polygons.next(c)], c);
-  }
+  for (int c = 0; c < count; ++c) edges.add(polygons.corners[c], polygons.corners[polygons.next(c)], c);
   edges.sort();
   std::vector<int> opposite(polygons.corners.size(), -1);
   edges.for_each([&](std::span<const EdgeSide> sides) {
@@ -243,9 +241,7 @@ class StraightNodes {
     for (int c = outline_.next(first); c != end; c = outline_.next(c)) {
       if (!(distance_to_segment(polygons_.position(c), from, to) <= tolerance)) return;
     }
-    for (int c = outline_.next(first); c != end; c = outline_.next(c)) {
-      straight[polygons_.corners[c]] = true;
-    }
+    for (int c = outline_.next(first); c != end; c = outline_.next(c)) straight[polygons_.corners[c]] = true;
   }
 
   const Polygons& polygons_;

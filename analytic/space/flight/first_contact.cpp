@@ -148,9 +148,7 @@ double PointHeights::lowest_of_round(const Round& round, const Piece& piece, dou
   const auto e = coefficients(s, start, end);
   const double fall[3] = {a.centre, a.rate, -flight_.gravity()}, fell[3] = {b.centre, b.rate, -flight_.gravity()};
   auto h = coefficients(s, fall, fell);
-  for (std::size_t k = 0; k < 6; ++k) {
-    h[k] += e[k].dot(round.centre) - round.radius * round.across(e[k]).norm();
-  }
+  for (std::size_t k = 0; k < 6; ++k) h[k] += e[k].dot(round.centre) - round.radius * round.across(e[k]).norm();
   // What is known of the start better than its terms.
   const double known = piece.from.height - h[0];
   for (double& height : h) height += known;
@@ -718,9 +716,7 @@ class Search {
     for (int i = 0; i < heights_.count(); ++i) {
       if (i == found_.point) continue;
       const PointHeight h = best == 0 ? from_[i] : heights_.at(i, moment);
-      if (h.height <= noise + late * std::fabs(h.velocity) && h.velocity < 0) {
-        found_.together.push_back(i);
-      }
+      if (h.height <= noise + late * std::fabs(h.velocity) && h.velocity < 0) found_.together.push_back(i);
     }
   }
 

@@ -285,7 +285,6 @@ ThetaRotation::Functions ThetaRotation::dual(double argument) const {
 
 namespace {
 
-using Extended = long double;
 using ExtendedVector = Eigen::Matrix<Extended, 3, 1>;
 
 /// World components to body axes, with an attitude that is unit to the rounding of a double only.

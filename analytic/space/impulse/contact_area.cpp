@@ -170,9 +170,7 @@ class FarIntegrals {
   template <unsigned points>
   void add_side_by(const Vector2& from, const Vector2& to) {
     const auto& rule = unit_rule<points>();
-    for (unsigned i = 0; i < points; ++i) {
-      add(from + rule.nodes[i] * (to - from), rule.weights[i] * cross(from, to));
-    }
+    for (unsigned i = 0; i < points; ++i) add(from + rule.nodes[i] * (to - from), rule.weights[i] * cross(from, to));
   }
   /// The sector from the centre to a boundary point, `area` = ξ × dξ there.
   void add(const Vector2& point, double area) {

@@ -54,7 +54,7 @@ struct ContactVelocity {
 
 // How the impact of one point changes with the state before it.
 //
-// A turn δθ of the body at r, place and v = V + ω × r, changes
+// A turn δθ of the body, with the point at r and v = V + ω × r, changes
 //     δW = [δθ]× W − W [δθ]×,   δv = ω × (δθ × r),                                                     (3)
 // and where the point is the lowest of a rim or ellipsoid, the turn also moves the place by δr; W and v change as (1)
 // says.  With δP from impulse_path.hpp, Δω = I⁻¹ (r × P),

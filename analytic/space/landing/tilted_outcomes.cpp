@@ -28,9 +28,7 @@ struct Tilt {
 /// (1 − s) a + s b.
 Tilt between(const Tilt& a, const Tilt& b, double s) {
   Tilt tilt{(1 - s) * a.rise + s * b.rise, a.heights};
-  for (std::size_t i = 0; i < tilt.heights.size(); ++i) {
-    tilt.heights[i] = (1 - s) * a.heights[i] + s * b.heights[i];
-  }
+  for (std::size_t i = 0; i < tilt.heights.size(); ++i) tilt.heights[i] = (1 - s) * a.heights[i] + s * b.heights[i];
   return tilt;
 }
 

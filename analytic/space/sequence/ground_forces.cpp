@@ -132,9 +132,7 @@ GroundForces GroundLaw::forces(const State& s, std::span<const GroundPoint> poin
   if (points.size() == 2 && points[0].sticks && points[1].sticks)
     f.turning = turning_about_edge(drop_, inertia, arms[0], edge);
   const SmallVector gained = free + effect * all;
-  for (std::size_t i = 0; i < arms.size(); ++i) {
-    f.accelerations.emplace_back(gained.segment<3>(3 * i));
-  }
+  for (std::size_t i = 0; i < arms.size(); ++i) f.accelerations.emplace_back(gained.segment<3>(3 * i));
   return f;
 }
 

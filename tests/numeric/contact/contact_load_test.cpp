@@ -12,7 +12,7 @@ using namespace clatter::numeric::test;
 constexpr double relative = 1e-12;
 
 ContactLoad load_at(const Body& body, const Ground& ground, const Drop& drop, double depth) {
-  return ContactLoader(body, ground).load(pressed(touching_state(body, drop), depth), {});
+  return facet_surface(body, ground)->load(pressed(touching_state(body, drop), depth));
 }
 
 /// Moment of the normal load about the centre of mass, world frame.
@@ -140,7 +140,7 @@ BOOST_AUTO_TEST_CASE(meshing_and_merging_change_nothing_beyond_rounding) {
       GroundView view = pressed(touching_state(body, drop), 2e-3);
       view.vertical_speed = -1;
       view.angular_velocity = Vector3(1, 2, 3);
-      return ContactLoader(body, {.stiffness = 1e9, .damping = 1e7, .area = area}).load(view, {});
+      return facet_surface(body, {.stiffness = 1e9, .damping = 1e7, .area = area})->load(view);
     };
     const ContactLoad whole = load_of(phone());
     for (const bool merge : {true, false}) {
@@ -177,7 +177,7 @@ BOOST_AUTO_TEST_CASE(force_and_moment_are_derivatives_of_the_stored_energy) {
     const auto energy_at = [&](double down, double turn) {
       MotionState state = touch;
       state.attitude = Eigen::AngleAxisd(turn, Vector3::UnitY()) * touch.attitude;
-      return ContactLoader(body, ground).load(pressed(state, down), {}).energy;
+      return facet_surface(body, ground)->load(pressed(state, down)).energy;
     };
     const ContactLoad load = load_at(body, ground, drop, depth);
     const double force = (energy_at(depth + step, 0) - energy_at(depth - step, 0)) / (2 * step);
@@ -196,7 +196,7 @@ BOOST_AUTO_TEST_CASE(the_clamp_cuts_along_the_exact_line_and_books_the_released_
   GroundView view = pressed(touching_state(body, {}), depth);
   const double omega = 2;  // δ̇ = ω x: below −k/c = −1 for x < −1/2
   view.angular_velocity = Vector3(0, omega, 0);
-  const ContactLoad load = ContactLoader(body, ground).load(view, {});
+  const ContactLoad load = facet_surface(body, ground)->load(view);
   // δ is constant; f = (k + c ω x) δ over x from −1/2 to 1.
   BOOST_TEST(load.force == depth * (k * 1.5 + c * omega * 0.375), boost::test_tools::tolerance(relative));
   BOOST_TEST(load.damping_power == c * depth * omega * omega * 0.375, boost::test_tools::tolerance(relative));
@@ -211,7 +211,7 @@ BOOST_AUTO_TEST_CASE(at_the_speed_at_which_the_ground_lets_go_all_is_released) {
   const Ground ground{.stiffness = k, .damping = c, .area = AreaMeasure::projected};
   GroundView view = pressed(touching_state(body, {}), depth);
   view.vertical_speed = k / c;
-  const ContactLoad load = ContactLoader(body, ground).load(view, {});
+  const ContactLoad load = facet_surface(body, ground)->load(view);
   BOOST_TEST(load.force == 0);
   BOOST_TEST(load.damping_power == 0);
   BOOST_TEST(load.release_power == k * depth * (k / c) * 2, boost::test_tools::tolerance(relative));
@@ -333,20 +333,20 @@ BOOST_AUTO_TEST_CASE(friction_of_faces_that_look_up_is_bounded_by_the_normal_for
   int looking_up = 0;
   for (int i = 0; i < 90; ++i) {
     const Corner corner = random_corner(random);
-    ContactLoader loader(corner.body, corner.ground);
-    const ContactLoad load = loader.load(corner.view);
+    const auto loader = facet_surface(corner.body, corner.ground);
+    const ContactLoad load = loader->load(corner.view);
     if (!(load.force > 0)) continue;
     for (const Facet& facet : corner.body.facets().facets) looking_up += facet.normal.dot(corner.view.normal()) > 0;
     for (const double regularisation : {0.0, 0.1}) {
       for (const bool planar : {false, true}) {
         const SlipField field{.planar = planar, .regularisation = regularisation};
-        const SlipLoad friction = loader.slip_load(corner.view, field);
+        const SlipLoad friction = loader->slip_load(corner.view, field);
         BOOST_TEST(std::hypot(friction.east, planar ? 0 : friction.north) <= load.force * (1 + relative));
         if (!planar) BOOST_TEST(dissipated(corner.view, friction) >= -relative * load.force);
       }
     }
     const SlipField flat{.kind = SlipField::Kind::turning, .centre = load.pressure_centre(), .east = 0.1, .spin = 1};
-    BOOST_TEST(force_of(corner.view, loader.slip_load(corner.view, flat)).norm() <= load.force * (1 + relative));
+    BOOST_TEST(force_of(corner.view, loader->slip_load(corner.view, flat)).norm() <= load.force * (1 + relative));
   }
   BOOST_TEST(looking_up > 60);
 }
@@ -355,11 +355,11 @@ BOOST_AUTO_TEST_CASE(friction_is_that_of_columns_each_pressed_by_the_difference_
   Random random(11);
   for (int seen = 0; seen < 5;) {
     const Corner corner = random_corner(random);
-    ContactLoader loader(corner.body, corner.ground);
-    const ContactLoad load = loader.load(corner.view);
+    const auto loader = facet_surface(corner.body, corner.ground);
+    const ContactLoad load = loader->load(corner.view);
     if (!(load.force > 0.02)) continue;  // a patch of many columns
     ++seen;
-    const Vector3 found = force_of(corner.view, loader.slip_load(corner.view, {}));
+    const Vector3 found = force_of(corner.view, loader->slip_load(corner.view, {}));
     BOOST_TEST((found - friction_of_columns(corner)).norm() <= of_columns * load.force);
   }
 }
@@ -374,9 +374,9 @@ BOOST_AUTO_TEST_CASE(walls_that_are_all_but_upright_change_no_friction) {
           view_of(box, Eigen::Quaterniond(Eigen::AngleAxisd(tilt, axis)), depth, {0, -1e-7, -1}, {0, 0, 20});
       const auto friction_by = [&](AreaMeasure area) -> Vector3 {
         const Ground ground = with_friction({.stiffness = 1, .area = area}, 1);
-        ContactLoader loader(box, ground);
-        const double force = loader.load(view).force;
-        return force_of(view, loader.slip_load(view, {})) / force;
+        const auto loader = facet_surface(box, ground);
+        const double force = loader->load(view).force;
+        return force_of(view, loader->slip_load(view, {})) / force;
       };
       BOOST_TEST((friction_by(AreaMeasure::projected) - friction_by(AreaMeasure::surface)).norm() <= of_walls);
     }
@@ -396,7 +396,7 @@ BOOST_AUTO_TEST_CASE(a_face_that_looks_up_leans_on_the_next_face_below_it) {
     Mesh mesh = blocks(cells);
     const MassProperties properties = mass_properties(mesh);
     const Body body(mesh);
-    ContactLoader loader(body, ground);
+    const auto loader = facet_surface(body, ground);
     GroundView view;
     view.reference = {Vector3::UnitZ(), properties.centre.z() - 0.4};
     const Vector3 at = velocity + rotation.cross(properties.centre - centre);
@@ -404,8 +404,8 @@ BOOST_AUTO_TEST_CASE(a_face_that_looks_up_leans_on_the_next_face_below_it) {
     view.east_speed = at.x();
     view.north_speed = at.y();
     view.angular_velocity = rotation;
-    static_cast<void>(loader.load(view));
-    const SlipLoad load = loader.slip_load(view, {});
+    static_cast<void>(loader->load(view));
+    const SlipLoad load = loader->slip_load(view, {});
     return Vector3(load.east, load.north,
                    load.moment.z() + (properties.centre.x() * load.north - properties.centre.y() * load.east));
   };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "numeric/contact/smooth_contact.hpp"
+#include "numeric/contact/contact_load.hpp"
 
 #include "numeric/contact/gauss_rules.hpp"
 #include "tests/numeric/bodies.hpp"
