@@ -16,9 +16,7 @@ constexpr double radians_low = 2.9486522708701687e-19;
 double radians_of(double degrees) { return std::fma(degrees, radians_high, degrees * radians_low); }
 
 void require_finite(double angle) {
-  if (!std::isfinite(angle)) {
-    throw std::domain_error("angle = " + std::to_string(angle) + ": must be finite");
-  }
+  if (!std::isfinite(angle)) throw std::domain_error("angle = " + std::to_string(angle) + ": must be finite");
 }
 
 }  // namespace

@@ -26,9 +26,7 @@ struct Dual {
   /// f of two numbers, where `of_a` and `of_b` are the derivatives of f there.
   [[nodiscard]] static Dual combined(double f_value, const Dual& a, double of_a, const Dual& b, double of_b) {
     Dual result(f_value);
-    for (std::size_t i = 0; i < size; ++i) {
-      result.slope[i] = of_a * a.slope[i] + of_b * b.slope[i];
-    }
+    for (std::size_t i = 0; i < size; ++i) result.slope[i] = of_a * a.slope[i] + of_b * b.slope[i];
     return result;
   }
 

@@ -109,9 +109,7 @@ Root bracketed_root(FunctionView f, Bracket bracket, double guess, bool rising) 
     const double ratio = previous_step == 0 ? 1 : step / previous_step;
     const double predicted = std::fabs(step) * ratio * ratio;
     if (stays && predicted <= 0.25 * epsilon * std::fabs(next)) return {next, evaluated.evaluations};
-    if (next == x || bracket.high - bracket.low <= epsilon * std::fabs(x)) {
-      return {x, evaluated.evaluations};
-    }
+    if (next == x || bracket.high - bracket.low <= epsilon * std::fabs(x)) return {x, evaluated.evaluations};
     // Newton's steps may lead from one side of the root to the other without end.
     const bool returns = step * previous_step < 0 && std::fabs(step) > 0.75 * std::fabs(previous_step);
     if (stays && !returns) {

@@ -7,7 +7,6 @@
 #include <stdexcept>
 
 #include "analytic/base/errors.hpp"
-#include "analytic/batch/lane_kernels.hpp"
 #include "analytic/plane/sequence.hpp"
 
 namespace clatter::analytic {

@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <span>
 
-#include "analytic/batch/lanes.hpp"
+#include "analytic/batch/lane_kernels.hpp"
 #include "analytic/law/impact_law.hpp"
 #include "analytic/plane/impact_rows.hpp"
 

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analytic/law/coulomb_path.hpp"
 
+#include <boost/math/tools/toms748_solve.hpp>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <sstream>
 
 #include "analytic/base/errors.hpp"
-#include "analytic/law/impact_limits.hpp"
+#include "analytic/base/limits.hpp"
+#include "analytic/law/impact_law.hpp"
 #include "analytic/law/viscoelastic.hpp"
 
 namespace clatter::analytic {
@@ -79,9 +82,7 @@ Phases<detail::Dual<size>> phases_of(const PathCoefficients<detail::Dual<size>>&
 template <class Number>
 Number impulse_for_rise(const Phases<Number>& phases, const Number& rise) {
   const Number in_first = phases.first.slope * phases.first.length;
-  if (phases.first.length == endless || (phases.first.slope > 0 && rise <= in_first)) {
-    return rise / phases.first.slope;
-  }
+  if (phases.first.length == endless || (phases.first.slope > 0 && rise <= in_first)) return rise / phases.first.slope;
   return phases.first.length + (rise - in_first) / phases.second.slope;
 }
 
@@ -174,9 +175,7 @@ PathEnd<Number> coulomb_path(const PathCoefficients<Number>& path, const PathSta
   const Phases<Number> phases = phases_of(path, start.slip, friction);
   const auto [impulse, separation] = ending(phases, start, law);
   if (friction == 0) return {impulse, 0, separation, ImpactMode::frictionless};
-  if (!(impulse > phases.first.length)) {
-    return {impulse, phases.first.ratio * impulse, separation, phases.mode_first};
-  }
+  if (!(impulse > phases.first.length)) return {impulse, phases.first.ratio * impulse, separation, phases.mode_first};
   const Number second = impulse - phases.first.length;
   return {impulse, phases.first.ratio * phases.first.length + phases.second.ratio * second, separation,
           phases.mode_second};
@@ -284,5 +283,17 @@ template PathEnd<detail::Dual<2>> flat_impulse(const PathStart<detail::Dual<2>>&
                                                const ImpactLaw&);
 template PathEnd<double> flat_impulse(const PathStart<double>&, const double&, const ImpactLaw&);
 template PathEnd<ImpactDual> flat_impulse(const PathStart<ImpactDual>&, const ImpactDual&, const ImpactLaw&);
+
+double restitution_without_gain(double e, double energy, const std::function<double(double)>& loss) {
+  constexpr double rounding = 8 * detail::epsilon;
+  const double at_law = loss(e);
+  if (!(at_law < -rounding * energy)) return e;
+  const double without_rebound = loss(0);
+  if (!(without_rebound > 0)) return 0;
+  std::uintmax_t most = 100;
+  return boost::math::tools::toms748_solve(loss, 0.0, e, without_rebound, at_law,
+                                           boost::math::tools::eps_tolerance<double>(50), most)
+      .first;
+}
 
 }  // namespace clatter::analytic

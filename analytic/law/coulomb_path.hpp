@@ -2,6 +2,8 @@
 // Routh's construction: the path of an impact with Coulomb friction in impulse space.
 #pragma once
 
+#include <functional>
+
 #include "analytic/base/dual.hpp"
 #include "analytic/law/impact_law.hpp"
 
@@ -76,5 +78,13 @@ template <class Number>
 /// @param turning ω d_n [m/s]
 template <class Number>
 [[nodiscard]] PathEnd<Number> flat_impulse(const PathStart<Number>& start, const Number& turning, const ImpactLaw& law);
+
+/// The largest restitution up to e with which a landing as a whole loses energy or none: e itself, unless `loss` is
+/// less than zero there.  A smaller e ends the same path in impulse space earlier, so that the loss is a continuous
+/// function of it, and so is what is found of the motion before.  0 if nothing is lost then, either.
+/// Accuracy: the loss is between zero and 1e-13 of `energy`, or rounding of `loss`.
+/// @param energy  before the landing; a gain of its rounding is none
+/// @param loss  of energy, as a function of the restitution
+[[nodiscard]] double restitution_without_gain(double e, double energy, const std::function<double(double)>& loss);
 
 }  // namespace clatter::analytic

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <limits>
 #include <optional>
+#include <sstream>
 #include <string>
 #include <utility>
 
@@ -32,7 +33,19 @@ struct Unphysical {
 /// "the impulse ratio creates energy: ... J in all, from impact ... on", of a law of restitution with the one that
 /// never does; else of a ratio that pushes along the slip; empty: neither happens.
 /// @param joules  the created energy
-[[nodiscard]] std::string law_warning(FrictionKind friction, const Unphysical& found, double joules);
+[[nodiscard]] inline std::string law_warning(FrictionKind friction, const Unphysical& found, double joules) {
+  const bool is_ratio = friction == FrictionKind::impulse_ratio;
+  if (found.first_energy == 0 && found.first_along == 0) return "";
+  std::ostringstream text;
+  text.precision(6);
+  text << (is_ratio ? "the impulse ratio" : "the law of restitution, with friction,");
+  if (found.first_energy > 0)
+    text << " creates energy: " << joules << " J in all, from impact " << found.first_energy << " on";
+  else text << " pushes the contact along its slip, as no friction does, from impact " << found.first_along << " on";
+  text << (is_ratio ? "; Eq. 8 takes it as given, --friction MU follows the slip"
+                    : "; Stronge's law (--restitution-law stronge) never does");
+  return text.str();
+}
 
 /// The rows, outcome and errors of one run, in internal units.  AnySequence has rows, outcome, message, tail, near_miss
 /// and total_normal_impulse; AnyGrowth follows errors and says predictable().

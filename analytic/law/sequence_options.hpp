@@ -2,8 +2,12 @@
 // What an impact sequence is asked for, and how it ends: the same in the plane and in space.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 #include <vector>
+
+#include "analytic/base/errors.hpp"
 
 namespace clatter::analytic {
 
@@ -29,7 +33,15 @@ struct SequenceOptions {
   std::vector<double> times{};
 
   /// @throws std::domain_error naming the field, its value and what is allowed.
-  void validate() const;
+  void validate() const {
+    detail::require(impacts >= 1, "impacts", impacts, "at least 1");
+    detail::require(!std::isnan(until), "until", until, "a number");
+    const bool is_ascending = std::is_sorted(times.begin(), times.end()) &&
+                              std::all_of(times.begin(), times.end(), [](double time) { return std::isfinite(time); });
+    detail::require(is_ascending, "number of times", static_cast<double>(times.size()),
+                    "of finite ones in ascending order");
+    detail::require(digits >= 1 && digits <= 15, "digits", digits, "between 1 and 15");
+  }
 };
 
 enum class Outcome {

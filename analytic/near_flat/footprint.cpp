@@ -103,6 +103,11 @@ struct Arrival {
   Wide speed;
 };
 
+bool same_order(const TiltSector& a, const TiltSector& b) {
+  return a.goes_on == b.goes_on &&
+         std::ranges::equal(a.strikes, b.strikes, {}, &CornerStrike::corner, &CornerStrike::corner);
+}
+
 /// Takes course after course and cuts it where the first corner changes.
 class SectorCutter {
  public:
@@ -132,11 +137,93 @@ class SectorCutter {
   static constexpr std::size_t most_strikes = 100'000;
   static constexpr double least_width = 1e-9;  // [rad]
 
-  void follow(Course course);
-  void cut(const Course& course, const std::vector<Arrival>& arrivals, bool falls);
-  void strike(Course course, const Arrival& first, bool falls);
-  void keep(const Course& course, bool goes_on);
-  [[nodiscard]] TiltSectors merged();
+  void follow(Course course) {
+    std::vector<Arrival> arrivals;
+    const std::vector<Wide>& speeds = billiard_.approaches(course.velocity);
+    for (std::size_t i = 0; i < speeds.size(); ++i) {
+      if (!(speeds[i] > 0)) continue;
+      arrivals.push_back({i, {}, speeds[i]});
+      for (std::size_t end = 0; end < 2; ++end) {
+        const Wide height = billiard_.at(course.heights[end], i);
+        arrivals.back().time[end] = height > 0 ? Wide(height / speeds[i]) : Wide(0);
+      }
+    }
+    if (arrivals.empty()) return keep(course, false);
+    if (course.strikes.size() >= most_ || strikes_ >= most_strikes) return keep(course, true);
+    cut(course, arrivals, false);
+  }
+
+  /// The lower envelope of the times, linear from end to end, of those that arrive.
+  void cut(const Course& course, const std::vector<Arrival>& arrivals, bool falls) {
+    const auto order = [](const Arrival& a) { return std::tuple(a.time[0], a.time[1], Wide(-a.speed)); };
+    const Arrival* first =
+        &*std::ranges::min_element(arrivals, [&](const Arrival& a, const Arrival& b) { return order(a) < order(b); });
+    for (Wide from = 0; first;) {
+      const Arrival* next = nullptr;
+      Wide to = 1;
+      for (const Arrival& other : arrivals) {
+        if (!(other.time[1] < first->time[1])) continue;
+        const Wide lead = other.time[0] - first->time[0];
+        const Wide at = std::max(Wide(lead / (lead + first->time[1] - other.time[1])), from);
+        if (at < to || (at == to && next && other.time[1] < next->time[1])) {
+          to = at;
+          next = &other;
+        }
+      }
+      Course part = course;
+      for (std::size_t end = 0; end < 2; ++end) {
+        const Wide& s = end == 0 ? from : to;
+        part.tilt[end] = mixed(course.tilt[0], course.tilt[1], s);
+        part.heights[end] = mixed(course.heights[0], course.heights[1], s);
+      }
+      strike(std::move(part), *first, falls);
+      from = to;
+      first = next;
+    }
+  }
+
+  void strike(Course course, const Arrival& first, bool falls) {
+    const double width = course.width();
+    if (!(width >= least_width)) {
+      result_.open_share += std::fmax(width, 0.0) / full_turn;
+      return;
+    }
+    const std::size_t i = first.corner;
+    for (Plane& heights : course.heights) {
+      if (falls) put_down(billiard_, i, heights);
+      else fly(billiard_, course.velocity, Wide(billiard_.at(heights, i) / first.speed), i, heights);
+    }
+    const Wide approach = -billiard_.at(course.velocity, i), impulse = billiard_.strike(course.velocity, i);
+    course.strikes.push_back({static_cast<int>(i), static_cast<double>(approach), static_cast<double>(impulse)});
+    ++strikes_;
+    waiting_.push_back(std::move(course));
+  }
+
+  void keep(const Course& course, bool goes_on) {
+    const Plane& tilt = course.tilt[0];
+    const double from = std::atan2(static_cast<double>(tilt[2]), static_cast<double>(tilt[1]));
+    result_.sectors.push_back({from, from + course.width(), course.strikes, goes_on});
+  }
+
+  /// Sectors that the beginning has cut are one again.
+  [[nodiscard]] TiltSectors merged() {
+    constexpr double gap = 1e-8;  // of what is left open between them
+    std::vector<TiltSector>& all = result_.sectors;
+    std::ranges::sort(all, {}, &TiltSector::from);
+    std::vector<TiltSector> joined;
+    for (TiltSector& sector : all) {
+      if (!joined.empty() && same_order(joined.back(), sector) && sector.from - joined.back().to < gap) {
+        joined.back().to = sector.to;
+      } else {
+        joined.push_back(std::move(sector));
+      }
+    }
+    if (joined.size() > 1 && same_order(joined.back(), joined.front())) {
+      joined.back().to = joined.front().to + full_turn;
+      joined.erase(joined.begin());
+    }
+    return {std::move(joined), result_.open_share};
+  }
 
   Billiard& billiard_;
   std::size_t most_;
@@ -144,99 +231,6 @@ class SectorCutter {
   std::vector<Course> waiting_;
   TiltSectors result_;
 };
-
-void SectorCutter::follow(Course course) {
-  std::vector<Arrival> arrivals;
-  const std::vector<Wide>& speeds = billiard_.approaches(course.velocity);
-  for (std::size_t i = 0; i < speeds.size(); ++i) {
-    if (!(speeds[i] > 0)) continue;
-    arrivals.push_back({i, {}, speeds[i]});
-    for (std::size_t end = 0; end < 2; ++end) {
-      const Wide height = billiard_.at(course.heights[end], i);
-      arrivals.back().time[end] = height > 0 ? Wide(height / speeds[i]) : Wide(0);
-    }
-  }
-  if (arrivals.empty()) return keep(course, false);
-  if (course.strikes.size() >= most_ || strikes_ >= most_strikes) return keep(course, true);
-  cut(course, arrivals, false);
-}
-
-/// The lower envelope of the times, linear from end to end, of those that arrive.
-void SectorCutter::cut(const Course& course, const std::vector<Arrival>& arrivals, bool falls) {
-  const auto order = [](const Arrival& a) { return std::tuple(a.time[0], a.time[1], Wide(-a.speed)); };
-  const Arrival* first =
-      &*std::ranges::min_element(arrivals, [&](const Arrival& a, const Arrival& b) { return order(a) < order(b); });
-  for (Wide from = 0; first;) {
-    const Arrival* next = nullptr;
-    Wide to = 1;
-    for (const Arrival& other : arrivals) {
-      if (!(other.time[1] < first->time[1])) continue;
-      const Wide lead = other.time[0] - first->time[0];
-      const Wide at = std::max(Wide(lead / (lead + first->time[1] - other.time[1])), from);
-      if (at < to || (at == to && next && other.time[1] < next->time[1])) {
-        to = at;
-        next = &other;
-      }
-    }
-    Course part = course;
-    for (std::size_t end = 0; end < 2; ++end) {
-      const Wide& s = end == 0 ? from : to;
-      part.tilt[end] = mixed(course.tilt[0], course.tilt[1], s);
-      part.heights[end] = mixed(course.heights[0], course.heights[1], s);
-    }
-    strike(std::move(part), *first, falls);
-    from = to;
-    first = next;
-  }
-}
-
-void SectorCutter::strike(Course course, const Arrival& first, bool falls) {
-  const double width = course.width();
-  if (!(width >= least_width)) {
-    result_.open_share += std::fmax(width, 0.0) / full_turn;
-    return;
-  }
-  const std::size_t i = first.corner;
-  for (Plane& heights : course.heights) {
-    if (falls) put_down(billiard_, i, heights);
-    else fly(billiard_, course.velocity, Wide(billiard_.at(heights, i) / first.speed), i, heights);
-  }
-  const Wide approach = -billiard_.at(course.velocity, i), impulse = billiard_.strike(course.velocity, i);
-  course.strikes.push_back({static_cast<int>(i), static_cast<double>(approach), static_cast<double>(impulse)});
-  ++strikes_;
-  waiting_.push_back(std::move(course));
-}
-
-void SectorCutter::keep(const Course& course, bool goes_on) {
-  const Plane& tilt = course.tilt[0];
-  const double from = std::atan2(static_cast<double>(tilt[2]), static_cast<double>(tilt[1]));
-  result_.sectors.push_back({from, from + course.width(), course.strikes, goes_on});
-}
-
-bool same_order(const TiltSector& a, const TiltSector& b) {
-  return a.goes_on == b.goes_on &&
-         std::ranges::equal(a.strikes, b.strikes, {}, &CornerStrike::corner, &CornerStrike::corner);
-}
-
-/// Sectors that the beginning has cut are one again.
-TiltSectors SectorCutter::merged() {
-  constexpr double gap = 1e-8;  // of what is left open between them
-  std::vector<TiltSector>& all = result_.sectors;
-  std::ranges::sort(all, {}, &TiltSector::from);
-  std::vector<TiltSector> joined;
-  for (TiltSector& sector : all) {
-    if (!joined.empty() && same_order(joined.back(), sector) && sector.from - joined.back().to < gap) {
-      joined.back().to = sector.to;
-    } else {
-      joined.push_back(std::move(sector));
-    }
-  }
-  if (joined.size() > 1 && same_order(joined.back(), joined.front())) {
-    joined.back().to = joined.front().to + full_turn;
-    joined.erase(joined.begin());
-  }
-  return {std::move(joined), result_.open_share};
-}
 
 std::vector<CornerStrike> followed(Billiard billiard, double direction, int most) {
   Plane velocity{-1, 0, 0}, heights{0, std::cos(direction), std::sin(direction)};
@@ -328,9 +322,7 @@ std::optional<CriticalRestitution> merging_eigenvalues(const Footprint& footprin
 void Footprint::validate() const {
   detail::require(corners.size() >= 2 && corners.size() <= 256, "corners", static_cast<double>(corners.size()),
                   "from 2 to 256");
-  for (const Eigen::Vector2d& corner : corners) {
-    detail::require(corner.allFinite(), "corner", corner.sum(), "finite");
-  }
+  for (const Eigen::Vector2d& corner : corners) detail::require(corner.allFinite(), "corner", corner.sum(), "finite");
   detail::require(mobility.allFinite() && mobility(0, 0) > 0 && mobility.determinant() > 0 &&
                       std::fabs(mobility(0, 1) - mobility(1, 0)) <= 1e-12 * mobility.norm(),
                   "mobility", mobility.determinant(), "symmetric and positive definite");

@@ -148,7 +148,7 @@ bool Accumulation::repeats(int period) const {
   const int count = static_cast<int>(events_.size());
   if (count < blocks * period) return false;
   for (int i = count - (blocks - 1) * period; i < count; ++i) {
-    const Event &event = events_[static_cast<std::size_t>(i)], &before = events_[static_cast<std::size_t>(i - period)];
+    const Event &event = events_[i], &before = events_[i - period];
     if (event.vertices != before.vertices || event.mode != before.mode) return false;
   }
   return true;
@@ -157,9 +157,7 @@ bool Accumulation::repeats(int period) const {
 double Accumulation::block(int period, int index, double Event::*quantity) const {
   const auto end = events_.size() - static_cast<std::size_t>((blocks - 1 - index) * period);
   double sum = 0;
-  for (std::size_t i = end - static_cast<std::size_t>(period); i < end; ++i) {
-    sum += events_[i].*quantity;
-  }
+  for (std::size_t i = end - static_cast<std::size_t>(period); i < end; ++i) sum += events_[i].*quantity;
   return sum;
 }
 

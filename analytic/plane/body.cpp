@@ -26,9 +26,7 @@ PlanarBody with_rim(double mass, double half_length, double half_height, double 
 
 double PlanarBody::reach() const {
   double reach = 0;
-  for (int i = 0; i < vertex_count; ++i) {
-    reach = std::fmax(reach, std::hypot(vertices[i].x, vertices[i].z));
-  }
+  for (int i = 0; i < vertex_count; ++i) reach = std::fmax(reach, std::hypot(vertices[i].x, vertices[i].z));
   return reach;
 }
 
@@ -54,9 +52,7 @@ std::string PlanarBody::vertex_set_name(VertexSet set) {
 PlanarBody make_rod(const RodSize& size) {
   require_positive("mass", size.mass);
   require_positive("length", size.length);
-  if (!(size.radius >= 0 && std::isfinite(size.radius))) {
-    refuse("radius", size.radius, "at least 0 and finite");
-  }
+  if (!(size.radius >= 0 && std::isfinite(size.radius))) refuse("radius", size.radius, "at least 0 and finite");
   if (size.radius > 0) {
     const double gyration_square = (size.length * size.length + 3 * size.radius * size.radius) / 12;
     return with_rim(size.mass, size.length / 2, size.radius, gyration_square);

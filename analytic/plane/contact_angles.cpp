@@ -71,9 +71,7 @@ class Chain {
       : parameters_(parameters), law_(impact_law(parameters)),
         motion_(unit_rod(), theta, {.normal = -1}, parameters.gravity_number) {
     result_.theta = theta;
-    for (int i = 0; i < 3; ++i) {
-      result_.impulse[i] = result_.velocity[i] = result_.angular[i] = missing;
-    }
+    for (int i = 0; i < 3; ++i) result_.impulse[i] = result_.velocity[i] = result_.angular[i] = missing;
     result_.gamma_minus_theta = result_.impulse_deficit = missing;
   }
 
@@ -220,9 +218,7 @@ RegimeBoundary regime_boundary(ImpactNumber impact, const RodParameters& paramet
   if (below.impacts() < number) return boundary;
   for (double degrees = step; degrees <= 90; degrees += step) {
     const ContactAngles here = at(degrees);
-    if (here.impacts() < number) {
-      return describe(bisect({below, here}, impact, parameters), impact, parameters);
-    }
+    if (here.impacts() < number) return describe(bisect({below, here}, impact, parameters), impact, parameters);
     below = here;
   }
   boundary.kind = BoundaryKind::always;

@@ -8,12 +8,47 @@
 // large beside a graze that the root's parabola shows.
 #pragma once
 
+#include <array>
+#include <cstddef>
+
 #include "analytic/plane/body_motion.hpp"
-#include "analytic/plane/error_factor.hpp"
 #include "analytic/plane/impact_rows.hpp"
 #include "analytic/plane/step_jacobians.hpp"
 
 namespace clatter::analytic {
+
+/// Independent errors of a state: column k of F holds what the k-th does to the state, so that the
+/// covariance is F Fᵀ.
+///
+/// Errors of one state are strongly correlated, and what one step blows up the next may bring
+/// together again.  A bound for each number alone would lose that; the factor does not, and keeps
+/// the relative accuracy of each row, be the numbers as different in size as the time and the speed
+/// of the smallest bounce.
+class ErrorFactor {
+ public:
+  /// One more independent error.
+  void add(const StateVector& column);
+  /// One more independent error, of one number alone.
+  void add(std::size_t number, double size);
+  /// F ← J F.
+  void advance(const StateMatrix& jacobian);
+  /// Standard deviation of gradient · state; infinite once an error was not finite.
+  [[nodiscard]] double deviation(const StateVector& gradient) const;
+  /// The deviation of one number of the state.
+  [[nodiscard]] double deviation_of(std::size_t number) const;
+
+ private:
+  static constexpr std::size_t capacity = 24;
+  using Row = std::array<double, capacity>;
+
+  void make_room(std::size_t columns);
+  void append_alone();
+
+  std::array<Row, state_size> rows_{};  ///< of F but for `alone_`; zero beyond `columns_`
+  std::size_t columns_ = 0;
+  StateVector alone_{};  ///< errors of single numbers since the last advance(), each a column
+  bool known_ = true;
+};
 
 /// The impact of `row` that `motion` has just had, of which the row has vertices, velocity before and impact.
 [[nodiscard]] StruckState struck_state(const BodyMotion& motion, const ImpactLaw& law, const ImpactRow& row);

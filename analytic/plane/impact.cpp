@@ -7,7 +7,6 @@
 
 #include "analytic/base/errors.hpp"
 #include "analytic/law/coulomb_path.hpp"
-#include "analytic/law/restitution_without_gain.hpp"
 
 namespace clatter::analytic {
 

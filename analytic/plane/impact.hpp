@@ -11,7 +11,6 @@
 #include <optional>
 
 #include "analytic/law/impact_law.hpp"
-#include "analytic/law/impact_limits.hpp"
 #include "analytic/plane/body.hpp"
 
 namespace clatter::analytic {

@@ -10,9 +10,7 @@ RodImpact rod_impact(const Angle& theta, const RodApproach& before, double resti
   const double s = theta.sine;
   const double friction = 3 * impulse_ratio * s * c;
   const double denominator = 1 + 3 * c * c - friction;
-  if (!(denominator > 0)) {
-    throw OutsideModelError("jamming: 1 + 3c² − 3 μ_i s c is not positive");
-  }
+  if (!(denominator > 0)) throw OutsideModelError("jamming: 1 + 3c² − 3 μ_i s c is not positive");
   const double scale = -(1 + restitution) * before.normal / denominator;
   return {.after = {.normal = -(restitution - 3 * c * c + friction) * before.normal / denominator,
                     .tangential = before.tangential + impulse_ratio * scale,

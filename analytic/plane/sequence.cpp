@@ -14,7 +14,6 @@
 #include "analytic/plane/body_motion.hpp"
 #include "analytic/plane/error_growth.hpp"
 #include "analytic/plane/impact_rows.hpp"
-#include "analytic/plane/summed_sequence.hpp"
 
 namespace clatter::analytic {
 

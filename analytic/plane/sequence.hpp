@@ -22,4 +22,8 @@ namespace clatter::analytic {
 ///         beyond the doubles, or the first impact cannot be computed.
 [[nodiscard]] Sequence impact_sequence(const Drop& drop, const SequenceOptions& options);
 
+/// impact_sequence() without what no sum over the rows needs: their amplification and all errors
+/// but `predictable`, `relative` and those of start, contact angle, normal impulse and energy loss.
+[[nodiscard]] Sequence summed_sequence(const Drop& drop, const SequenceOptions& options);
+
 }  // namespace clatter::analytic

@@ -8,6 +8,14 @@
 
 namespace clatter::analytic {
 
+StateVector product(const StateMatrix& jacobian, const StateVector& vector) {
+  StateVector result{};
+  for (std::size_t i = 0; i < state_size; ++i) {
+    for (std::size_t j = 0; j < state_size; ++j) result[i] += jacobian[i][j] * vector[j];
+  }
+  return result;
+}
+
 namespace {
 
 /// What an impact does, as functions of the state before it.

@@ -5,13 +5,24 @@
 // that vertex's normal velocity u and slip s; α that of local_departure().
 #pragma once
 
+#include <array>
 #include <cmath>
+#include <cstddef>
 
-#include "analytic/plane/error_factor.hpp"
 #include "analytic/plane/flight.hpp"
 #include "analytic/plane/impact.hpp"
 
 namespace clatter::analytic {
+
+/// Time, inclination, normal velocity and slip of the contact point, Ω, and the sum of the normal
+/// impulses so far.
+inline constexpr std::size_t state_size = 6;
+using StateVector = std::array<double, state_size>;
+/// Rows: derivatives of one number of the new state with respect to the numbers of the old one.
+using StateMatrix = std::array<StateVector, state_size>;
+
+/// J v.
+[[nodiscard]] StateVector product(const StateMatrix& jacobian, const StateVector& vector);
 
 /// Places of the numbers in a StateVector.
 enum StateIndex : std::size_t { at_time, at_angle, at_normal, at_slip, at_turn, at_sum };

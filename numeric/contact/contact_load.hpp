@@ -3,12 +3,12 @@
 #pragma once
 
 #include <limits>
+#include <memory>
 #include <vector>
 
 #include "numeric/body/body.hpp"
 #include "numeric/contact/contact_polygon.hpp"
 #include "numeric/contact/ground.hpp"
-#include "numeric/contact/overhangs.hpp"
 #include "numeric/contact/slip_integrals.hpp"
 
 namespace clatter::numeric {
@@ -130,63 +130,16 @@ struct BodySlip {
 };
 [[nodiscard]] BodySlip body_slip(const Vector3& origin, const GroundView& view, const SlipField& field);
 
-/// Sums the load over the facets near the ground, and keeps the polygons that press, so that friction of any number of
-/// slip fields needs no other clipping.
-class ContactLoader final : public ContactSurface {
- public:
-  /// @param footprint  gets all that lies below the ground, if not null.
-  ContactLoader(const Body& body, const Ground& ground, Footprint* footprint = nullptr);
-
-  using ContactSurface::load;
-  [[nodiscard]] ContactLoad load(const GroundView& view, LoadRates* rates, std::vector<int>* submerged) override;
-  /// Where faces look up from below the ground (projected measure) a column of the ground rubs with the difference of
-  /// what its two faces have, along the slip of the lower one, which it touches: never more than μ F_n, and never
-  /// driving.
-  [[nodiscard]] SlipLoad slip_load(const GroundView& view, const SlipField& field) override;
-  [[nodiscard]] SlipRange slip_range(const GroundView& view, const SlipField& field) const override;
-
- private:
-  struct Sums;
-  struct FacetView;
-  /// A polygon that presses, and the corners that it has in `corners_`.
-  struct Pressing {
-    std::size_t begin;
-    int count;
-    const Vector3* normal;  ///< of its facet
-    Vector3 origin;
-    double weight;  ///< of its area
-    /// Depth that presses, at the origin and its slope over the plane.
-    double depth = 0;
-    Vector3 depth_slope = Vector3::Zero();
-  };
-  [[nodiscard]] ContactPolygon polygon_of(const Pressing& pressing) const;
-  void add_facet(const Facet& facet, Sums& sums);
-  void add_loop(const FacetView& facet, const Loop& loop, Sums& sums);
-  void add_below(const ContactPolygon& below, const FacetView& facet, Sums& sums);
-  /// @return ∫δ², not weighted.
-  double add_pressing(const ContactPolygon& pressing, const FacetView& facet, Sums& sums);
-  /// Adds the integrals of f_n = (k_G + c_G δ̇) δ against the slip direction over the polygon: by
-  /// slip_integrals, right to rounding; in the plane exactly, by the polygon's parts on the two sides of the line of no
-  /// slip.
-  /// @param rounding  v_r.
-  void add_slip(const Pressing& pressing, const ContactPolygon& polygon, const GroundView& view, const SlipField& field,
-                double rounding, SlipLoad& load);
-  [[nodiscard]] double rounding_of(const Pressing& pressing, const GroundView& view, const SlipField& field) const;
-  void find_overhangs(const GroundView& view);
-
-  const Body& body_;
-  const Ground& ground_;
-  Footprint* footprint_;
-  std::vector<ContactCorner> whole_, below_, part_;
-  std::vector<ContactCorner> side_;   ///< part of a polygon that slips one way
-  std::vector<ContactCorner> above_;  ///< an overhang's part
-  std::vector<PlanePoint> plane_;     ///< polygon in its facet's plane
-  std::vector<Pressing> pressing_;    ///< of the last load
-  std::vector<ContactCorner> corners_;
-  bool looks_up_ = false;   ///< whether a face presses from above
-  bool has_parts_ = false;  ///< whether overhangs_ is that of the last load
-  Overhangs overhangs_;
-  std::vector<PressedFace> faces_;
-};
+/// The surface of a body's facets.
+/// @param footprint  gets all that lies below the ground, if not null.
+[[nodiscard]] std::unique_ptr<ContactSurface> facet_surface(const Body& body, const Ground& ground,
+                                                            Footprint* footprint = nullptr);
+/// The surface of a body: smooth where its shape is, else its facets.
+/// @param footprint  as above.
+[[nodiscard]] std::unique_ptr<ContactSurface> contact_surface(const Body& body, const Ground& ground,
+                                                              Footprint* footprint = nullptr);
+/// What presses on a ground: on springs, the body's surface; on a pad, that on each of its beds; on a half-space, that
+/// over a patch of the same.
+[[nodiscard]] std::unique_ptr<ContactSurface> contact_on(const Body& body, const Ground& ground);
 
 }  // namespace clatter::numeric

@@ -21,34 +21,25 @@ void for_each_triangle(const ContactPolygon& polygon, auto&& use) {
   }
 }
 
-/// Values of a linear function at the corners, with their sum.
-struct Values {
-  double p, q, r;
-  double sum = p + q + r;
-};
+CornerValues depths(const Triangle& t) { return {t.p.depth, t.q.depth, t.r.depth}; }
+CornerValues rates(const Triangle& t) { return {t.p.rate, t.q.rate, t.r.rate}; }
 
-Values depths(const Triangle& t) { return {t.p.depth, t.q.depth, t.r.depth}; }
-Values rates(const Triangle& t) { return {t.p.rate, t.q.rate, t.r.rate}; }
-Values times(const Values& a, const Values& b) { return {a.p * b.p, a.q * b.q, a.r * b.r}; }
-
-Vector3 weighted(const Values& a, const Triangle& t) {
+Vector3 weighted(const CornerValues& a, const Triangle& t) {
   return a.p * t.p.position + a.q * t.q.position + a.r * t.r.position;
 }
 
-double integral(const Values& a, const Values& b) { return (a.sum * b.sum + times(a, b).sum) / 12; }
-
 /// ∫ab² over the area.
-double integral_of_square(const Values& a, const Values& b) {
-  const Values ab = times(a, b);
-  return (a.sum * b.sum * b.sum + a.sum * times(b, b).sum + 2 * b.sum * ab.sum + 2 * times(ab, b).sum) / 60;
+double integral_of_square(const CornerValues& a, const CornerValues& b) {
+  const CornerValues ab = products(a, b);
+  return (a.sum * b.sum * b.sum + a.sum * products(b, b).sum + 2 * b.sum * ab.sum + 2 * products(ab, b).sum) / 60;
 }
 
-Vector3 moment(const Values& a, const Triangle& t, const Vector3& position_sum) {
+Vector3 moment(const CornerValues& a, const Triangle& t, const Vector3& position_sum) {
   return (a.sum * position_sum + weighted(a, t)) / 12;
 }
 
-Vector3 moment(const Values& a, const Values& b, const Triangle& t, const Vector3& position_sum) {
-  const Values ab = times(a, b);
+Vector3 moment(const CornerValues& a, const CornerValues& b, const Triangle& t, const Vector3& position_sum) {
+  const CornerValues ab = products(a, b);
   return ((a.sum * b.sum + ab.sum) * position_sum + a.sum * weighted(b, t) + b.sum * weighted(a, t) +
           2 * weighted(ab, t)) /
          60;
@@ -76,11 +67,11 @@ void RateIntegrals::add(const RateIntegrals& other, double weight) {
 LoadIntegrals load_integrals(const ContactPolygon& polygon) {
   LoadIntegrals sums;
   for_each_triangle(polygon, [&](const Triangle& t, double area) {
-    const Values depth = depths(t), rate = rates(t);
+    const CornerValues depth = depths(t), rate = rates(t);
     const Vector3 positions = t.p.position + t.q.position + t.r.position;
     sums.depth += area * depth.sum / 3;
-    sums.depth_rate += area * integral(depth, rate);
-    sums.depth_squared += area * integral(depth, depth);
+    sums.depth_rate += area * mean(depth, rate);
+    sums.depth_squared += area * mean(depth, depth);
     sums.depth_rate_squared += area * integral_of_square(depth, rate);
     sums.depth_position += area * moment(depth, t, positions);
     sums.depth_rate_position += area * moment(depth, rate, t, positions);
@@ -95,10 +86,10 @@ RateIntegrals rate_integrals(const ContactPolygon& polygon) {
   double depth_sum = 0;
   Vector3 depth_position = Vector3::Zero();
   for_each_triangle(polygon, [&](const Triangle& t, double area) {
-    const Values depth = depths(t), rate = rates(t);
+    const CornerValues depth = depths(t), rate = rates(t);
     const Vector3 positions = t.p.position + t.q.position + t.r.position;
     sums.rate += area * rate.sum / 3;
-    sums.rate_squared += area * integral(rate, rate);
+    sums.rate_squared += area * mean(rate, rate);
     sums.rate_position += area * moment(rate, t, positions);
     sums.rate_squared_position += area * moment(rate, rate, t, positions);
     depth_sum += area * depth.sum / 3;
@@ -121,9 +112,9 @@ RateIntegrals rate_integrals(const ContactPolygon& polygon) {
 DepthIntegrals depth_integrals(const ContactPolygon& polygon) {
   DepthIntegrals sums;
   for_each_triangle(polygon, [&](const Triangle& t, double area) {
-    const Values depth = depths(t);
-    sums.depth_squared += area * integral(depth, depth);
-    sums.depth_rate += area * integral(depth, rates(t));
+    const CornerValues depth = depths(t);
+    sums.depth_squared += area * mean(depth, depth);
+    sums.depth_rate += area * mean(depth, rates(t));
   });
   return sums;
 }

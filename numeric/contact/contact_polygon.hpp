@@ -48,6 +48,25 @@ int clip(const ContactCorner* in, int count, ContactCorner* out, auto&& value) {
   return size;
 }
 
+/// Values of a linear function at the corners of a triangle, with their sum.
+struct CornerValues {
+  double p, q, r;
+  double sum = p + q + r;
+};
+[[nodiscard]] inline CornerValues products(const CornerValues& a, const CornerValues& b) {
+  return {a.p * b.p, a.q * b.q, a.r * b.r};
+}
+/// Means over the triangle: ∫ab and ∫abc over its area.
+[[nodiscard]] inline double mean(const CornerValues& a, const CornerValues& b) {
+  return (a.sum * b.sum + products(a, b).sum) / 12;
+}
+[[nodiscard]] inline double mean(const CornerValues& a, const CornerValues& b, const CornerValues& c) {
+  const CornerValues bc = products(b, c);
+  return (a.sum * b.sum * c.sum + a.sum * bc.sum + b.sum * products(a, c).sum + c.sum * products(a, b).sum +
+          2 * products(a, bc).sum) /
+         60;
+}
+
 /// What the force, moment, powers and energy are made of; δ depth, δ̇ rate, u position in the body frame.
 struct LoadIntegrals {
   double depth = 0;                               ///< ∫δ [m³]

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "numeric/contact/half_space.hpp"
+#include "numeric/contact/contact_load.hpp"
 #include "numeric/motion/equations_of_motion.hpp"
 
 namespace clatter::numeric {
@@ -136,8 +136,6 @@ AlongGround unit_slip(const AlongGround& slip, const FrictionPhase& phase, bool 
 }
 
 }  // namespace
-
-double AlongGround::norm() const { return std::hypot(east, north); }
 
 ContactSystem::ContactSystem(const Body& body, const Ground& ground, const Gravity& gravity, bool planar)
     : body_(body), ground_(ground), gravity_(gravity), planar_(planar), equations_(body.mass(), body.inertia()),

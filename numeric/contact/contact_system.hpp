@@ -31,15 +31,6 @@ auto works(auto& y) { return y.template tail<3>(); }
 [[nodiscard]] inline double released_work(const ContactState& y) { return works(y)[1]; }
 [[nodiscard]] inline double friction_work(const ContactState& y) { return works(y)[2]; }
 
-/// A vector along the ground: world x and y.
-struct AlongGround {
-  double east = 0;
-  double north = 0;
-  [[nodiscard]] double dot(const AlongGround& other) const { return east * other.east + north * other.north; }
-  [[nodiscard]] double norm() const;
-  [[nodiscard]] AlongGround operator*(double factor) const { return {east * factor, north * factor}; }
-};
-
 /// What friction does until an event changes it.
 struct FrictionPhase {
   enum class Kind { none, slip, stick, regularised, local };

@@ -14,23 +14,6 @@ constexpr double least_by_depths = 0.78;
 constexpr double round_enough = 1e-4;      ///< det Σ over (tr Σ)² from which on any axes keep the digits
 constexpr double least_roundness = 1e-26;  ///< of det Σ over (tr Σ)²: below it all is rounding
 
-/// CornerValues of a linear function at the corners of a triangle, with their sum.
-struct CornerValues {
-  double p, q, r;
-  double sum = p + q + r;
-};
-
-CornerValues products(const CornerValues& a, const CornerValues& b) { return {a.p * b.p, a.q * b.q, a.r * b.r}; }
-
-/// Means over the triangle: ∫ab and ∫abc over its area.
-double mean(const CornerValues& a, const CornerValues& b) { return (a.sum * b.sum + products(a, b).sum) / 12; }
-double mean(const CornerValues& a, const CornerValues& b, const CornerValues& c) {
-  const CornerValues bc = products(b, c);
-  return (a.sum * b.sum * c.sum + a.sum * bc.sum + b.sum * products(a, c).sum + c.sum * products(a, b).sum +
-          2 * products(a, bc).sum) /
-         60;
-}
-
 /// Complete homogeneous polynomials h₃ and h₄ of the corners' values a: means of a³ and a⁴ are h₃/10 and h₄/15, and of
 /// a³b Σ bᵢ h₃(aᵢ too)/60.
 struct Powers {

@@ -38,14 +38,14 @@ Rule make_rule(int n) {
     }
     if (2 * i + 1 == n) x = 0;
     const double slope = legendre(n, x).slope;
-    rule[static_cast<std::size_t>(i)] = {x, 2 / ((1 - x * x) * slope * slope)};
+    rule[i] = {x, 2 / ((1 - x * x) * slope * slope)};
   }
   return rule;
 }
 
 std::array<Rule, most_gauss_nodes + 1> make_rules() {
   std::array<Rule, most_gauss_nodes + 1> rules{};
-  for (int n = 1; n <= most_gauss_nodes; ++n) rules[static_cast<std::size_t>(n)] = make_rule(n);
+  for (int n = 1; n <= most_gauss_nodes; ++n) rules[n] = make_rule(n);
   return rules;
 }
 
@@ -54,7 +54,7 @@ std::array<Rule, most_gauss_nodes + 1> make_rules() {
 std::span<const GaussNode> gauss_rule(int n) {
   assert(1 <= n && n <= most_gauss_nodes);
   static const std::array<Rule, most_gauss_nodes + 1> rules = make_rules();
-  return {rules[static_cast<std::size_t>(n)].data(), static_cast<std::size_t>(n)};
+  return {rules[n].data(), static_cast<std::size_t>(n)};
 }
 
 int gauss_order(double ellipse, double digits) {

@@ -110,19 +110,17 @@ SphereBoundary::SphereBoundary(const HalfSpaces& half_spaces) {
       if (meet({distance, normal}, unit_plane(half_spaces[j]), points) == 0) continue;
       for (const Vector3& p : points) {
         const Vector3 arm = p - arc.middle;
-        angles[static_cast<std::size_t>(found++)] = std::atan2(arm.dot(arc.b), arm.dot(arc.a));
+        angles[found++] = std::atan2(arm.dot(arc.b), arm.dot(arc.a));
       }
     }
     sort_few(angles.begin(), angles.begin() + found);
     for (int j = 0; j < std::max(found, 1); ++j) {
       const bool whole = found == 0, last = j + 1 == found;
-      arc.from = whole ? 0 : angles[static_cast<std::size_t>(j)];
+      arc.from = whole ? 0 : angles[j];
       arc.to = whole  ? 2 * std::numbers::pi
                : last ? angles[0] + 2 * std::numbers::pi
                       : angles[static_cast<std::size_t>(j) + 1];
-      if (arc.to > arc.from && half_spaces.contain(arc.at((arc.from + arc.to) / 2), i)) {
-        arcs[static_cast<std::size_t>(count++)] = arc;
-      }
+      if (arc.to > arc.from && half_spaces.contain(arc.at((arc.from + arc.to) / 2), i)) arcs[count++] = arc;
     }
   }
 }
@@ -170,8 +168,8 @@ Slices::Slices(const HalfSpaces& half_spaces, double axis)
 void Slices::begin(double low, double high) {
   low_ = low;
   high_ = high;
-  breaks_[static_cast<std::size_t>(count_++)] = low;
-  breaks_[static_cast<std::size_t>(count_++)] = high;
+  breaks_[count_++] = low;
+  breaks_[count_++] = high;
   for (int i = 0; i < half_spaces_.count(); ++i) {
     add_touches(half_spaces_[i]);
     for (int j = 0; j < i; ++j) add_corners(half_spaces_[i], half_spaces_[j]);
@@ -189,7 +187,7 @@ void Slices::mind(const SpaceLinear& one, const SpaceLinear& other) {
 
 void Slices::add_break(double x) {
   assert(count_ < static_cast<int>(breaks_.size()));
-  if (x > low_ && x < high_) breaks_[static_cast<std::size_t>(count_++)] = x;
+  if (x > low_ && x < high_) breaks_[count_++] = x;
 }
 
 void Slices::add_touches(const SpaceLinear& plane) {
@@ -257,7 +255,7 @@ Vector3 Slices::place(const Slice& slice, double angle) const {
 }
 
 Slices::Slice Slices::slice(int interval, double part) const {
-  const double begin = breaks_[static_cast<std::size_t>(interval)];
+  const double begin = breaks_[interval];
   const double width = breaks_[static_cast<std::size_t>(interval) + 1] - begin;
   const double sine = std::sin(std::numbers::pi / 2 * part);
   Slice slice{.x = begin + width * sine * sine, .from = {}, .to = {}};
@@ -275,16 +273,14 @@ Slices::Slice Slices::slice(int interval, double part) const {
     const double above = f.at(bottom) + (z < 0 ? y * y / (size - z) : size + z);
     if (!(size > 0) || !(above > 0) || !(above < 2 * size)) continue;
     const double half = 2 * std::asin(std::sqrt(above / (2 * size))), peak = std::atan2(y, -z);
-    for (const double angle : {peak - half, peak + half}) {
-      angles[found++] = std::remainder(angle, 2 * std::numbers::pi);
-    }
+    for (const double angle : {peak - half, peak + half}) angles[found++] = std::remainder(angle, 2 * std::numbers::pi);
   }
   sort_few(angles.begin(), angles.begin() + static_cast<std::ptrdiff_t>(found));
   for (std::size_t i = 0; i + 1 < found && slice.count < most; ++i) {
     if (!(angles[i + 1] > angles[i])) continue;
     if (!half_spaces_.contain(place(slice, (angles[i] + angles[i + 1]) / 2))) continue;
-    slice.from[static_cast<std::size_t>(slice.count)] = angles[i];
-    slice.to[static_cast<std::size_t>(slice.count++)] = angles[i + 1];
+    slice.from[slice.count] = angles[i];
+    slice.to[slice.count++] = angles[i + 1];
   }
   return slice;
 }

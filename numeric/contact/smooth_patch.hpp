@@ -23,9 +23,9 @@ struct SpaceLinear {
 class HalfSpaces {
  public:
   static constexpr int most = 5;
-  void add(const SpaceLinear& positive) { all_[static_cast<std::size_t>(count_++)] = positive; }
+  void add(const SpaceLinear& positive) { all_[count_++] = positive; }
   [[nodiscard]] int count() const { return count_; }
-  [[nodiscard]] const SpaceLinear& operator[](int i) const { return all_[static_cast<std::size_t>(i)]; }
+  [[nodiscard]] const SpaceLinear& operator[](int i) const { return all_[i]; }
   /// Whether a point lies in all of them, that of index `but` left out.
   [[nodiscard]] bool contain(const Vector3& p, int but = -1) const {
     for (int i = 0; i < count_; ++i) {
@@ -138,7 +138,7 @@ void over_part(const HalfSpaces& half_spaces, auto&& visit) {
   constexpr double piece = std::numbers::pi;
   const SphereBoundary boundary(half_spaces);
   for (int i = 0; i < boundary.count; ++i) {
-    const SphereArc& arc = boundary.arcs[static_cast<std::size_t>(i)];
+    const SphereArc& arc = boundary.arcs[i];
     const int pieces = std::max(1, static_cast<int>(std::ceil((arc.to - arc.from) / piece)));
     const double half = (arc.to - arc.from) / (2 * pieces);
     const int around = trigonometric_order(half);

@@ -13,7 +13,6 @@
 #include "numeric/drop/history_pieces.hpp"
 #include "numeric/drop/state_notes.hpp"
 #include "numeric/motion/free_flight.hpp"
-#include "numeric/stepping/contact_run.hpp"
 
 namespace clatter::numeric {
 namespace {

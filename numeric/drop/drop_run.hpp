@@ -10,7 +10,7 @@
 #include "numeric/drop/impact_record.hpp"
 #include "numeric/drop/settings.hpp"
 #include "numeric/drop/state_record.hpp"
-#include "numeric/stepping/step_control.hpp"
+#include "numeric/stepping/contact_run.hpp"
 
 namespace clatter::numeric {
 

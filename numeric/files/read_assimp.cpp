@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#ifdef CLATTER_ASSIMP_LIBRARY
 #include <assimp/cimport.h>
 #include <assimp/config.h>
 #include <assimp/scene.h>
@@ -6,6 +7,7 @@
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
+#endif
 
 #include <algorithm>
 #include <array>
@@ -21,6 +23,7 @@
 #include "numeric/files/triangle_files.hpp"
 
 namespace clatter::numeric {
+#ifdef CLATTER_ASSIMP_LIBRARY
 namespace {
 
 using Matrix4 = Eigen::Matrix4d;
@@ -248,4 +251,13 @@ TriangleFile read_by_assimp(const std::string& path) {
   }
 }
 
+#else  // the library was not found, or not wanted
+
+bool has_assimp() noexcept { return false; }
+
+TriangleFile read_by_assimp(const std::string& path) {
+  throw MeshError(path + ": this build reads no glTF, 3MF and COLLADA (Debian package libassimp-dev)");
+}
+
+#endif
 }  // namespace clatter::numeric

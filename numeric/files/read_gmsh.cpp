@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#ifdef CLATTER_GMSH_LIBRARY
 #include <dlfcn.h>
 #include <gmshc.h>
+#endif
 
 #include <algorithm>
 #include <charconv>
@@ -16,6 +18,7 @@
 #include "numeric/mesh/element_geometry.hpp"
 
 namespace clatter::numeric {
+#ifdef CLATTER_GMSH_LIBRARY
 namespace {
 
 using Tag = std::size_t;
@@ -251,4 +254,13 @@ Mesh read_gmsh(const std::string& path, double density, double unit) {
   }
 }
 
+#else  // the library was not found, or not wanted
+
+bool has_gmsh() noexcept { return false; }
+
+Mesh read_gmsh(const std::string& path, double /*density*/, double /*unit*/) {
+  throw MeshError(path + ": this build has no Gmsh (Debian package libgmsh-dev)");
+}
+
+#endif
 }  // namespace clatter::numeric

@@ -114,9 +114,7 @@ ReferenceElement make_prism() {
 /// det J has degree 2 in each variable, so 4 is needed.
 ReferenceElement make_hexahedron() {
   ReferenceElement element{"hexahedron", 8, hexahedron_faces, {}, {}};
-  for (const auto& end : hexahedron_corners) {
-    element.corners.push_back(hexahedron_point({end[0], end[1], end[2]}, 0));
-  }
+  for (const auto& end : hexahedron_corners) element.corners.push_back(hexahedron_point({end[0], end[1], end[2]}, 0));
   for (const auto& x : gauss()) {
     for (const auto& y : gauss()) {
       for (const auto& z : gauss()) {
@@ -141,9 +139,7 @@ void check_node(const Mesh& mesh, int index, int position) {
   for (int i = 0; i < position; ++i) {
     if (nodes[i] == node) refuse_element(mesh, index, name + " is repeated");
   }
-  if (!mesh.nodes[node].allFinite()) {
-    refuse_element(mesh, index, name + " has a coordinate that is not finite");
-  }
+  if (!mesh.nodes[node].allFinite()) refuse_element(mesh, index, name + " has a coordinate that is not finite");
 }
 
 /// Rows that are nearly parallel, as in a rotated needle, would cancel in the plain formula;

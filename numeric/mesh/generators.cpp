@@ -173,7 +173,7 @@ Mesh round_mesh(const RoundMesh& shape) {
   const int circles = add_round_nodes(mesh, shape), n = shape.sectors;
   double volume = 0;
   const auto add = [&](int i, int j, int k) {
-    const auto at = [&](int node) { return mesh.nodes[static_cast<std::size_t>(node)]; };
+    const auto at = [&](int node) { return mesh.nodes[node]; };
     volume += at(i).cross(at(j)).dot(at(k)) / 6;
     mesh.elements.push_back({ElementShape::tetrahedron, {0, i, j, k, -1, -1, -1, -1}, 1});
   };

@@ -8,17 +8,6 @@
 
 namespace clatter::numeric {
 
-/// Resultant of the forces on a body.
-struct BodyWrench {
-  Vector3 force = Vector3::Zero();   ///< world frame [N]
-  Vector3 moment = Vector3::Zero();  ///< about the centre of mass, body frame [N·m]
-};
-
-struct Acceleration {
-  Vector3 linear = Vector3::Zero();   ///< of the centre of mass, world frame [m/s²]
-  Vector3 angular = Vector3::Zero();  ///< ω̇′, body frame [rad/s²]
-};
-
 /// The equations of motion of one body, which every contact is stepped with:
 ///     m R̈ = F,    I ω̇′ = M′ − ω′ × I ω′.
 /// They are Eqs. 1 and 2 of Shan et al. (2005) without their redundant fourth parameter; see LagrangeSystem.
@@ -29,9 +18,6 @@ class NewtonEuler {
   /// @throws std::domain_error if the mass is not positive or the inertia not that of a body (check_inertia).
   NewtonEuler(double mass, const Matrix3& inertia);
 
-  [[nodiscard]] Acceleration acceleration(const Vector3& angular_velocity, const BodyWrench& wrench) const {
-    return {.linear = linear(wrench.force), .angular = angular(angular_velocity, wrench.moment)};
-  }
   /// R̈ by the force [m/s²].
   [[nodiscard]] Vector3 linear(const Vector3& force) const { return force / mass_; }
   /// ω̇′ by the moment and the body's own turning [rad/s²].

@@ -44,7 +44,7 @@ double safe_time(const Approach& at) {
 
 void for_each_vertex(const Body& body, int facet, auto&& visit) {
   const Facets& facets = body.facets();
-  facets.for_each_corner(facet, [&](int vertex) { visit(facets.vertices[static_cast<std::size_t>(vertex)]); });
+  facets.for_each_corner(facet, [&](int vertex) { visit(facets.vertices[vertex]); });
 }
 
 /// The smallest safe time of all vertices, and whether one of them touches now.
@@ -201,12 +201,12 @@ std::vector<Vector3> touching_points(const Body& body, const MotionState& state)
   std::vector<int> touching;
   body.hierarchy().visit_below(plane, level, [&](int facet) {
     facets.for_each_corner(facet, [&](int vertex) {
-      if (plane.height(facets.vertices[static_cast<std::size_t>(vertex)]) <= level) touching.push_back(vertex);
+      if (plane.height(facets.vertices[vertex]) <= level) touching.push_back(vertex);
     });
   });
   std::sort(touching.begin(), touching.end());
   touching.erase(std::unique(touching.begin(), touching.end()), touching.end());
-  for (const int vertex : touching) points.push_back(facets.vertices[static_cast<std::size_t>(vertex)]);
+  for (const int vertex : touching) points.push_back(facets.vertices[vertex]);
   return points;
 }
 

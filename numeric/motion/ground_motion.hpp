@@ -2,7 +2,9 @@
 // How a body that bounces no more moves on, in closed form.
 #pragma once
 
+#include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "numeric/motion/motion_state.hpp"
 
@@ -42,7 +44,20 @@ struct GroundMotion {
   bool rocks = false;       ///< whether that goes on for long, of a size that counts: see RockingWatch
 
   /// After `time` [s], at least 0.
-  [[nodiscard]] MotionState at(double time) const;
+  [[nodiscard]] MotionState at(double time) const {
+    const auto slowed = [&](double rate) { return rate > 0 ? -std::expm1(-rate * time) / rate : time; };
+    if (!(time < stops_after)) return rest.state;
+    MotionState state = from;
+    state.centre += slowed(decay) * from.velocity + time * time / 2 * acceleration;
+    state.velocity = from.velocity * std::exp(-decay * time) + time * acceleration;
+    const double speed = from.angular_velocity.norm();
+    if (speed > 0) {
+      const double angle = std::remainder(speed * slowed(turning_decay), 2 * std::numbers::pi);
+      state.attitude = (from.attitude * Eigen::AngleAxisd(angle, from.angular_velocity / speed)).normalized();
+      state.angular_velocity *= std::exp(-turning_decay * time);
+    }
+    return state;
+  }
 };
 
 }  // namespace clatter::numeric

@@ -3,20 +3,24 @@
 #pragma once
 
 #include <functional>
-#include <optional>
+#include <memory>
 #include <span>
 #include <vector>
 
 #include "numeric/stepping/contact_result.hpp"
-#include "numeric/stepping/friction_phases.hpp"
-#include "numeric/stepping/local_slip.hpp"
-#include "numeric/stepping/steady_motion.hpp"
-#include "numeric/stepping/step_control.hpp"
-#include "numeric/stepping/step_events.hpp"
 #include "numeric/stepping/stepper.hpp"
-#include "numeric/stepping/touch_counter.hpp"
 
 namespace clatter::numeric {
+
+struct StepSettings {
+  double tolerance = 1e-10;  ///< of an adaptive method: local error <= tolerance × scale, per step
+  double step_cap = 1;       ///< of an adaptive method: factor of the longest step and of the first one
+  /// Length of the steps of a fixed-step method [s], at most a quarter of scales.time; 0: scales.time /
+  /// steps_per_contact.
+  double step = 0;
+  double first_step = 0;  ///< length of the first fixed step [s], at most `step`; 0: as the others
+  double steps_per_contact = 300;
+};
 
 /// How a contact is run.
 struct ContactControl {
@@ -59,6 +63,7 @@ struct StepObserver {
 class ContactRun {
  public:
   ContactRun(ContactSystem& system, Stepper& stepper);
+  ~ContactRun();
 
   /// `touch` has its lowest vertices on the ground or in it, `point` (body frame) is their mean; of a body that is
   /// pressed it is the pressure centre.
@@ -66,36 +71,8 @@ class ContactRun {
                                   const ContactObserver& observe = nullptr, const StepObserver& steps = {});
 
  private:
-  void begin(const MotionState& touch, const Vector3& point);
-  [[nodiscard]] std::optional<ContactEnding> advance();
-  [[nodiscard]] std::optional<ContactEnding> ending_on_the_ground();
-  bool handle_friction_event(double h);
-  void accept(const ContactInstant& next);
-  void show_step(const ContactInstant& next);
-  void show_times(const ContactInstant& next);
-  [[nodiscard]] double kept_up_speed() const;
-  void collect();
-  void come_to_rest(const GroundMotion& motion);
-
-  ContactSystem& system_;
-  ContactStep step_;
-  StepControl steps_;
-  EventLocator events_;
-  ForcePeak peak_;
-  DeepestPoint deepest_;
-  FrictionPhases friction_;
-  TouchCounter touches_;
-  RockingWatch rocking_;
-  LocalSlipEstimate local_slip_;
-
-  const ContactControl* control_ = nullptr;    ///< of the present run
-  const ContactObserver* observer_ = nullptr;  ///< of the present run
-  const StepObserver* shown_ = nullptr;        ///< of the present run
-  std::vector<ContactInstant> inside_;         ///< of the step that is shown
-  std::size_t next_time_ = 0;                  ///< of those that are shown
-  ContactInstant now_, trial_, faint_, aside_;
-  int switches_ = 0;  ///< of friction since the last step without one
-  ContactResult result_;
+  class Contact;
+  std::unique_ptr<Contact> contact_;
 };
 
 }  // namespace clatter::numeric

@@ -32,13 +32,11 @@ std::vector<TouchCounter::Edge> TouchCounter::edges() const {
   const Facets& facets = body_.outline();
   std::vector<Edge> edges;
   edges.reserve(2 * facets.corners.size());
-  const auto first_corner = [&](int loop) {
-    return facets.corners[static_cast<std::size_t>(facets.loops[static_cast<std::size_t>(loop)].begin)];
-  };
+  const auto first_corner = [&](int loop) { return facets.corners[facets.loops[loop].begin]; };
   for (std::size_t f = 0; f < facets.facets.size(); ++f) {
     const Facet& facet = facets.facets[f];
     for (int l = facet.begin; l < facet.end; ++l) {
-      add_loop(facets.loops[static_cast<std::size_t>(l)], edges);
+      add_loop(facets.loops[l], edges);
       if (l == facet.begin) continue;  // a hole's outline is joined to the face's
       edges.push_back({first_corner(facet.begin), {first_corner(l), Link::facet, static_cast<int>(f)}});
       edges.push_back({first_corner(l), {first_corner(facet.begin), Link::facet, static_cast<int>(f)}});
@@ -53,9 +51,8 @@ void TouchCounter::add_loop(const Loop& loop, std::vector<Edge>& edges) const {
   const double longest = body_.radius() / 4;
   for (int c = loop.begin; c < loop.end; ++c) {
     const int next = c + 1 < loop.end ? c + 1 : loop.begin;
-    const int from = facets.corners[static_cast<std::size_t>(c)], to = facets.corners[static_cast<std::size_t>(next)];
-    const double length =
-        (facets.vertices[static_cast<std::size_t>(from)] - facets.vertices[static_cast<std::size_t>(to)]).norm();
+    const int from = facets.corners[c], to = facets.corners[next];
+    const double length = (facets.vertices[from] - facets.vertices[to]).norm();
     // The facet beyond the edge gives the other direction.
     edges.push_back({from, {to, length < longest ? Link::near : Link::far, -1}});
   }
@@ -89,13 +86,13 @@ void TouchCounter::update(const std::vector<int>& submerged) {
     const int vertex = corner_of(facet_vertex);
     if (vertex < 0) continue;
     corners_.push_back(vertex);
-    int& stamp = stamps_[static_cast<std::size_t>(vertex)];
+    int& stamp = stamps_[vertex];
     assert(stamp <= now_);
     if (stamp == now_) continue;
-    before_[static_cast<std::size_t>(vertex)] = stamp;
+    before_[vertex] = stamp;
     if (stamp != previous) {
       grown = true;
-      if (!body_.smooth()) note_end(body_.outline().vertices[static_cast<std::size_t>(vertex)].x());
+      if (!body_.smooth()) note_end(body_.outline().vertices[vertex].x());
       else if (body_.smooth()->ends() == 2) note_end(body_.smooth()->end_centre(vertex).x());
     }
     stamp = now_;
@@ -103,14 +100,12 @@ void TouchCounter::update(const std::vector<int>& submerged) {
   any_before_ = !submerged.empty();
   if (!grown) return;
   for (const int vertex : corners_) {
-    if (flooded_[static_cast<std::size_t>(vertex)] != now_ && !joins_old(vertex)) ++touches_;
+    if (flooded_[vertex] != now_ && !joins_old(vertex)) ++touches_;
   }
 }
 
 /// Below the ground now, and not at the update before.
-bool TouchCounter::is_new(int vertex) const {
-  return stamp_of(vertex) == now_ && before_[static_cast<std::size_t>(vertex)] != now_ - 1;
-}
+bool TouchCounter::is_new(int vertex) const { return stamp_of(vertex) == now_ && before_[vertex] != now_ - 1; }
 
 bool TouchCounter::connects(int from, const Neighbour& to) const {
   if (stamp_of(to.vertex) != now_) return false;
@@ -118,9 +113,9 @@ bool TouchCounter::connects(int from, const Neighbour& to) const {
   if (!is_new(from) || !is_new(to.vertex)) return false;
   if (to.link == Link::far) return true;
   const Facets& facets = body_.outline();
-  const Facet& facet = facets.facets[static_cast<std::size_t>(to.facet)];
-  const int begin = facets.loops[static_cast<std::size_t>(facet.begin)].begin;
-  const int end = facets.loops[static_cast<std::size_t>(facet.end - 1)].end;
+  const Facet& facet = facets.facets[to.facet];
+  const int begin = facets.loops[facet.begin].begin;
+  const int end = facets.loops[facet.end - 1].end;
   return std::all_of(facets.corners.begin() + begin, facets.corners.begin() + end,
                      [&](int vertex) { return stamp_of(vertex) == now_; });
 }
@@ -130,15 +125,15 @@ bool TouchCounter::joins_old(int seed) {
   bool joins = false;
   stack_.clear();
   stack_.push_back(seed);
-  flooded_[static_cast<std::size_t>(seed)] = now_;
+  flooded_[seed] = now_;
   while (!stack_.empty()) {
     const int vertex = stack_.back();
     stack_.pop_back();
     joins = joins || !is_new(vertex);
     const auto v = static_cast<std::size_t>(vertex);
     for (int i = neighbour_begin_[v]; i < neighbour_begin_[v + 1]; ++i) {
-      const Neighbour& next = neighbours_[static_cast<std::size_t>(i)];
-      int& flooded = flooded_[static_cast<std::size_t>(next.vertex)];
+      const Neighbour& next = neighbours_[i];
+      int& flooded = flooded_[next.vertex];
       if (flooded == now_ || !connects(vertex, next)) continue;
       flooded = now_;
       stack_.push_back(next.vertex);

@@ -46,7 +46,7 @@ class TouchCounter {
   void add_loop(const Loop& loop, std::vector<Edge>& edges) const;
   /// Number of a vertex of the facets; −1: it does not count.
   [[nodiscard]] int corner_of(int vertex) const { return body_.smooth() ? vertex : body_.outline_vertex(vertex); }
-  [[nodiscard]] int stamp_of(int vertex) const { return stamps_[static_cast<std::size_t>(vertex)]; }
+  [[nodiscard]] int stamp_of(int vertex) const { return stamps_[vertex]; }
   [[nodiscard]] bool is_new(int vertex) const;
   [[nodiscard]] bool connects(int from, const Neighbour& to) const;
   [[nodiscard]] bool joins_old(int seed);

@@ -35,11 +35,11 @@ class Edges {
     for (const EdgeSide& side : sides_) ++end[static_cast<std::size_t>(side.low) + 1];
     for (std::size_t n = 1; n < end.size(); ++n) end[n] += end[n - 1];
     std::vector<EdgeSide> sorted(sides_.size());
-    for (const EdgeSide& side : sides_) sorted[end[static_cast<std::size_t>(side.low)]++] = side;
+    for (const EdgeSide& side : sides_) sorted[end[side.low]++] = side;
     sides_.swap(sorted);
     std::size_t begin = 0;
     for (int n = 0; n <= most; ++n) {
-      const std::size_t last = end[static_cast<std::size_t>(n)];
+      const std::size_t last = end[n];
       std::sort(sides_.begin() + static_cast<std::ptrdiff_t>(begin), sides_.begin() + static_cast<std::ptrdiff_t>(last),
                 is_before);
       begin = last;

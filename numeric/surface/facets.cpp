@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <span>
 #include <utility>
 #include <vector>
@@ -10,6 +11,7 @@
 #include "numeric/surface/edges.hpp"
 
 namespace clatter::numeric {
+
 namespace {
 
 /// Polygon p has the corners begin[p] … begin[p + 1] − 1.  A corner also stands for the edge from
@@ -83,9 +85,7 @@ std::vector<int> opposite_corners(const Polygons& polygons) {
   const int count = static_cast<int>(polygons.corners.size());
   Edges edges;
   edges.reserve(polygons.corners.size());
-  for (int c = 0; c < count; ++c) {
-    edges.add(polygons.corners[c], polygons.corners[polygons.next(c)], c);
-  }
+  for (int c = 0; c < count; ++c) edges.add(polygons.corners[c], polygons.corners[polygons.next(c)], c);
   edges.sort();
   std::vector<int> opposite(polygons.corners.size(), -1);
   edges.for_each([&](std::span<const EdgeSide> sides) {
@@ -241,9 +241,7 @@ class StraightNodes {
     for (int c = outline_.next(first); c != end; c = outline_.next(c)) {
       if (!(distance_to_segment(polygons_.position(c), from, to) <= tolerance)) return;
     }
-    for (int c = outline_.next(first); c != end; c = outline_.next(c)) {
-      straight[polygons_.corners[c]] = true;
-    }
+    for (int c = outline_.next(first); c != end; c = outline_.next(c)) straight[polygons_.corners[c]] = true;
   }
 
   const Polygons& polygons_;
@@ -317,6 +315,50 @@ Facets planar_facets(const Surface& surface, bool merge) {
   std::vector<bool> dropped(polygons.nodes.size(), false);
   if (merge) dropped = StraightNodes(polygons, outline).find();
   return Assembly(polygons, outline, std::move(dropped)).facets(groups);
+}
+
+namespace {
+
+constexpr int leaf_size = 4;
+
+}  // namespace
+
+Hierarchy::Hierarchy(const Facets& facets) {
+  std::vector<Node> boxes(facets.facets.size());
+  for (std::size_t f = 0; f < boxes.size(); ++f) {
+    Eigen::AlignedBox3d box;
+    facets.for_each_corner(static_cast<int>(f), [&](int vertex) { box.extend(facets.vertices[vertex]); });
+    boxes[f].centre = box.center();
+    boxes[f].half = box.sizes() / 2;
+  }
+  order_.resize(boxes.size());
+  std::iota(order_.begin(), order_.end(), 0);
+  if (!boxes.empty()) build(boxes, 0, static_cast<int>(boxes.size()));
+}
+
+int Hierarchy::build(const std::vector<Node>& boxes, int begin, int end) {
+  const auto box_of = [&](int i) -> const Node& { return boxes[i]; };
+  Eigen::AlignedBox3d box, centres;
+  for (int i = begin; i < end; ++i) {
+    const Node& node = box_of(order_[i]);
+    box.extend(node.centre - node.half);
+    box.extend(node.centre + node.half);
+    centres.extend(node.centre);
+  }
+  const int index = static_cast<int>(nodes_.size());
+  nodes_.push_back({box.center(), box.sizes() / 2, begin, end, -1});
+  if (end - begin <= leaf_size) return index;
+  Eigen::Index axis = 0;
+  centres.sizes().maxCoeff(&axis);
+  const int middle = begin + (end - begin) / 2;
+  std::nth_element(order_.begin() + begin, order_.begin() + middle, order_.begin() + end, [&](int a, int b) {
+    const double at_a = box_of(a).centre[axis], at_b = box_of(b).centre[axis];
+    return at_a < at_b || (at_a == at_b && a < b);
+  });
+  build(boxes, begin, middle);
+  const int right = build(boxes, middle, end);
+  nodes_[index].right = right;
+  return index;
 }
 
 }  // namespace clatter::numeric

@@ -29,9 +29,7 @@ SurfaceElement global_face(const Mesh& mesh, int element, int face) {
   const Element& solid = mesh.elements[element];
   const Face& local = reference_element(solid.shape).faces[face];
   SurfaceElement global{.element = element};
-  for (std::size_t i = 0; i < 4 && local[i] >= 0; ++i) {
-    global.nodes[i] = solid.nodes[local[i]];
-  }
+  for (std::size_t i = 0; i < 4 && local[i] >= 0; ++i) global.nodes[i] = solid.nodes[local[i]];
   return global;
 }
 
@@ -63,12 +61,8 @@ std::vector<FaceSide> sorted_faces(const Mesh& mesh) {
 void check_shared(const Mesh& mesh, std::span<const FaceSide> sides) {
   const std::string last = element_name(mesh, sides.back().element);
   const std::string first = element_name(mesh, sides.front().element);
-  if (sides.size() > 2) {
-    throw MeshError(last + ": shares a face with " + first + " and another element");
-  }
-  if (sides[0].reversed == sides[1].reversed) {
-    throw MeshError(last + ": lies on the same side of a face as " + first);
-  }
+  if (sides.size() > 2) throw MeshError(last + ": shares a face with " + first + " and another element");
+  if (sides[0].reversed == sides[1].reversed) throw MeshError(last + ": lies on the same side of a face as " + first);
 }
 
 /// The faces that only one element has, in the order of the elements.
@@ -154,9 +148,7 @@ void check_surface_nodes(const Surface& surface, int index) {
     if (std::count(element.nodes.begin(), element.nodes.begin() + static_cast<std::ptrdiff_t>(i), node)) {
       throw MeshError(name() + " is repeated");
     }
-    if (!surface.nodes[node].allFinite()) {
-      throw MeshError(name() + " has a coordinate that is not finite");
-    }
+    if (!surface.nodes[node].allFinite()) throw MeshError(name() + " has a coordinate that is not finite");
   }
 }
 
@@ -168,9 +160,7 @@ void check_area(const Surface& surface, int index) {
   const Vector3 a = triangle ? node(1) - node(0) : node(2) - node(0);
   const Vector3 b = triangle ? node(2) - node(0) : node(3) - node(1);
   const double rounding = 32 * std::numeric_limits<double>::epsilon() * a.norm() * b.norm();
-  if (!(a.cross(b).norm() > rounding)) {
-    throw MeshError(surface_element_name(surface, index) + ": has no area");
-  }
+  if (!(a.cross(b).norm() > rounding)) throw MeshError(surface_element_name(surface, index) + ": has no area");
 }
 
 /// Six times the volume between an element and the reference point.  For a quadrilateral the mean

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "numeric/body.hpp"
+#include "numeric/body/body.hpp"
 #include "numeric/contact/contact_load.hpp"
 #include "numeric/mesh/generators.hpp"
 #include "numeric/simulate.hpp"

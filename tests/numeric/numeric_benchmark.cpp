@@ -70,8 +70,8 @@ void contact_evaluation(benchmark::State& state) {
   view.reference = {touch.attitude.conjugate() * Vector3::UnitZ(), touch.centre.z()};
   view.sink = -1e-4;
   view.vertical_speed = -1;
-  ContactLoader loader(body, ground);
-  for (auto _ : state) benchmark::DoNotOptimize(loader.load(view, {}));
+  const auto loader = facet_surface(body, ground);
+  for (auto _ : state) benchmark::DoNotOptimize(loader->load(view));
 }
 
 /// A face that lies almost flat and spins about a point of it.
@@ -85,11 +85,11 @@ void regularised_friction_evaluation(benchmark::State& state) {
   view.vertical_speed = -0.1;
   view.angular_velocity = Vector3(2, -1, 30);
   view.east_speed = 0.2;
-  ContactLoader loader(body, ground);
+  const auto loader = facet_surface(body, ground);
   const SlipField field{.kind = SlipField::Kind::points, .regularisation = 1e-3};
   for (auto _ : state) {
-    benchmark::DoNotOptimize(loader.load(view));
-    benchmark::DoNotOptimize(loader.slip_load(view, field));
+    benchmark::DoNotOptimize(loader->load(view));
+    benchmark::DoNotOptimize(loader->slip_load(view, field));
   }
 }
 

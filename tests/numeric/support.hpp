@@ -5,7 +5,7 @@
 #include <array>
 #include <vector>
 
-#include "numeric/errors.hpp"
+#include "numeric/base/errors.hpp"
 #include "numeric/mesh/generators.hpp"
 #include "numeric/surface/surface.hpp"
 #include "tests/support.hpp"

@@ -10,8 +10,8 @@
 
 #include "analytic/base/errors.hpp"
 #include "analytic/plane/sequence.hpp"
-#include "analytic/space/flight/point_height.hpp"
-#include "analytic/space/impulse/moreau_contact.hpp"
+#include "analytic/space/flight/first_contact.hpp"
+#include "analytic/space/impulse/impulse_path.hpp"
 #include "analytic/space/landing/level_rim.hpp"
 #include "analytic/space/landing/simultaneous.hpp"
 #include "analytic/space/sequence/sequence.hpp"
@@ -194,7 +194,7 @@ State moreau_map(const Reference& reference, const analytic::ImpactLaw& law, con
   const space::Matrix3 inverse = turned * reference.body.inertia.inverse() * turned.transpose();
   const space::Contact contact{.inverse_inertia = space::inverse_contact_inertia(reference.body.mass, inverse, arm),
                                .velocity = velocity};
-  const Vector3 impulse = space::MoreauContact(contact, false, law.friction_value, law.restitution).impulse().impulse;
+  const Vector3 impulse = space::moreau_impulse(contact, law.friction_value, law.restitution).impulse;
   after.velocity += impulse / reference.body.mass;
   after.angular_velocity += inverse * arm.cross(impulse);
   return after;

@@ -11,7 +11,7 @@
 #include <stdexcept>
 
 #include "analytic/base/errors.hpp"
-#include "analytic/law/impact_limits.hpp"
+#include "analytic/law/impact_law.hpp"
 #include "validation/compare/stiff_limit.hpp"
 #include "validation/output/estimated.hpp"
 #include "validation/output/number.hpp"

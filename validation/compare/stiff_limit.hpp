@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "numeric/body.hpp"
+#include "numeric/body/body.hpp"
 #include "numeric/simulate.hpp"
 #include "validation/run/motion_numbers.hpp"
 #include "validation/scene/scene.hpp"

@@ -30,8 +30,6 @@ SKIPPED = 77
 HEADERS = ("boost", "fmt", "gsl", "libqhull_r", "nlohmann", "toml++")
 # As in CMakeLists.txt: it has names that others of its folder have.
 ALONE = {"validation/explain/space_steps.cpp"}
-# Of two sources for one header those that need a library which is not here.
-LEFT_OUT = {"numeric/files/read_assimp.cpp", "numeric/files/read_gmsh.cpp"}
 # The page has no command line.
 COMMAND = re.compile(r"_commands?\.cpp$")
 FLAGS = ["-O2", "-fexceptions"]
@@ -125,7 +123,7 @@ def needed():
         path = ROOT / header
         own = path.with_suffix(".cpp")
         without = [source for source in path.parent.glob("*.cpp") if not source.with_suffix(".hpp").exists() and not COMMAND.search(source.name)]
-        return {str(source.relative_to(ROOT)) for source in {own, *without} if source.exists()} - LEFT_OUT
+        return {str(source.relative_to(ROOT)) for source in {own, *without} if source.exists()}
 
     start = str((HERE / "api.cpp").relative_to(ROOT))
     seen, waiting = {start}, [start]

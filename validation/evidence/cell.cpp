@@ -10,7 +10,7 @@
 
 #include "analytic/base/errors.hpp"
 #include "analytic/plane/contact_angles.hpp"
-#include "numeric/errors.hpp"
+#include "numeric/base/errors.hpp"
 #include "validation/measured/track.hpp"
 #include "validation/output/number.hpp"
 

@@ -206,7 +206,7 @@ Measured hydrostatic_force(CaseRuns&) {
   view.reference.normal = {std::sin(theta), 0, std::cos(theta)};
   view.reference.offset = size.x() / 2 * std::sin(theta) + size.z() / 2 * std::cos(theta);
   view.sink = -depth;
-  const double force = numeric::ContactLoader(body, ground).load(view, {}).force;
+  const double force = numeric::facet_surface(body, ground)->load(view).force;
   const double volume = width * depth * depth / (2 * std::sin(theta) * std::cos(theta));
   return {force, relative(force, k * volume), Finding::holds, "wedge 1 mm deep at 0.5 rad"};
 }

@@ -7,7 +7,7 @@
 #include <map>
 #include <stdexcept>
 
-#include "numeric/errors.hpp"
+#include "numeric/base/errors.hpp"
 #include "validation/evidence/extreme_cases.hpp"
 #include "validation/evidence/oracles.hpp"
 #include "validation/sweep/counter_random.hpp"

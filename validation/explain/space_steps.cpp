@@ -9,8 +9,8 @@
 
 #include "analytic/base/angle.hpp"
 #include "analytic/law/coulomb_path.hpp"
+#include "analytic/space/flight/first_contact.hpp"
 #include "analytic/space/flight/free_flight.hpp"
-#include "analytic/space/flight/point_height.hpp"
 #include "analytic/space/impulse/slip_field.hpp"
 #include "validation/explain/steps.hpp"
 #include "validation/output/number.hpp"

@@ -12,7 +12,7 @@
 #include <variant>
 
 #include "analytic/plane/body_motion.hpp"
-#include "analytic/space/flight/point_height.hpp"
+#include "analytic/space/flight/first_contact.hpp"
 #include "analytic/space/sequence/gradient.hpp"
 #include "validation/command/command.hpp"
 #include "validation/command/options.hpp"

@@ -9,7 +9,7 @@
 
 #include "analytic/plane/sequence.hpp"
 #include "analytic/space/sequence/sequence.hpp"
-#include "numeric/body.hpp"
+#include "numeric/body/body.hpp"
 #include "numeric/motion/motion_state.hpp"
 #include "validation/run/motion_numbers.hpp"
 #include "validation/scene/scene.hpp"

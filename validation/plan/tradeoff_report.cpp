@@ -9,7 +9,7 @@
 #include <limits>
 #include <map>
 
-#include "numeric/errors.hpp"
+#include "numeric/base/errors.hpp"
 #include "validation/output/number.hpp"
 #include "validation/run/scene_value.hpp"
 #include "validation/scene/body_properties.hpp"

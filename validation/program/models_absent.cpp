@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Stands in for the models in space, meshes and their explanations in clatter-plane, which leaves scenes that need one
 // of them to the program after it.
-#include "analytic/space/flight/point_height.hpp"
+#include "analytic/space/flight/first_contact.hpp"
 #include "analytic/space/impulse/slip_field.hpp"
 #include "analytic/space/landing/tilted_outcomes.hpp"
 #include "analytic/space/sequence/sequence.hpp"

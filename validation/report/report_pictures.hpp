@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "numeric/body.hpp"
+#include "numeric/body/body.hpp"
 #include "validation/scene/probes.hpp"
 
 namespace clatter::validation {

@@ -11,7 +11,7 @@
 #include "analytic/base/errors.hpp"
 #include "analytic/law/viscoelastic.hpp"
 #include "analytic/plane/body_motion.hpp"
-#include "analytic/plane/free_fall.hpp"
+#include "analytic/plane/impact_rows.hpp"
 #include "analytic/space/flight/body.hpp"
 #include "validation/output/bad_input.hpp"
 #include "validation/output/json.hpp"

@@ -12,7 +12,7 @@
 #include "analytic/plane/sequence.hpp"
 #include "analytic/space/landing/tilted_outcomes.hpp"
 #include "analytic/space/sequence/sequence.hpp"
-#include "numeric/body.hpp"
+#include "numeric/body/body.hpp"
 #include "numeric/simulate.hpp"
 #include "validation/run/run.hpp"
 #include "validation/scene/body_properties.hpp"

@@ -5,7 +5,7 @@
 #include <stdexcept>
 
 #include "analytic/base/errors.hpp"
-#include "numeric/errors.hpp"
+#include "numeric/base/errors.hpp"
 #include "validation/output/bad_input.hpp"
 
 namespace clatter::validation {

@@ -12,8 +12,8 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "numeric/base/errors.hpp"
 #include "numeric/contact/contact_system.hpp"
-#include "numeric/errors.hpp"
 #include "numeric/motion/free_flight.hpp"
 
 namespace clatter::validation {

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "numeric/body.hpp"
+#include "numeric/body/body.hpp"
 #include "numeric/drop/history.hpp"
 #include "validation/output/picture.hpp"
 #include "validation/run/history_file.hpp"

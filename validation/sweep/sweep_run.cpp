@@ -9,7 +9,7 @@
 #include <iterator>
 #include <string_view>
 
-#include "analytic/plane/summed_sequence.hpp"
+#include "analytic/plane/sequence.hpp"
 #include "validation/output/bad_input.hpp"
 #include "validation/output/interrupt.hpp"
 #include "validation/plan/planned_run.hpp"

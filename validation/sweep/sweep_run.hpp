@@ -15,7 +15,7 @@
 #include <thread>
 #include <vector>
 
-#include "numeric/body.hpp"
+#include "numeric/body/body.hpp"
 #include "validation/command/command.hpp"
 #include "validation/run/discrete_scene.hpp"
 #include "validation/sweep/sweep_plan.hpp"

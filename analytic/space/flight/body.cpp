@@ -21,14 +21,14 @@ PrincipalAxes::PrincipalAxes(const Matrix3& inertia) {
     std::array<int, 3> order{0, 1, 2};
     std::stable_sort(order.begin(), order.end(), [&](int i, int j) { return inertia(i, i) < inertia(j, j); });
     for (int k = 0; k < 3; ++k) {
-      const int from = order[static_cast<std::size_t>(k)];
-      moments[static_cast<std::size_t>(k)] = inertia(from, from);
+      const int from = order[k];
+      moments[k] = inertia(from, from);
       axes.col(k) = Matrix::Identity().col(from);
     }
   } else {
     const Matrix symmetric = inertia.cast<long double>().selfadjointView<Eigen::Lower>();
     const Eigen::SelfAdjointEigenSolver<Matrix> solver(symmetric);
-    for (int k = 0; k < 3; ++k) moments[static_cast<std::size_t>(k)] = solver.eigenvalues()[k];
+    for (int k = 0; k < 3; ++k) moments[k] = solver.eigenvalues()[k];
     axes = solver.eigenvectors();
   }
   if (axes.determinant() < 0) axes.col(1) = -axes.col(1);
@@ -216,7 +216,7 @@ Body outline(const PlanarBody& planar) {
   body.mass = planar.mass;
   body.inertia = planar.mass * planar.gyration_square * Matrix3::Identity();
   for (int i = 0; i < planar.vertex_count; ++i) {
-    const Vertex& vertex = planar.vertices[static_cast<std::size_t>(i)];
+    const Vertex& vertex = planar.vertices[i];
     body.vertices.emplace_back(vertex.x, 0, vertex.z);
   }
   return body;

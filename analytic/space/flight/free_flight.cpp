@@ -92,7 +92,7 @@ void ThetaRotation::order(const PrincipalAxes& principal, const PrincipalVelocit
   axes_ = principal.axes;
   const auto flip = [&](int axis) {
     axes_.col(axis) = -axes_.col(axis);
-    c.w[static_cast<std::size_t>(axis)] = -c.w[static_cast<std::size_t>(axis)];
+    c.w[axis] = -c.w[axis];
   };
   if (!circles_largest(c.i, c.w)) {
     std::swap(c.i[0], c.i[2]);
@@ -101,7 +101,7 @@ void ThetaRotation::order(const PrincipalAxes& principal, const PrincipalVelocit
     flip(1);
   }
   for (const int axis : {2, 0}) {
-    if (!(c.w[static_cast<std::size_t>(axis)] < 0)) continue;
+    if (!(c.w[axis] < 0)) continue;
     flip(axis);
     flip(1);
   }
@@ -144,7 +144,7 @@ ThetaRotation::ThetaRotation(const PrincipalAxes& principal, const PrincipalVelo
   const auto amplitude = [&](Extended m) { return static_cast<double>(std::sqrt(m) / c.momentum); };
   amplitudes_ = {amplitude(m1), amplitude(m2), amplitude(m3)};
   least_third_ = static_cast<double>(std::sqrt(c.complement)) * amplitudes_[2];
-  for (int k = 0; k < 3; ++k) moments_[k] = static_cast<double>(c.i[static_cast<std::size_t>(k)]);
+  for (int k = 0; k < 3; ++k) moments_[k] = static_cast<double>(c.i[k]);
   dual_ = c.modulus > Extended{0.5};
   if (dual_) set_dual(c);
   else set_direct(c);
@@ -285,7 +285,6 @@ ThetaRotation::Functions ThetaRotation::dual(double argument) const {
 
 namespace {
 
-using Extended = long double;
 using ExtendedVector = Eigen::Matrix<Extended, 3, 1>;
 
 /// World components to body axes, with an attitude that is unit to the rounding of a double only.

@@ -46,24 +46,23 @@ struct PoleIntegrals {
   Vector2 direction = Vector2::Zero(), weighted = Vector2::Zero();
   Matrix2 tensor = Matrix2::Zero();
 
-  void add_side(const Vector2& from, const Vector2& to);
+  /// ∫ f dA over the triangle of pole and side is d/(k + 2) ∫ f ds for f homogeneous of degree k, d the pole's
+  /// distance.
+  void add_side(const Vector2& from, const Vector2& to) {
+    const Vector2 along = (to - from).normalized(), normal = -quarter_turn(along);
+    const double d = from.dot(normal), s1 = from.dot(along), s2 = to.dot(along);
+    if (d == 0) return;
+    const double r1 = std::hypot(d, s1), r2 = std::hypot(d, s2);
+    const double log = std::asinh(s2 / std::fabs(d)) - std::asinh(s1 / std::fabs(d));  // ∫ ds/r
+    const double first = r2 - r1, distance = (s2 * r2 - s1 * r1 + d * d * log) / 2;    // ∫ s ds/r, ∫ r ds
+    const Matrix2 mixed = normal * along.transpose();
+    direction += d / 2 * (d * log * normal + first * along);
+    tensor += d / 3 *
+              (d * d * log * normal * normal.transpose() + d * first * (mixed + mixed.transpose()) +
+               (distance - d * d * log) * along * along.transpose());
+    weighted += d / 4 * (d * distance * normal + (r2 * r2 * r2 - r1 * r1 * r1) / 3 * along);
+  }
 };
-
-/// ∫ f dA over the triangle of pole and side is d/(k + 2) ∫ f ds for f homogeneous of degree k, d the pole's distance.
-void PoleIntegrals::add_side(const Vector2& from, const Vector2& to) {
-  const Vector2 along = (to - from).normalized(), normal = -quarter_turn(along);
-  const double d = from.dot(normal), s1 = from.dot(along), s2 = to.dot(along);
-  if (d == 0) return;
-  const double r1 = std::hypot(d, s1), r2 = std::hypot(d, s2);
-  const double log = std::asinh(s2 / std::fabs(d)) - std::asinh(s1 / std::fabs(d));  // ∫ ds/r
-  const double first = r2 - r1, distance = (s2 * r2 - s1 * r1 + d * d * log) / 2;    // ∫ s ds/r, ∫ r ds
-  const Matrix2 mixed = normal * along.transpose();
-  direction += d / 2 * (d * log * normal + first * along);
-  tensor += d / 3 *
-            (d * d * log * normal * normal.transpose() + d * first * (mixed + mixed.transpose()) +
-             (distance - d * d * log) * along * along.transpose());
-  weighted += d / 4 * (d * distance * normal + (r2 * r2 * r2 - r1 * r1 * r1) / 3 * along);
-}
 
 /// The same over triangles of the pole and arcs of the unit circle, angles from that of the pole.
 class ArcIntegrals {
@@ -73,81 +72,76 @@ class ArcIntegrals {
         towards_(away_ > 0 ? Vector2(pole / away_) : Vector2(Vector2::UnitX())) {
     for (Nodes& sum : sums_) sum.setZero();
   }
-  void add(double from, double to);
-  void add_circle();
-  void give(PoleIntegrals& about) const;
+
+  void add(double from, double to) {
+    constexpr double pi = std::numbers::pi;
+    const double angle = std::atan2(towards_.y(), towards_.x());
+    const double first = std::remainder(from - angle, 2 * pi), last = first + (to - from);
+    for (int i = -1; i * pi < last; ++i) {  // half a turn, from the pole or towards it
+      const double low = std::fmax(first, i * pi), high = std::fmin(last, (i + 1) * pi);
+      if (!(low < high)) continue;
+      if (i % 2 == 0) add_outward(low - i * pi, high - i * pi, 1);
+      else add_outward((i + 1) * pi - high, (i + 1) * pi - low, -1);
+    }
+  }
+
+  void add_circle() {
+    folds_ = 2;
+    add_outward(0, std::numbers::pi, 1);
+  }
+
+  /// Adds what the arcs are to the integrals.
+  void give(PoleIntegrals& about) const {
+    Matrix2 axes, tensor;
+    axes << towards_, quarter_turn(towards_);
+    const auto sum = [&](std::size_t i) { return folds_ * sums_[i].sum(); };
+    const bool both_sides = folds_ > 1;
+    const double mixed = both_sides ? 0 : sum(3);
+    tensor << sum(2), mixed, mixed, sum(4);
+    about.direction += axes * Vector2(sum(0), both_sides ? 0 : sum(1)) / 2;
+    about.tensor += axes * tensor * axes.transpose() / 3;
+    about.weighted += axes * Vector2(sum(5), both_sides ? 0 : sum(6)) / 4;
+  }
 
  private:
   using Nodes = Eigen::Array<double, 16, 1>;
-  void add_outward(double near, double far, double side);
-  void add_piece(double from, double to);
+
+  /// In pieces as long as their distance from the pole allows; √(x² + log²|pole|) is that of the angle x.
+  void add_outward(double near, double far, double side) {
+    while (near < far) {
+      const double reach = 2 * (near + ends_away * std::hypot(near, off_circle_)) / (ends_away * ends_away - 1);
+      // A pole that is NaN takes long pieces, too.
+      const double length = reach < longest_piece ? std::fmax(reach, shortest_piece) : longest_piece;
+      const double end = length < far - near ? near + length : far;
+      if (side > 0) add_piece(near, end);
+      else add_piece(-end, -near);
+      near = end;
+    }
+  }
+
+  /// In s = tan(θ/2), θ from the middle: points are (1 − s², 2s)/(1 + s²), dθ = 2 ds/(1 + s²).
+  void add_piece(double from, double to) {
+    const auto& rule = unit_rule<16>();
+    const Eigen::Map<const Nodes> nodes(rule.nodes.data()), weights(rule.weights.data());
+    const double tangent = std::tan((to - from) / 4);
+    const Vector2 middle = on_circle(from + (to - from) / 2);
+    const Nodes s = tangent * (2 * nodes - 1), part = (1 + s * s).inverse();
+    const Nodes ahead = (1 - s * s) * part, aside = 2 * s * part;
+    const Nodes x = middle.x() * ahead - middle.y() * aside, y = middle.y() * ahead + middle.x() * aside;
+    const Nodes along = x - away_, square = along * along + y * y;
+    constexpr double tiny = std::numeric_limits<double>::min();  // where a point is on the pole
+    const Nodes over = 4 * tangent * weights * part * (1 - away_ * x) / (square + tiny).sqrt();
+    const Nodes first = over * along, second = over * y;
+    sums_[0] += first, sums_[1] += second;
+    sums_[2] += first * along, sums_[3] += first * y, sums_[4] += second * y;
+    sums_[5] += first * square, sums_[6] += second * square;
+  }
 
   double away_, off_circle_;
   Vector2 towards_;
   std::array<Nodes, 7> sums_;  ///< along the pole and across: ρ/|ρ|; ρρᵀ/|ρ|; ρ|ρ|
   double folds_ = 1;           ///< how often the arcs count, for those on both sides of the pole
 };
-
-void ArcIntegrals::add(double from, double to) {
-  constexpr double pi = std::numbers::pi;
-  const double angle = std::atan2(towards_.y(), towards_.x());
-  const double first = std::remainder(from - angle, 2 * pi), last = first + (to - from);
-  for (int i = -1; i * pi < last; ++i) {  // half a turn, from the pole or towards it
-    const double low = std::fmax(first, i * pi), high = std::fmin(last, (i + 1) * pi);
-    if (!(low < high)) continue;
-    if (i % 2 == 0) add_outward(low - i * pi, high - i * pi, 1);
-    else add_outward((i + 1) * pi - high, (i + 1) * pi - low, -1);
-  }
-}
-
-void ArcIntegrals::add_circle() {
-  folds_ = 2;
-  add_outward(0, std::numbers::pi, 1);
-}
-
-/// In pieces as long as their distance from the pole allows; √(x² + log²|pole|) is that of the angle x.
-void ArcIntegrals::add_outward(double near, double far, double side) {
-  while (near < far) {
-    const double reach = 2 * (near + ends_away * std::hypot(near, off_circle_)) / (ends_away * ends_away - 1);
-    // A pole that is NaN takes long pieces, too.
-    const double length = reach < longest_piece ? std::fmax(reach, shortest_piece) : longest_piece;
-    const double end = length < far - near ? near + length : far;
-    if (side > 0) add_piece(near, end);
-    else add_piece(-end, -near);
-    near = end;
-  }
-}
-
-/// In s = tan(θ/2), θ from the middle: points are (1 − s², 2s)/(1 + s²), dθ = 2 ds/(1 + s²).
-void ArcIntegrals::add_piece(double from, double to) {
-  const auto& rule = unit_rule<16>();
-  const Eigen::Map<const Nodes> nodes(rule.nodes.data()), weights(rule.weights.data());
-  const double tangent = std::tan((to - from) / 4);
-  const Vector2 middle = on_circle(from + (to - from) / 2);
-  const Nodes s = tangent * (2 * nodes - 1), part = (1 + s * s).inverse();
-  const Nodes ahead = (1 - s * s) * part, aside = 2 * s * part;
-  const Nodes x = middle.x() * ahead - middle.y() * aside, y = middle.y() * ahead + middle.x() * aside;
-  const Nodes along = x - away_, square = along * along + y * y;
-  constexpr double tiny = std::numeric_limits<double>::min();  // where a point is on the pole
-  const Nodes over = 4 * tangent * weights * part * (1 - away_ * x) / (square + tiny).sqrt();
-  const Nodes first = over * along, second = over * y;
-  sums_[0] += first, sums_[1] += second;
-  sums_[2] += first * along, sums_[3] += first * y, sums_[4] += second * y;
-  sums_[5] += first * square, sums_[6] += second * square;
-}
-
-/// Adds what the arcs are to the integrals.
-void ArcIntegrals::give(PoleIntegrals& about) const {
-  Matrix2 axes, tensor;
-  axes << towards_, quarter_turn(towards_);
-  const auto sum = [&](std::size_t i) { return folds_ * sums_[i].sum(); };
-  const bool both_sides = folds_ > 1;
-  const double mixed = both_sides ? 0 : sum(3);
-  tensor << sum(2), mixed, mixed, sum(4);
-  about.direction += axes * Vector2(sum(0), both_sides ? 0 : sum(1)) / 2;
-  about.tensor += axes * tensor * axes.transpose() / 3;
-  about.weighted += axes * Vector2(sum(5), both_sides ? 0 : sum(6)) / 4;
-}
 
 /// ∫ (δ_x, δ_y, ξ × δ)ᵀ (1, ξ, η) dA of δ = d − u/|u| for |u| = 1 and a pole far away.
 template <unsigned outward, unsigned along>
@@ -176,9 +170,7 @@ class FarIntegrals {
   template <unsigned points>
   void add_side_by(const Vector2& from, const Vector2& to) {
     const auto& rule = unit_rule<points>();
-    for (unsigned i = 0; i < points; ++i) {
-      add(from + rule.nodes[i] * (to - from), rule.weights[i] * cross(from, to));
-    }
+    for (unsigned i = 0; i < points; ++i) add(from + rule.nodes[i] * (to - from), rule.weights[i] * cross(from, to));
   }
   /// The sector from the centre to a boundary point, `area` = ξ × dξ there.
   void add(const Vector2& point, double area) {

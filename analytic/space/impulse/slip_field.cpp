@@ -91,7 +91,7 @@ SlipFieldSlopes::SlipFieldSlopes(const SlipField& field, const Matrix3& w, const
   Matrix2 axes;
   axes << field.to_frame(Vector2::UnitX()), field.to_frame(Vector2::UnitY());
   for (int k = 0; k < 2; ++k) {
-    const Matrix3& turn = turns[static_cast<std::size_t>(k)];
+    const Matrix3& turn = turns[k];
     unit[k] = turn(2, 2) / w(2, 2);
     const Matrix3 change = turn / w(2, 2) - unit[k] / w(2, 2) * w;
     const Matrix2 a = axes * change.topLeftCorner<2, 2>() * axes.transpose();
@@ -106,10 +106,10 @@ InvariantDirections invariant_directions(const Matrix3& w, double friction) {
   InvariantDirections all;
   for (all.count = 0; all.count < field.zero_count(); ++all.count) {
     const auto& [at, attracts] = field.zero(all.count);
-    all.list[static_cast<std::size_t>(all.count)] = {.direction = field.to_world({at.cosine, at.sine}),
-                                                     .slip_rate = w(2, 2) * field.slip_rate(at),
-                                                     .normal_rate = w(2, 2) * field.normal_rate(at),
-                                                     .attracts = attracts};
+    all.list[all.count] = {.direction = field.to_world({at.cosine, at.sine}),
+                           .slip_rate = w(2, 2) * field.slip_rate(at),
+                           .normal_rate = w(2, 2) * field.normal_rate(at),
+                           .attracts = attracts};
   }
   return all;
 }

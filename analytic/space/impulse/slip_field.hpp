@@ -71,7 +71,7 @@ class SlipField {
 
   /// Zeros of g by rising angle over one turn; the last, in the first quadrant, lies in [2π, 5π/2].
   [[nodiscard]] int zero_count() const { return static_cast<int>(count_); }
-  [[nodiscard]] const InvariantAngle& zero(int i) const { return zeros_[static_cast<std::size_t>(i)]; }
+  [[nodiscard]] const InvariantAngle& zero(int i) const { return zeros_[i]; }
   /// D over the right-hand side of (3), less 1; > 0: four invariant directions; near 0: slip nearly stops.
   [[nodiscard]] double astroid_excess() const;
 

@@ -32,26 +32,25 @@ struct DirectionMoments {
   Vector2 along;
   Vector3 across;
 
-  explicit DirectionMoments(const Vector3& slip);
-};
-
-DirectionMoments::DirectionMoments(const Vector3& slip) : along(Vector2::Zero()), across(Vector3::Zero()) {
-  static const GaussRule<10> rule;
-  const double a = slip[0], b = slip[1], w = slip[2];
-  if (a * a + b * b > smooth_slip * smooth_slip * w * w) {
-    const auto& x = rule.nodes;
-    const GaussRule<10>::Array z = b + w * x, part = rule.weights / (a * a + z.square()).sqrt(), across_part = part * z;
-    along << a * part.sum(), a * (part * x).sum();
-    across << across_part.sum(), (across_part * x).sum(), (across_part * x.square()).sum();
-    return;
+  explicit DirectionMoments(const Vector3& slip) : along(Vector2::Zero()), across(Vector3::Zero()) {
+    static const GaussRule<10> rule;
+    const double a = slip[0], b = slip[1], w = slip[2];
+    if (a * a + b * b > smooth_slip * smooth_slip * w * w) {
+      const auto& x = rule.nodes;
+      const GaussRule<10>::Array z = b + w * x, part = rule.weights / (a * a + z.square()).sqrt(),
+                                 across_part = part * z;
+      along << a * part.sum(), a * (part * x).sum();
+      across << across_part.sum(), (across_part * x).sum(), (across_part * x.square()).sum();
+      return;
+    }
+    const double from = b - w, to = b + w, r1 = std::hypot(a, from), r2 = std::hypot(a, to);
+    const double log = a == 0 ? 0 : std::asinh(to / std::fabs(a)) - std::asinh(from / std::fabs(a));  // ∫ dz/r
+    const double first = r2 - r1, second = (to * r2 - from * r1 - a * a * log) / 2;                   // ∫ zᵏ dz/r
+    const double third = (r2 * r2 * r2 - r1 * r1 * r1) / 3 - a * a * first;
+    along << a * log / w, a * (first - b * log) / (w * w);
+    across << first / w, (second - b * first) / (w * w), (third - b * (2 * second - b * first)) / (w * w * w);
   }
-  const double from = b - w, to = b + w, r1 = std::hypot(a, from), r2 = std::hypot(a, to);
-  const double log = a == 0 ? 0 : std::asinh(to / std::fabs(a)) - std::asinh(from / std::fabs(a));  // ∫ dz/r
-  const double first = r2 - r1, second = (to * r2 - from * r1 - a * a * log) / 2;                   // ∫ zᵏ dz/r
-  const double third = (r2 * r2 * r2 - r1 * r1 * r1) / 3 - a * a * first;
-  along << a * log / w, a * (first - b * log) / (w * w);
-  across << first / w, (second - b * first) / (w * w), (third - b * (2 * second - b * first)) / (w * w * w);
-}
+};
 
 /// Where a linear pressure of mean x̄ pushes, x = centre + half ξ, and q there, q dx = (level + slope ξ) dξ.
 struct PressedPiece {
@@ -116,20 +115,177 @@ struct EdgePush {
 /// friction, and its inverse inertia.
 class EdgePath final : SlipMotion {
  public:
-  EdgePath(const EdgeContact& edge, const ImpactLaw& law, double point);
-  std::optional<EdgeImpulse> follow();
+  EdgePath(const EdgeContact& edge, const ImpactLaw& law, double point)
+      : SlipMotion(7), speed_(-(edge.velocity[3] + point * edge.velocity[4])), friction_(law.friction_value),
+        without_friction_(edge.pressure_point()), profile_(-edge.velocity.tail<2>() / speed_),
+        slow_(edge_rounding * edge.velocity_scale / speed_), begin_(edge.velocity.head<3>() / speed_),
+        progress_({.law = law.law, .restitution = law.restitution, .damping = law.damping_per_stiffness * speed_}, 0,
+                  1) {
+    const EdgeContact::Matrix& g = edge.inverse_inertia;
+    unit_ = g(3, 3) + point * (2 * g(3, 4) + point * g(4, 4));
+    g_ = g / unit_;
+    turning_ = profile_[0] * g_.row(4) - profile_[1] * g_.row(3);
+    rise_ = g_.row(3) + point * g_.row(4);
+    most_steps_ = most_steps;
+    y_.head<3>() = begin_;
+    y_[4] = -1;
+  }
+
+  std::optional<EdgeImpulse> follow() {
+    EdgeImpulse result;
+    const bool slips = begin_.norm() > slow_;
+    End end = slips ? slide() : End::stopped;
+    if (end == End::stopped) {
+      end = go_on_from_rest();
+      const bool sticks = end == End::stopped;
+      result.path =
+          slips ? (sticks ? PathKind::slip_stick : PathKind::slip_reslip) : (sticks ? PathKind::stick : PathKind::slip);
+    }
+    if (end == End::no_pressure || !(spent_ > 0)) return {};
+    result.tilts = y_[6] != 0;
+    if (step_error_ == step_of_edge) result.path_error = jumps_ > 0 ? error_of_edge_jump : error_of_edge;
+    const Vector2 pushes(spent_, y_[3]);
+    const Vector3 change = y_.head<3>() - begin_ - g_.block<3, 2>(0, 3) * pushes;
+    result.impulse << g_.topLeftCorner<3, 3>().inverse() * change, pushes;
+    result.impulse *= speed_ / unit_;
+    return result;
+  }
 
  private:
-  Values rate(const Values& y) override;
-  double impulse_left(const Values& rate) override;
-  bool end_stage() override;
-  [[nodiscard]] Vector5 holding() const;
-  void keep() override;
-  bool may_step_to(const Values& next, const Values& then, double length) override;
-  End go_on_from_rest();
-  [[nodiscard]] bool can_hold(double pushed, Vector3& direction) const;
-  void stick(double rise, double pushed);
-  [[nodiscard]] std::optional<double> pressure_point(const Vector3& slip) const;
+  Values rate(const Values& y) override {
+    Values change(7);
+    const auto push = push_against(y.head<3>());
+    if (!push || jumps_ > most_jumps) return change.setConstant(std::numeric_limits<double>::quiet_NaN());
+    Vector5 f;
+    f << -friction_ * push->rub, 1, push->point;
+    now_ = *push;
+    const double beyond = push->asked - push->point;
+    change << g_.topRows<3>() * f, push->point, rise_.dot(f) + rise_[4] * beyond,
+        progress_.storing(y[4]) * profile(push->point), beyond;
+    return change;
+  }
+
+  double impulse_left(const Values& rate) override {
+    weight_ = profile(rate[3]);
+    progress_.at = {.impulse = spent_, .normal_velocity = y_[4], .store = y_[5] / weight_};
+    if (progress_.is_at_limit_speed()) return 0;
+    const double excess = progress_.excess(progress_.at);
+    const bool gave_too_much = progress_.is_energetic() && progress_.stage() == Stage::restitution && excess > 0;
+    return gave_too_much ? -excess / progress_.excess_rate(progress_.at, rate[4]) : progress_.length_of_stage(rate[4]);
+  }
+
+  bool end_stage() override {
+    progress_.end_stage();
+    y_[4] = progress_.at.normal_velocity;
+    y_[5] = progress_.at.store * weight_;
+    return progress_.is_done();
+  }
+
+  /// f with G f = (0, 0, 0, profile), by elimination of the pushes along the ground.
+  [[nodiscard]] Vector5 holding() const {
+    const Eigen::Matrix<double, 3, 2> held = g_.topLeftCorner<3, 3>().inverse() * g_.topRightCorner<3, 2>();
+    const Matrix2 rest = g_.bottomRightCorner<2, 2>() - g_.bottomLeftCorner<2, 3>() * held;
+    const Vector2 normal = rest.inverse() * profile_;
+    Vector5 f;
+    f << -held * normal, normal;
+    return f;
+  }
+
+  void keep() override {
+    if (!y_.allFinite()) return;
+    const double size = y_.head<3>().norm();
+    const Vector3 direction = y_.head<3>() / size;
+    const bool is_first = kept_direction_ == Vector3::Zero();
+    const double change = std::fabs(now_.rubbed - kept_.rubbed) + std::fabs(now_.share - kept_.share);
+    if (!is_first && change > 1e-6 && change > 1e6 * (direction - kept_direction_).norm()) ++jumps_;
+    most_share_ = is_first ? now_.share : std::fmin(most_share_ * std::fmax(1, size / largest_), now_.share);
+    largest_ = is_first ? size : std::fmax(largest_, size);
+    kept_ = now_;
+    kept_direction_ = direction;
+    if (now_.share < 1 || now_.is_at_end()) step_error_ = step_of_edge;
+  }
+
+  /// The share of friction ends its fall within a millionth of slip from where it is least: the rest is of second
+  /// order.
+  bool may_step_to(const Values& next, const Values& then, double length) override {
+    constexpr double near = 1e-6, ahead = 1e-5;
+    const double size = next.head<3>().norm(), speed = then.head<3>().norm();
+    if (!kept_.is_at_end() || length * speed <= near * size) return true;
+    if (!now_.is_at_end()) return false;
+    const double share = now_.share;
+    const EdgePush here = now_;
+    (void)rate(next + ahead * size / speed * then);
+    const bool falls = now_.share <= share;
+    now_ = here;
+    return falls;
+  }
+
+  /// Sticks if friction can hold the edge under the pressure that it then has, or where slip dies out; slips on
+  /// otherwise.
+  End go_on_from_rest() {
+    const Vector5 f = holding();
+    const double asked = f[4] / f[3];
+    const double pushed = f[3] > 0 ? std::clamp(asked, -1.0, 1.0) : std::copysign(1.0, f[4]);
+    Vector3 direction;
+    if (!can_hold(pushed, direction)) {
+      const Values at_rest = y_;
+      const double spent = spent_;
+      const PathProgress<> progress = progress_;
+      y_.head<3>() = first_slip * direction;
+      most_share_ = 1, largest_ = 1;
+      kept_direction_.setZero();
+      const End end = slide(true);
+      if (end != End::stopped) return end;
+      y_ = at_rest;
+      spent_ = spent;
+      progress_ = progress;
+    }
+    if (!(f[3] > 0)) {  // the less pushing it would take, the more beyond the end: nothing is left of the impulse
+      y_[6] = f[4];
+      return End::stopped;
+    }
+    const double begin = spent_;
+    stick(1 / f[3], pushed);
+    y_[6] += (asked - pushed) * (spent_ - begin);
+    return End::stopped;
+  }
+
+  /// Whether friction can hold the edge where it is pushed; else where slip goes.
+  [[nodiscard]] bool can_hold(double pushed, Vector3& direction) const {
+    const Vector3 load = g_.block<3, 2>(0, 3) * Vector2(1, pushed);
+    const double rubbed = std::clamp(pushed, -farthest_rubbed, farthest_rubbed);
+    SlipLetGo slip(load, [&](const Vector3& s) -> Vector3 {
+      return -friction_ * (g_.topLeftCorner<3, 3>() * rub_of_edge(s, rubbed));
+    });
+    const bool is_held = slip.is_held();
+    direction = slip.direction();
+    return is_held;
+  }
+
+  /// The rest of the impulse, along which u rises by `rise` and the ground pushes at one point.
+  void stick(double rise, double pushed) {
+    const double begin = spent_;
+    progress_.at = {.impulse = spent_, .normal_velocity = y_[4], .store = y_[5] / profile(pushed)};
+    progress_.follow({.normal_rate = rise});
+    spent_ = progress_.at.impulse;
+    y_.head<3>().setZero();
+    y_[3] += pushed * (spent_ - begin);
+  }
+
+  /// x̂ with all of the friction, in closed form where all of the edge is pressed.
+  [[nodiscard]] std::optional<double> pressure_point(const Vector3& slip) const {
+    constexpr double part = 1.0 / 3;
+    const double middle = out_of_step(slip, 0), change = (out_of_step(slip, part) - middle) / part;
+    const double whole = -middle / change;
+    if (std::fabs(whole) <= part) return whole;
+    const double inner = std::copysign(part, whole), outer = std::copysign(farthest_rubbed, whole);
+    const double at_inner = middle + inner * change, at_outer = out_of_step(slip, outer);
+    if (!(at_inner * at_outer < 0)) return {};
+    const auto excess = [&](double x) { return out_of_step(slip, x); };
+    return whole > 0 ? root_between(excess, inner, outer, at_inner, at_outer)
+                     : root_between(excess, outer, inner, at_outer, at_inner);
+  }
+
   /// What decides x̂ against one slip.
   struct Balance {
     const EdgePath& path;
@@ -148,10 +304,66 @@ class EdgePath final : SlipMotion {
     [[nodiscard]] EdgePush at_end(double end, double share) const;
   };
   [[nodiscard]] bool is_bounded() const { return std::fabs(without_friction_) <= 1; }
-  [[nodiscard]] std::optional<EdgePush> some_push(const Balance& balance) const;
-  [[nodiscard]] std::optional<EdgePush> next_push(const Balance& balance) const;
-  [[nodiscard]] std::optional<EdgePush> push_against(const Vector3& slip) const;
-  [[nodiscard]] double out_of_step(const Vector3& slip, double point) const;
+
+  /// With the largest share of the friction that keeps x̂ on the edge, no larger than before.
+  [[nodiscard]] std::optional<EdgePush> some_push(const Balance& balance) const {
+    if (balance.most == 1) {
+      if (const auto point = pressure_point(balance.slip))
+        return EdgePush{*point, *point, 1, *point, balance.rub(*point)};
+    }
+    const double from = balance.from, most = balance.most;
+    if (!(std::fabs(from) <= 1)) return {};
+    const auto excess = [&](double centre) { return balance.excess(centre); };
+    const double low = from - most * (1 + from), high = from + most * (1 - from);
+    const double at_low = excess(low), at_high = excess(high);
+    if (at_low >= 0 && at_high <= 0) return balance.inside(root_between(excess, low, high, at_low, at_high));
+    const double end = at_high > 0 ? 1 : -1;
+    const auto beyond = [&](double share) { return balance.beyond(end, share); };
+    const double at_most = beyond(most);
+    if (!(at_most > 0)) return balance.at_end(end, most);
+    return balance.at_end(end, root_between(beyond, 0, most, -std::fabs(end - from), at_most));
+  }
+
+  /// The solution that the last one becomes.
+  [[nodiscard]] std::optional<EdgePush> next_push(const Balance& balance) const {
+    const double from = balance.from, most = balance.most;
+    const auto excess = [&](double centre) { return -balance.excess(centre); };
+    double end = kept_.point > from ? 1 : -1, share = kept_.share;
+    const auto beyond = [&](double part) { return balance.beyond(end, part); };
+    if (!kept_.is_at_end()) {
+      const auto centre = root_near(excess, kept_.rubbed);
+      if (!centre) return {};
+      const EdgePush push = balance.inside(*centre);
+      if (std::fabs(push.point) <= 1) return push;
+      end = push.point > 0 ? 1 : -1;
+      share = most;
+    }
+    if (const auto part = root_near(beyond, share); part && *part <= most) return balance.at_end(end, *part);
+    const auto centre = root_near(excess, from + most * (end - from));
+    if (!centre) return {};
+    const EdgePush push = balance.inside(*centre);
+    return std::fabs(push.point) <= 1 ? std::optional(push) : std::nullopt;
+  }
+
+  /// A solution goes on from the last one; where that one ends, it may be another.
+  [[nodiscard]] std::optional<EdgePush> push_against(const Vector3& slip) const {
+    constexpr double steep = 100, same = 1e-9;
+    const Balance balance(*this, slip);
+    const auto some = some_push(balance);
+    if (!some || !is_bounded() || kept_direction_ == Vector3::Zero()) return some;
+    const auto apart = [&](const EdgePush& a) {
+      return std::fabs(a.rubbed - some->rubbed) + std::fabs(a.share - some->share);
+    };
+    if (apart(kept_) <= steep * (slip.normalized() - kept_direction_).norm() + same) return some;
+    const auto next = next_push(balance);
+    if (next) return apart(*next) <= same ? some : next;
+    return at_once_ ? some : std::nullopt;
+  }
+
+  [[nodiscard]] double out_of_step(const Vector3& slip, double point) const {
+    return turning_[3] + turning_[4] * point - friction_ * turning_.head<3>().dot(rub_of_edge(slip, point));
+  }
+
   [[nodiscard]] double profile(double x) const { return profile_[0] + profile_[1] * x; }
 
   double speed_, unit_;                 ///< [m/s], [1/kg]
@@ -168,39 +380,6 @@ class EdgePath final : SlipMotion {
   int jumps_ = 0;                             ///< of the pressure
   PathProgress<> progress_;
 };
-
-EdgePath::EdgePath(const EdgeContact& edge, const ImpactLaw& law, double point)
-    : SlipMotion(7), speed_(-(edge.velocity[3] + point * edge.velocity[4])), friction_(law.friction_value),
-      without_friction_(edge.pressure_point()), profile_(-edge.velocity.tail<2>() / speed_),
-      slow_(edge_rounding * edge.velocity_scale / speed_), begin_(edge.velocity.head<3>() / speed_),
-      progress_({.law = law.law, .restitution = law.restitution, .damping = law.damping_per_stiffness * speed_}, 0, 1) {
-  const EdgeContact::Matrix& g = edge.inverse_inertia;
-  unit_ = g(3, 3) + point * (2 * g(3, 4) + point * g(4, 4));
-  g_ = g / unit_;
-  turning_ = profile_[0] * g_.row(4) - profile_[1] * g_.row(3);
-  rise_ = g_.row(3) + point * g_.row(4);
-  most_steps_ = most_steps;
-  y_.head<3>() = begin_;
-  y_[4] = -1;
-}
-
-double EdgePath::out_of_step(const Vector3& slip, double point) const {
-  return turning_[3] + turning_[4] * point - friction_ * turning_.head<3>().dot(rub_of_edge(slip, point));
-}
-
-/// x̂ with all of the friction, in closed form where all of the edge is pressed.
-std::optional<double> EdgePath::pressure_point(const Vector3& slip) const {
-  constexpr double part = 1.0 / 3;
-  const double middle = out_of_step(slip, 0), change = (out_of_step(slip, part) - middle) / part;
-  const double whole = -middle / change;
-  if (std::fabs(whole) <= part) return whole;
-  const double inner = std::copysign(part, whole), outer = std::copysign(farthest_rubbed, whole);
-  const double at_inner = middle + inner * change, at_outer = out_of_step(slip, outer);
-  if (!(at_inner * at_outer < 0)) return {};
-  const auto excess = [&](double x) { return out_of_step(slip, x); };
-  return whole > 0 ? root_between(excess, inner, outer, at_inner, at_outer)
-                   : root_between(excess, outer, inner, at_outer, at_inner);
-}
 
 EdgePath::Balance::Balance(const EdgePath& edge, const Vector3& against)
     : path(edge), slip(against), from(edge.without_friction_),
@@ -223,200 +402,6 @@ EdgePush EdgePath::Balance::at_end(double end, double share) const {
   const double centre = from + share * (end - from);
   const Vector3 rubbed = rub(centre);
   return {end, from + lead(rubbed), share, centre, rubbed};
-}
-
-/// With the largest share of the friction that keeps x̂ on the edge, no larger than before.
-std::optional<EdgePush> EdgePath::some_push(const Balance& balance) const {
-  if (balance.most == 1) {
-    if (const auto point = pressure_point(balance.slip))
-      return EdgePush{*point, *point, 1, *point, balance.rub(*point)};
-  }
-  const double from = balance.from, most = balance.most;
-  if (!(std::fabs(from) <= 1)) return {};
-  const auto excess = [&](double centre) { return balance.excess(centre); };
-  const double low = from - most * (1 + from), high = from + most * (1 - from);
-  const double at_low = excess(low), at_high = excess(high);
-  if (at_low >= 0 && at_high <= 0) return balance.inside(root_between(excess, low, high, at_low, at_high));
-  const double end = at_high > 0 ? 1 : -1;
-  const auto beyond = [&](double share) { return balance.beyond(end, share); };
-  const double at_most = beyond(most);
-  if (!(at_most > 0)) return balance.at_end(end, most);
-  return balance.at_end(end, root_between(beyond, 0, most, -std::fabs(end - from), at_most));
-}
-
-/// The solution that the last one becomes.
-std::optional<EdgePush> EdgePath::next_push(const Balance& balance) const {
-  const double from = balance.from, most = balance.most;
-  const auto excess = [&](double centre) { return -balance.excess(centre); };
-  double end = kept_.point > from ? 1 : -1, share = kept_.share;
-  const auto beyond = [&](double part) { return balance.beyond(end, part); };
-  if (!kept_.is_at_end()) {
-    const auto centre = root_near(excess, kept_.rubbed);
-    if (!centre) return {};
-    const EdgePush push = balance.inside(*centre);
-    if (std::fabs(push.point) <= 1) return push;
-    end = push.point > 0 ? 1 : -1;
-    share = most;
-  }
-  if (const auto part = root_near(beyond, share); part && *part <= most) return balance.at_end(end, *part);
-  const auto centre = root_near(excess, from + most * (end - from));
-  if (!centre) return {};
-  const EdgePush push = balance.inside(*centre);
-  return std::fabs(push.point) <= 1 ? std::optional(push) : std::nullopt;
-}
-
-/// A solution goes on from the last one; where that one ends, it may be another.
-std::optional<EdgePush> EdgePath::push_against(const Vector3& slip) const {
-  constexpr double steep = 100, same = 1e-9;
-  const Balance balance(*this, slip);
-  const auto some = some_push(balance);
-  if (!some || !is_bounded() || kept_direction_ == Vector3::Zero()) return some;
-  const auto apart = [&](const EdgePush& a) {
-    return std::fabs(a.rubbed - some->rubbed) + std::fabs(a.share - some->share);
-  };
-  if (apart(kept_) <= steep * (slip.normalized() - kept_direction_).norm() + same) return some;
-  const auto next = next_push(balance);
-  if (next) return apart(*next) <= same ? some : next;
-  return at_once_ ? some : std::nullopt;
-}
-
-EdgePath::Values EdgePath::rate(const Values& y) {
-  Values change(7);
-  const auto push = push_against(y.head<3>());
-  if (!push || jumps_ > most_jumps) return change.setConstant(std::numeric_limits<double>::quiet_NaN());
-  Vector5 f;
-  f << -friction_ * push->rub, 1, push->point;
-  now_ = *push;
-  const double beyond = push->asked - push->point;
-  change << g_.topRows<3>() * f, push->point, rise_.dot(f) + rise_[4] * beyond,
-      progress_.storing(y[4]) * profile(push->point), beyond;
-  return change;
-}
-
-void EdgePath::keep() {
-  if (!y_.allFinite()) return;
-  const double size = y_.head<3>().norm();
-  const Vector3 direction = y_.head<3>() / size;
-  const bool is_first = kept_direction_ == Vector3::Zero();
-  const double change = std::fabs(now_.rubbed - kept_.rubbed) + std::fabs(now_.share - kept_.share);
-  if (!is_first && change > 1e-6 && change > 1e6 * (direction - kept_direction_).norm()) ++jumps_;
-  most_share_ = is_first ? now_.share : std::fmin(most_share_ * std::fmax(1, size / largest_), now_.share);
-  largest_ = is_first ? size : std::fmax(largest_, size);
-  kept_ = now_;
-  kept_direction_ = direction;
-  if (now_.share < 1 || now_.is_at_end()) step_error_ = step_of_edge;
-}
-
-/// The share of friction ends its fall within a millionth of slip from where it is least: the rest is of second order.
-bool EdgePath::may_step_to(const Values& next, const Values& then, double length) {
-  constexpr double near = 1e-6, ahead = 1e-5;
-  const double size = next.head<3>().norm(), speed = then.head<3>().norm();
-  if (!kept_.is_at_end() || length * speed <= near * size) return true;
-  if (!now_.is_at_end()) return false;
-  const double share = now_.share;
-  const EdgePush here = now_;
-  (void)rate(next + ahead * size / speed * then);
-  const bool falls = now_.share <= share;
-  now_ = here;
-  return falls;
-}
-
-double EdgePath::impulse_left(const Values& rate) {
-  weight_ = profile(rate[3]);
-  progress_.at = {.impulse = spent_, .normal_velocity = y_[4], .store = y_[5] / weight_};
-  if (progress_.is_at_limit_speed()) return 0;
-  const double excess = progress_.excess(progress_.at);
-  const bool gave_too_much = progress_.is_energetic() && progress_.stage() == Stage::restitution && excess > 0;
-  return gave_too_much ? -excess / progress_.excess_rate(progress_.at, rate[4]) : progress_.length_of_stage(rate[4]);
-}
-
-bool EdgePath::end_stage() {
-  progress_.end_stage();
-  y_[4] = progress_.at.normal_velocity;
-  y_[5] = progress_.at.store * weight_;
-  return progress_.is_done();
-}
-
-/// The rest of the impulse, along which u rises by `rise` and the ground pushes at one point.
-void EdgePath::stick(double rise, double pushed) {
-  const double begin = spent_;
-  progress_.at = {.impulse = spent_, .normal_velocity = y_[4], .store = y_[5] / profile(pushed)};
-  progress_.follow({.normal_rate = rise});
-  spent_ = progress_.at.impulse;
-  y_.head<3>().setZero();
-  y_[3] += pushed * (spent_ - begin);
-}
-
-/// f with G f = (0, 0, 0, profile), by elimination of the pushes along the ground.
-Vector5 EdgePath::holding() const {
-  const Eigen::Matrix<double, 3, 2> held = g_.topLeftCorner<3, 3>().inverse() * g_.topRightCorner<3, 2>();
-  const Matrix2 rest = g_.bottomRightCorner<2, 2>() - g_.bottomLeftCorner<2, 3>() * held;
-  const Vector2 normal = rest.inverse() * profile_;
-  Vector5 f;
-  f << -held * normal, normal;
-  return f;
-}
-
-/// Whether friction can hold the edge where it is pushed; else where slip goes.
-bool EdgePath::can_hold(double pushed, Vector3& direction) const {
-  const Vector3 load = g_.block<3, 2>(0, 3) * Vector2(1, pushed);
-  const double rubbed = std::clamp(pushed, -farthest_rubbed, farthest_rubbed);
-  SlipLetGo slip(load, [&](const Vector3& s) -> Vector3 {
-    return -friction_ * (g_.topLeftCorner<3, 3>() * rub_of_edge(s, rubbed));
-  });
-  const bool is_held = slip.is_held();
-  direction = slip.direction();
-  return is_held;
-}
-
-/// Sticks if friction can hold the edge under the pressure that it then has, or where slip dies out; slips on
-/// otherwise.
-EdgePath::End EdgePath::go_on_from_rest() {
-  const Vector5 f = holding();
-  const double asked = f[4] / f[3];
-  const double pushed = f[3] > 0 ? std::clamp(asked, -1.0, 1.0) : std::copysign(1.0, f[4]);
-  Vector3 direction;
-  if (!can_hold(pushed, direction)) {
-    const Values at_rest = y_;
-    const double spent = spent_;
-    const PathProgress<> progress = progress_;
-    y_.head<3>() = first_slip * direction;
-    most_share_ = 1, largest_ = 1;
-    kept_direction_.setZero();
-    const End end = slide(true);
-    if (end != End::stopped) return end;
-    y_ = at_rest;
-    spent_ = spent;
-    progress_ = progress;
-  }
-  if (!(f[3] > 0)) {  // the less pushing it would take, the more beyond the end: nothing is left of the impulse
-    y_[6] = f[4];
-    return End::stopped;
-  }
-  const double begin = spent_;
-  stick(1 / f[3], pushed);
-  y_[6] += (asked - pushed) * (spent_ - begin);
-  return End::stopped;
-}
-
-std::optional<EdgeImpulse> EdgePath::follow() {
-  EdgeImpulse result;
-  const bool slips = begin_.norm() > slow_;
-  End end = slips ? slide() : End::stopped;
-  if (end == End::stopped) {
-    end = go_on_from_rest();
-    const bool sticks = end == End::stopped;
-    result.path =
-        slips ? (sticks ? PathKind::slip_stick : PathKind::slip_reslip) : (sticks ? PathKind::stick : PathKind::slip);
-  }
-  if (end == End::no_pressure || !(spent_ > 0)) return {};
-  result.tilts = y_[6] != 0;
-  if (step_error_ == step_of_edge) result.path_error = jumps_ > 0 ? error_of_edge_jump : error_of_edge;
-  const Vector2 pushes(spent_, y_[3]);
-  const Vector3 change = y_.head<3>() - begin_ - g_.block<3, 2>(0, 3) * pushes;
-  result.impulse << g_.topLeftCorner<3, 3>().inverse() * change, pushes;
-  result.impulse *= speed_ / unit_;
-  return result;
 }
 
 }  // namespace

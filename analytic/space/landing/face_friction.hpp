@@ -13,11 +13,13 @@
 // F and K depend on the direction of (U, w) alone, and slide and spin end together.  Thereafter the face sticks if
 // friction can hold it under the pressure that it then has, or slip goes on.
 //
-// Where (2) asks for a point R outside the area, the ground pushes at the point x̂ of face_pressure.hpp, and the moment
+// Where (2) asks for a point R outside the area, the ground pushes at the point x̂ of FacePressure, and the moment
 // of the rest tilts the body.  With B from the slopes of its normal velocities, B = Tᵀ (I⁻¹)_hh T, T the quarter turn,
 //     d(U, w)/dP of (1) grows by Sᵀ B (R − x̂),   dω_h/dP = τ + (I⁻¹)_hh T (R − x̂),                     (3)
 // and while the face sticks x̂ is the point nearest to R in the metric of the tilt about points that stay.
 #pragma once
+
+#include <optional>
 
 #include "analytic/space/impulse/contact_area.hpp"
 #include "analytic/space/impulse/impulse_path.hpp"
@@ -55,5 +57,37 @@ struct FaceFriction {
 /// Friction of a face.
 /// Accuracy: 1e-12 of μN and of what (U, w) does to m, J; where it tilts, FaceFriction::path_error.
 [[nodiscard]] FaceFriction face_friction(const SlidingFace& face, const ContactArea& area);
+
+// A level face that slides and spins on level ground under its weight until friction stops both.
+//
+// In axes that turn with the body, U the velocity of the centre of mass, w the spin and P = m g t:
+//     m dU/dP = F − m w/(m g) ẑ × U,   I_zz dw/dP = K,   dψ/dP = w/(m g),   dx/dP = R(ψ) U/(m g),          (4)
+// F, K as above with the pressure that carries the weight and holds the tilt (τ = 0).  Slide and spin
+// end together.
+
+struct SpinningFace {
+  double mass = 1;                 ///< m [kg]
+  double moment = 1;               ///< I_zz about the vertical, which is a principal axis [kg·m²]
+  double depth = 0;                ///< of the ground below the centre of mass [m]
+  double friction = 0;             ///< μ > 0
+  double gravity = 0;              ///< g > 0 [m/s²]
+  Vector2 slip = Vector2::Zero();  ///< U [m/s]
+  double spin = 0;                 ///< w [rad/s]
+};
+
+/// Where it is at a time.
+struct SlidFace {
+  double time = 0;                 ///< since it began, or when it stopped if that is earlier [s]
+  bool has_stopped = false;        ///< until then
+  Vector2 way = Vector2::Zero();   ///< of the centre of mass, axes of the beginning [m]
+  double turn = 0;                 ///< ψ [rad]
+  Vector2 slip = Vector2::Zero();  ///< axes of the beginning [m/s]
+  double spin = 0;                 ///< [rad/s]
+};
+
+/// By (4) up to the time, or the stop before it; nothing where pressure does not stay inside the area.
+/// @param area  from below the centre of mass, axes of the beginning
+/// Accuracy: 1e-12 of time, way and turn until the stop.
+[[nodiscard]] std::optional<SlidFace> slide_and_spin(const SpinningFace& face, const ContactArea& area, double until);
 
 }  // namespace clatter::analytic::space

@@ -20,7 +20,7 @@ constexpr double flat = 1e-12;
 /// Indices of the points on the corners of the convex hull, counter-clockwise; two if all lie on one line to rounding
 /// (the outermost ones), one if all coincide.
 std::vector<int> convex_hull(const std::vector<Vector2>& points) {
-  const auto at = [&](int i) -> const Vector2& { return points[static_cast<std::size_t>(i)]; };
+  const auto at = [&](int i) -> const Vector2& { return points[i]; };
   std::vector<int> order(points.size());
   std::iota(order.begin(), order.end(), 0);
   std::ranges::sort(
@@ -72,10 +72,29 @@ class StrikingGroup {
     return some;
   }
   /// Those that approach as fast as the fastest, to rounding.
-  [[nodiscard]] Points fastest() const;
+  [[nodiscard]] Points fastest() const {
+    const Points some = approaching();
+    const auto slower = [&](const Point& p, const Point& q) { return velocity(p).z() > velocity(q).z(); };
+    const auto fastest = std::ranges::max_element(some, slower);
+    Points equal;
+    for (const Point& p : some) {
+      const double behind = velocity(p).z() - velocity(*fastest).z();
+      if (behind <= struck_.rounding(p.arm) + struck_.rounding(fastest->arm)) equal.push_back(p);
+    }
+    return equal;
+  }
 
   /// Strikes with these points as a whole; false, and nothing done, if pushes alone cannot do it.
-  bool strike(const Points& group);
+  bool strike(const Points& group) {
+    if (group.empty()) return false;
+    std::vector<Vector2> feet;
+    for (const Point& p : group) feet.push_back(p.arm.head<2>());
+    const std::vector<int> hull = convex_hull(feet);
+    const auto corner = [&](int i) -> const Point& { return group[hull[i]]; };
+    if (hull.size() == 1) return strike_corner(corner(0)), true;
+    return hull.size() == 2 ? strike_edge(corner(0), corner(1), group) : strike_face(group, hull);
+  }
+
   /// Strikes with all that approach, unless something then approaches that friction has not tilted.
   bool strike_as_a_whole() {
     StrikingGroup group = *this;
@@ -87,92 +106,65 @@ class StrikingGroup {
     return true;
   }
   /// The corner that strikes alone where these cannot together.
-  [[nodiscard]] const Point& first_of(const Points& group);
+
+  /// The end of an edge that is nearest to its pressure point; which corner of a face it is, the law leaves open.
+  [[nodiscard]] const Point& first_of(const Points& group) {
+    if (group.size() == 2) {
+      const double point = struck_.edge_contact(group[0].place, group[1].place).pressure_point();
+      if (std::fabs(point) > 1) return group[point > 0 ? 1 : 0];
+    }
+    if (group.size() > 1 && struck_.law().rubs()) struck_.leave_open();
+    return group.front();
+  }
+
   void strike_corner(const Point& p) { struck_.strike_at(p.place, {p.index}); }
   [[nodiscard]] bool converges(StrikeSeries& series) { return series.converges(struck_); }
   [[nodiscard]] GroupImpact result() const { return struck_.result(); }
   [[nodiscard]] std::size_t strikes() const { return struck_.strikes(); }
 
  private:
-  bool strike_edge(const Point& first, const Point& second, const Points& group);
-  bool strike_face(const Points& group, const std::vector<int>& hull);
+  static std::vector<int> indices_of(const Points& group) {
+    std::vector<int> indices;
+    for (const Point& p : group) indices.push_back(p.index);
+    return indices;
+  }
+
+  /// The edge strikes with its pressure point as a corner, or with friction all along it.
+  bool strike_edge(const Point& first, const Point& second, const Points& group) {
+    const EdgeContact edge = struck_.edge_contact(first.place, second.place);
+    if (struck_.law().rubs() && !edge.strikes_as_corner()) {
+      const auto struck = struck_.strike_along(edge, first.place, second.place, indices_of(group));
+      tilted_ = struck && struck->tilts;
+      is_lost_ = !struck && std::fabs(edge.pressure_point()) <= 1;
+      return struck.has_value();
+    }
+    const double point = edge.pressure_point();
+    if (!(std::fabs(point) <= 1)) return false;
+    StrikingBody struck = struck_;
+    struck.strike_at(((1 - point) * first.place + (1 + point) * second.place) / 2, indices_of(group));
+    if (struck.approaches(first.arm) || struck.approaches(second.arm)) return false;
+    struck_.take(struck);
+    return true;
+  }
+
+  bool strike_face(const Points& group, const std::vector<int>& hull) {
+    double depth = 0;
+    for (const Point& p : group) depth -= p.arm.z() / static_cast<double>(group.size());
+    ContactArea area;
+    for (const int i : hull) area.corners.emplace_back(group[i].arm.head<2>());
+    const auto face = struck_.face_rebound(depth, area);
+    is_lost_ = face && face->is_lost;
+    if (!face || is_lost_) return false;
+    struck_.push(*face, indices_of(group));
+    tilted_ = face->tilts;
+    return true;
+  }
 
   StrikingBody struck_;
   Points points_;
   bool tilted_ = false;
   bool is_lost_ = false;  ///< friction of what has a pressure without it could not be followed
 };
-
-std::vector<int> indices_of(const StrikingGroup::Points& group) {
-  std::vector<int> indices;
-  for (const auto& p : group) indices.push_back(p.index);
-  return indices;
-}
-
-StrikingGroup::Points StrikingGroup::fastest() const {
-  const Points some = approaching();
-  const auto slower = [&](const Point& p, const Point& q) { return velocity(p).z() > velocity(q).z(); };
-  const auto fastest = std::ranges::max_element(some, slower);
-  Points equal;
-  for (const Point& p : some) {
-    const double behind = velocity(p).z() - velocity(*fastest).z();
-    if (behind <= struck_.rounding(p.arm) + struck_.rounding(fastest->arm)) equal.push_back(p);
-  }
-  return equal;
-}
-
-bool StrikingGroup::strike(const Points& group) {
-  if (group.empty()) return false;
-  std::vector<Vector2> feet;
-  for (const Point& p : group) feet.push_back(p.arm.head<2>());
-  const std::vector<int> hull = convex_hull(feet);
-  const auto corner = [&](int i) -> const Point& {
-    return group[static_cast<std::size_t>(hull[static_cast<std::size_t>(i)])];
-  };
-  if (hull.size() == 1) return strike_corner(corner(0)), true;
-  return hull.size() == 2 ? strike_edge(corner(0), corner(1), group) : strike_face(group, hull);
-}
-
-/// The edge strikes with its pressure point as a corner, or with friction all along it.
-bool StrikingGroup::strike_edge(const Point& first, const Point& second, const Points& group) {
-  const EdgeContact edge = struck_.edge_contact(first.place, second.place);
-  if (struck_.law().rubs() && !edge.strikes_as_corner()) {
-    const auto struck = struck_.strike_along(edge, first.place, second.place, indices_of(group));
-    tilted_ = struck && struck->tilts;
-    is_lost_ = !struck && std::fabs(edge.pressure_point()) <= 1;
-    return struck.has_value();
-  }
-  const double point = edge.pressure_point();
-  if (!(std::fabs(point) <= 1)) return false;
-  StrikingBody struck = struck_;
-  struck.strike_at(((1 - point) * first.place + (1 + point) * second.place) / 2, indices_of(group));
-  if (struck.approaches(first.arm) || struck.approaches(second.arm)) return false;
-  struck_.take(struck);
-  return true;
-}
-
-/// The end of an edge that is nearest to its pressure point; which corner of a face it is, the law leaves open.
-const StrikingGroup::Point& StrikingGroup::first_of(const Points& group) {
-  if (group.size() == 2) {
-    const double point = struck_.edge_contact(group[0].place, group[1].place).pressure_point();
-    if (std::fabs(point) > 1) return group[point > 0 ? 1 : 0];
-  }
-  if (group.size() > 1 && struck_.law().rubs()) struck_.leave_open();
-  return group.front();
-}
-
-bool StrikingGroup::strike_face(const Points& group, const std::vector<int>& hull) {
-  double depth = 0;
-  for (const Point& p : group) depth -= p.arm.z() / static_cast<double>(group.size());
-  ContactArea area;
-  for (const int i : hull) area.corners.emplace_back(group[static_cast<std::size_t>(i)].arm.head<2>());
-  const auto face = struck_.face_rebound(depth, area);
-  is_lost_ = face && face->is_lost;
-  if (!face || is_lost_) return false;
-  struck_.push(*face, indices_of(group));
-  tilted_ = face->tilts;
-  return true;
-}
 
 }  // namespace
 

@@ -7,7 +7,6 @@
 #include "analytic/base/errors.hpp"
 #include "analytic/base/limits.hpp"
 #include "analytic/law/coulomb_path.hpp"
-#include "analytic/law/restitution_without_gain.hpp"
 #include "analytic/space/impulse/impulse_path.hpp"
 #include "analytic/space/landing/face_friction.hpp"
 

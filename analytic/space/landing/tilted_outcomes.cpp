@@ -28,9 +28,7 @@ struct Tilt {
 /// (1 − s) a + s b.
 Tilt between(const Tilt& a, const Tilt& b, double s) {
   Tilt tilt{(1 - s) * a.rise + s * b.rise, a.heights};
-  for (std::size_t i = 0; i < tilt.heights.size(); ++i) {
-    tilt.heights[i] = (1 - s) * a.heights[i] + s * b.heights[i];
-  }
+  for (std::size_t i = 0; i < tilt.heights.size(); ++i) tilt.heights[i] = (1 - s) * a.heights[i] + s * b.heights[i];
   return tilt;
 }
 
@@ -137,24 +135,171 @@ class SectorSearch {
     else open_ += std::fmax(width, 0.0);
   }
   /// Strikes until none approaches or the order of the corners splits the sector.
-  void follow(Sector& sector);
+  void follow(Sector& sector) {
+    while (find_approach(sector.struck)) {
+      if (is_spent()) return wait(std::move(sector));
+      const std::size_t first = first_at(sector.from, sector.to);
+      if (first_cut(sector, first, 0).at < 1) {
+        return split(sector, [this](Sector& part, std::size_t i) { return strike(part, i); });
+      }
+      if (!strike(sector, first)) return void(open_ += sector.width());
+    }
+    GroupImpact impact = sector.struck.result();
+    impact.is_whole = impact.order.size() == 1;
+    const double width = sector.width();
+    found_.add({.tilt_direction = sector.middle(),
+                .share = width / full_turn,
+                .sectors = {{std::atan2(sector.from.rise.y(), sector.from.rise.x()), width}},
+                .impact = std::move(impact)});
+  }
+
   /// Sets speeds_ to those of the corners that approach, 0 for the others; whether any does.
-  bool find_approach(const StrikingBody& struck);
+  bool find_approach(const StrikingBody& struck) {
+    bool any = false;
+    for (std::size_t i = 0; i < arms_.size(); ++i) {
+      const double speed = -struck.velocity(arms_[i]).z();
+      speeds_[i] = speed > slow_ ? speed : 0;
+      any = any || speeds_[i] > 0;
+    }
+    return any;
+  }
+
   [[nodiscard]] double time(const Tilt& tilt, std::size_t i) const { return tilt.heights[i] / speeds_[i]; }
-  [[nodiscard]] std::size_t first_at(const Tilt& tilt, const Tilt& then) const;
+
+  /// The first corner at one end of a sector; of several the one that is first beside it, then the fastest.
+  [[nodiscard]] std::size_t first_at(const Tilt& tilt, const Tilt& then) const {
+    const auto order = [&](std::size_t i) { return std::tuple(time(tilt, i), time(then, i), -speeds_[i]); };
+    std::size_t first = arms_.size();
+    for (std::size_t i = 0; i < arms_.size(); ++i) {
+      if (speeds_[i] > 0 && (first == arms_.size() || order(i) < order(first))) first = i;
+    }
+    return first;
+  }
+
   struct Cut {
     double at = 1;         ///< s of (2); 1: none
     std::size_t next = 0;  ///< the first corner from there on
   };
-  [[nodiscard]] Cut first_cut(const Sector& sector, std::size_t first, double from) const;
+
+  /// Where another corner comes before `first`, which is the first from `from` on.
+  [[nodiscard]] Cut first_cut(const Sector& sector, std::size_t first, double from) const {
+    Cut cut;
+    for (std::size_t i = 0; i < arms_.size(); ++i) {
+      if (!(speeds_[i] > 0) || !(speeds_[i] * (time(sector.to, first) - time(sector.to, i)) > near_)) continue;
+      const double d0 = time(sector.from, i) - time(sector.from, first);
+      const double at = std::fmax(d0 / (d0 + time(sector.to, first) - time(sector.to, i)), from);
+      if (at < cut.at || (at == cut.at && time(sector.to, i) < time(sector.to, cut.next))) cut = {at, i};
+    }
+    return cut;
+  }
+
+  /// Cuts the sector where the first corner changes, and takes the step of the first corner in each part; those in
+  /// which it cannot be taken stay open.
   template <class Step>
-  void split(const Sector& sector, Step&& step);
-  bool put_down(Sector& sector, std::size_t lowest) const;
-  bool strike(Sector& sector, std::size_t first);
-  void strike_corner(StrikingBody& struck, std::size_t i);
-  bool strike_whole(StrikingBody& struck, const std::vector<std::size_t>& group);
-  void settle(StrikingBody& struck);
-  void settle_once(StrikingBody& struck);
+  void split(const Sector& sector, Step&& step) {
+    double from = 0;
+    std::size_t first = first_at(sector.from, sector.to);
+    const std::vector<double> speeds = speeds_;  // before the step
+    for (bool last = false; !last;) {
+      const Cut cut = first_cut(sector, first, from);
+      last = !(cut.at < 1);
+      Sector part{between(sector.from, sector.to, from), between(sector.from, sector.to, cut.at), sector.struck};
+      if (step(part, first)) wait(std::move(part));
+      else open_ += part.width();
+      speeds_ = speeds;
+      from = cut.at;
+      first = cut.next;
+    }
+  }
+
+  /// Takes heights above the lowest corner; true.
+  bool put_down(Sector& sector, std::size_t lowest) const {
+    for (Tilt* tilt : {&sector.from, &sector.to}) {
+      const double least = tilt->heights[lowest];
+      for (double& height : tilt->heights) height = std::fmax(height - least, 0.0);
+    }
+    return true;
+  }
+
+  /// At the moment when `first` touches the ground, (1), with those that touch it then; false if the strike cannot be
+  /// computed.
+  bool strike(Sector& sector, std::size_t first) {
+    StrikingBody& struck = sector.struck;
+    const double from_passed = time(sector.from, first), to_passed = time(sector.to, first);
+    level_.clear();
+    for (std::size_t i = 0; i < arms_.size(); ++i) {
+      double &at_from = sector.from.heights[i], &at_to = sector.to.heights[i];
+      at_from = std::fmax(at_from + struck.velocity(arms_[i]).z() * from_passed, 0.0);
+      at_to = std::fmax(at_to + struck.velocity(arms_[i]).z() * to_passed, 0.0);
+      if (i != first && !(std::fmax(at_from, at_to) <= near_)) continue;
+      at_from = at_to = 0;
+      level_.push_back(i);
+    }
+    try {
+      if (level_.size() > 1) settle(struck);
+      else strike_corner(struck, first);
+    } catch (const NumericalError&) {
+      return false;
+    } catch (const OutsideModelError&) {
+      return false;
+    }
+    return true;
+  }
+
+  void strike_corner(StrikingBody& struck, std::size_t i) {
+    struck.strike_at(touching_[i].place, {touching_[i].index});
+    ++strikes_;
+  }
+
+  /// Strikes with those corners as a whole, if pushes alone can do it.
+  bool strike_whole(StrikingBody& struck, const std::vector<std::size_t>& group) {
+    std::vector<Corner> corners;
+    std::vector<int> points;
+    for (const std::size_t i : group) {
+      corners.push_back(touching_[i]);
+      if (speeds_[i] > 0) points.push_back(touching_[i].index);
+    }
+    const auto whole = rebound_as_a_whole(struck.body(), struck.state(), corners, struck.law());
+    ++strikes_;
+    if (struck.law().rubs()) ++rubs_;
+    if (!whole) return false;
+    struck.push({.impulse = whole->impulse,
+                 .moment = whole->moment,
+                 .path = whole->path,
+                 .tilts = whole->tilts,
+                 .path_error = whole->path_error},
+                points);
+    return true;
+  }
+
+  /// The corners of level_ strike by the rules of strike_together(), until none of them approaches.
+  void settle(StrikingBody& struck) {
+    const Vector3 velocity = struck.state().velocity, rate = struck.state().angular_velocity;
+    for (const Settled& one : settled_) {
+      if (one.level == level_ && one.velocity == velocity && one.rate == rate) return struck.take(one.after);
+    }
+    settle_once(struck);
+    if (!is_spent()) settled_.push_back({level_, velocity, rate, struck});
+  }
+
+  void settle_once(StrikingBody& struck) {
+    while (!is_spent() && strike_whole(struck, level_)) {
+      if (!find_approach(struck)) return;
+    }
+    StrikeSeries series(12);
+    std::vector<std::size_t> fastest;
+    while (!is_spent() && find_approach(struck)) {
+      if (series.converges(struck)) continue;
+      double most = 0;
+      for (const std::size_t i : level_) most = std::fmax(most, speeds_[i]);
+      if (!(most > 0)) return;
+      fastest.clear();
+      std::ranges::copy_if(level_, std::back_inserter(fastest),
+                           [&](std::size_t i) { return speeds_[i] >= most - slow_; });
+      if (fastest.size() == 1 || !strike_whole(struck, fastest)) strike_corner(struck, fastest.front());
+    }
+  }
+
   [[nodiscard]] bool is_spent() const { return strikes_ >= most_.strikes || rubs_ >= most_.rubs; }
 
   /// Corners that were level, and what became of them: other sectors come to the same.
@@ -177,163 +322,6 @@ class SectorSearch {
   std::size_t strikes_ = 0, rubs_ = 0;
   double open_ = 0;  ///< [rad]
 };
-
-bool SectorSearch::find_approach(const StrikingBody& struck) {
-  bool any = false;
-  for (std::size_t i = 0; i < arms_.size(); ++i) {
-    const double speed = -struck.velocity(arms_[i]).z();
-    speeds_[i] = speed > slow_ ? speed : 0;
-    any = any || speeds_[i] > 0;
-  }
-  return any;
-}
-
-/// The first corner at one end of a sector; of several the one that is first beside it, then the fastest.
-std::size_t SectorSearch::first_at(const Tilt& tilt, const Tilt& then) const {
-  const auto order = [&](std::size_t i) { return std::tuple(time(tilt, i), time(then, i), -speeds_[i]); };
-  std::size_t first = arms_.size();
-  for (std::size_t i = 0; i < arms_.size(); ++i) {
-    if (speeds_[i] > 0 && (first == arms_.size() || order(i) < order(first))) first = i;
-  }
-  return first;
-}
-
-/// Where another corner comes before `first`, which is the first from `from` on.
-SectorSearch::Cut SectorSearch::first_cut(const Sector& sector, std::size_t first, double from) const {
-  Cut cut;
-  for (std::size_t i = 0; i < arms_.size(); ++i) {
-    if (!(speeds_[i] > 0) || !(speeds_[i] * (time(sector.to, first) - time(sector.to, i)) > near_)) continue;
-    const double d0 = time(sector.from, i) - time(sector.from, first);
-    const double at = std::fmax(d0 / (d0 + time(sector.to, first) - time(sector.to, i)), from);
-    if (at < cut.at || (at == cut.at && time(sector.to, i) < time(sector.to, cut.next))) cut = {at, i};
-  }
-  return cut;
-}
-
-/// Cuts the sector where the first corner changes, and takes the step of the first corner in each part; those in which
-/// it cannot be taken stay open.
-template <class Step>
-void SectorSearch::split(const Sector& sector, Step&& step) {
-  double from = 0;
-  std::size_t first = first_at(sector.from, sector.to);
-  const std::vector<double> speeds = speeds_;  // before the step
-  for (bool last = false; !last;) {
-    const Cut cut = first_cut(sector, first, from);
-    last = !(cut.at < 1);
-    Sector part{between(sector.from, sector.to, from), between(sector.from, sector.to, cut.at), sector.struck};
-    if (step(part, first)) wait(std::move(part));
-    else open_ += part.width();
-    speeds_ = speeds;
-    from = cut.at;
-    first = cut.next;
-  }
-}
-
-/// Takes heights above the lowest corner; true.
-bool SectorSearch::put_down(Sector& sector, std::size_t lowest) const {
-  for (Tilt* tilt : {&sector.from, &sector.to}) {
-    const double least = tilt->heights[lowest];
-    for (double& height : tilt->heights) height = std::fmax(height - least, 0.0);
-  }
-  return true;
-}
-
-/// At the moment when `first` touches the ground, (1), with those that touch it then; false if the strike cannot be
-/// computed.
-bool SectorSearch::strike(Sector& sector, std::size_t first) {
-  StrikingBody& struck = sector.struck;
-  const double from_passed = time(sector.from, first), to_passed = time(sector.to, first);
-  level_.clear();
-  for (std::size_t i = 0; i < arms_.size(); ++i) {
-    double &at_from = sector.from.heights[i], &at_to = sector.to.heights[i];
-    at_from = std::fmax(at_from + struck.velocity(arms_[i]).z() * from_passed, 0.0);
-    at_to = std::fmax(at_to + struck.velocity(arms_[i]).z() * to_passed, 0.0);
-    if (i != first && !(std::fmax(at_from, at_to) <= near_)) continue;
-    at_from = at_to = 0;
-    level_.push_back(i);
-  }
-  try {
-    if (level_.size() > 1) settle(struck);
-    else strike_corner(struck, first);
-  } catch (const NumericalError&) {
-    return false;
-  } catch (const OutsideModelError&) {
-    return false;
-  }
-  return true;
-}
-
-void SectorSearch::strike_corner(StrikingBody& struck, std::size_t i) {
-  struck.strike_at(touching_[i].place, {touching_[i].index});
-  ++strikes_;
-}
-
-/// Strikes with those corners as a whole, if pushes alone can do it.
-bool SectorSearch::strike_whole(StrikingBody& struck, const std::vector<std::size_t>& group) {
-  std::vector<Corner> corners;
-  std::vector<int> points;
-  for (const std::size_t i : group) {
-    corners.push_back(touching_[i]);
-    if (speeds_[i] > 0) points.push_back(touching_[i].index);
-  }
-  const auto whole = rebound_as_a_whole(struck.body(), struck.state(), corners, struck.law());
-  ++strikes_;
-  if (struck.law().rubs()) ++rubs_;
-  if (!whole) return false;
-  struck.push({.impulse = whole->impulse,
-               .moment = whole->moment,
-               .path = whole->path,
-               .tilts = whole->tilts,
-               .path_error = whole->path_error},
-              points);
-  return true;
-}
-
-/// The corners of level_ strike by the rules of strike_together(), until none of them approaches.
-void SectorSearch::settle(StrikingBody& struck) {
-  const Vector3 velocity = struck.state().velocity, rate = struck.state().angular_velocity;
-  for (const Settled& one : settled_) {
-    if (one.level == level_ && one.velocity == velocity && one.rate == rate) return struck.take(one.after);
-  }
-  settle_once(struck);
-  if (!is_spent()) settled_.push_back({level_, velocity, rate, struck});
-}
-
-void SectorSearch::settle_once(StrikingBody& struck) {
-  while (!is_spent() && strike_whole(struck, level_)) {
-    if (!find_approach(struck)) return;
-  }
-  StrikeSeries series(12);
-  std::vector<std::size_t> fastest;
-  while (!is_spent() && find_approach(struck)) {
-    if (series.converges(struck)) continue;
-    double most = 0;
-    for (const std::size_t i : level_) most = std::fmax(most, speeds_[i]);
-    if (!(most > 0)) return;
-    fastest.clear();
-    std::ranges::copy_if(level_, std::back_inserter(fastest),
-                         [&](std::size_t i) { return speeds_[i] >= most - slow_; });
-    if (fastest.size() == 1 || !strike_whole(struck, fastest)) strike_corner(struck, fastest.front());
-  }
-}
-
-void SectorSearch::follow(Sector& sector) {
-  while (find_approach(sector.struck)) {
-    if (is_spent()) return wait(std::move(sector));
-    const std::size_t first = first_at(sector.from, sector.to);
-    if (first_cut(sector, first, 0).at < 1) {
-      return split(sector, [this](Sector& part, std::size_t i) { return strike(part, i); });
-    }
-    if (!strike(sector, first)) return void(open_ += sector.width());
-  }
-  GroupImpact impact = sector.struck.result();
-  impact.is_whole = impact.order.size() == 1;
-  const double width = sector.width();
-  found_.add({.tilt_direction = sector.middle(),
-              .share = width / full_turn,
-              .sectors = {{std::atan2(sector.from.rise.y(), sector.from.rise.x()), width}},
-              .impact = std::move(impact)});
-}
 
 /// Directions of the tilt of a level rim.
 constexpr int sampled_directions = 64;

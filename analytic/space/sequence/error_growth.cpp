@@ -117,9 +117,7 @@ void ErrorGrowth::append(const Factor& columns) {
 ErrorGrowth::Factor ErrorGrowth::impulse_rounding(const ImpactRow& row) const {
   double speed = row.before.velocity.norm() + row.before.angular_velocity.norm() * body_.reach();
   // P is of degree one in the velocity of the corner, the normal part of which is a hop's.
-  if (is_hop(row)) {
-    speed *= std::fmin(1, row.impact.impulse.norm() / (body_.mass * row.impact.contact_before.norm()));
-  }
+  if (is_hop(row)) speed *= std::fmin(1, row.impact.impulse.norm() / (body_.mass * row.impact.contact_before.norm()));
   const double rounding = path_rounding(row) * row.impact.impulse.norm() + 8 * epsilon * body_.mass * speed;
   const Matrix3 axes = row.before.attitude.toRotationMatrix();
   const Matrix3 lever = axes * inverse_inertia_ * axes.transpose() * cross_matrix(axes * row.corners.front().place);

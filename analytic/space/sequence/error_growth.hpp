@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "analytic/base/limits.hpp"
-#include "analytic/space/impulse/strike_derivatives.hpp"
+#include "analytic/space/impulse/impact.hpp"
 #include "analytic/space/sequence/impact_rows.hpp"
 #include "analytic/space/sequence/sustained_contact.hpp"
 
@@ -16,7 +16,7 @@ namespace clatter::analytic::space {
 /// Errors of the state (t, δθ, δV, δω) at touch and departure, to first order: δθ the rotation vector of the attitude's
 /// error, everything in the world frame; the height of the centre of mass follows from the touch.
 ///
-/// Impact: strike_derivatives.hpp; where that has none, central differences, of a corner's P in its velocity and in δθ,
+/// Impact: impact.hpp; where that has none, central differences, of a corner's P in its velocity and in δθ,
 /// each on its own scale, of a group's impact in δθ, V and ω.  Flight: flight_derivatives.hpp.
 /// A corner's normal velocity after an impact and after a small hop is carried beside V and ω to relative accuracy:
 /// rounding of those leaves it as it is.

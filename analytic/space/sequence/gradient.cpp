@@ -10,7 +10,7 @@
 #include "analytic/base/errors.hpp"
 #include "analytic/base/limits.hpp"
 #include "analytic/space/flight/flight_derivatives.hpp"
-#include "analytic/space/sequence/row_impact.hpp"
+#include "analytic/space/sequence/impact_rows.hpp"
 #include "analytic/space/sequence/sequence.hpp"
 
 namespace clatter::analytic::space {
@@ -210,7 +210,7 @@ class Tracer {
     Eigen::Matrix<double, 9, 10> wide = Eigen::Matrix<double, 9, 10>::Zero();
     wide.rightCols<9>() = closed;
     slope.value = wide * carried.value;
-    for (int k = 0; k < 3; ++k) slope.error[static_cast<std::size_t>(k)] = carried.error_of(wide.middleRows<3>(3 * k));
+    for (int k = 0; k < 3; ++k) slope.error[k] = carried.error_of(wide.middleRows<3>(3 * k));
     return slope;
   }
 

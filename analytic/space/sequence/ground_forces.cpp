@@ -102,7 +102,7 @@ GroundLaw::Arms GroundLaw::arms(const State& s, std::span<const GroundPoint> poi
   for (const GroundPoint& p : points) a.arms.emplace_back(axes * p.place);
   for (std::size_t i = 0; i < points.size(); ++i) {
     for (std::size_t j = 0; j < points.size(); ++j) {
-      a.effect.block<3, 3>(static_cast<Eigen::Index>(3 * i), static_cast<Eigen::Index>(3 * j)) =
+      a.effect.block<3, 3>(3 * i, 3 * j) =
           Matrix3::Identity() / drop_.body.mass - cross_matrix(a.arms[i]) * a.inverse * cross_matrix(a.arms[j]);
     }
   }
@@ -126,15 +126,13 @@ GroundForces GroundLaw::forces(const State& s, std::span<const GroundPoint> poin
   const SmallVector all = solved(unknowns(s, points, friction_), effect, free, edge, drop_.body.mass, f.is_unique);
   f.turning = free_turning;
   for (std::size_t i = 0; i < arms.size(); ++i) {
-    f.of_points.emplace_back(all.segment<3>(static_cast<Eigen::Index>(3 * i)));
+    f.of_points.emplace_back(all.segment<3>(3 * i));
     f.turning += inverse * arms[i].cross(f.of_points.back());
   }
   if (points.size() == 2 && points[0].sticks && points[1].sticks)
     f.turning = turning_about_edge(drop_, inertia, arms[0], edge);
   const SmallVector gained = free + effect * all;
-  for (std::size_t i = 0; i < arms.size(); ++i) {
-    f.accelerations.emplace_back(gained.segment<3>(static_cast<Eigen::Index>(3 * i)));
-  }
+  for (std::size_t i = 0; i < arms.size(); ++i) f.accelerations.emplace_back(gained.segment<3>(3 * i));
   return f;
 }
 
@@ -142,12 +140,12 @@ State GroundLaw::stopped(State s, std::span<const GroundPoint> points) const {
   const auto [inverse, arms, effect, edge] = this->arms(s, points);
   SmallVector moving = SmallVector::Zero(6);
   for (std::size_t i = 0; i < arms.size(); ++i) {
-    moving.segment<3>(static_cast<Eigen::Index>(3 * i)) = s.velocity + s.angular_velocity.cross(arms[i]);
+    moving.segment<3>(3 * i) = s.velocity + s.angular_velocity.cross(arms[i]);
   }
   bool is_unique = true;
   const SmallVector all = solved(unknowns(s, points, 0), effect, moving, edge, drop_.body.mass, is_unique);
   for (std::size_t i = 0; i < arms.size(); ++i) {
-    const Vector3 impulse = all.segment<3>(static_cast<Eigen::Index>(3 * i));
+    const Vector3 impulse = all.segment<3>(3 * i);
     s.velocity += impulse / drop_.body.mass;
     s.angular_velocity += inverse * arms[i].cross(impulse);
   }

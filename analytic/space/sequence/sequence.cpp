@@ -14,11 +14,9 @@
 #include "analytic/space/landing/level_rim.hpp"
 #include "analytic/space/landing/striking_body.hpp"
 #include "analytic/space/sequence/accumulation.hpp"
+#include "analytic/space/sequence/ending.hpp"
 #include "analytic/space/sequence/error_growth.hpp"
 #include "analytic/space/sequence/impact_rows.hpp"
-#include "analytic/space/sequence/last_motion.hpp"
-#include "analytic/space/sequence/resting_face.hpp"
-#include "analytic/space/sequence/row_impact.hpp"
 #include "analytic/space/sequence/sustained_contact.hpp"
 
 namespace clatter::analytic::space {
@@ -137,7 +135,7 @@ class Run : public SequenceLoop<Sequence, ErrorGrowth> {
   /// between, beside the rounding of their places.
   [[nodiscard]] bool is_level(const std::vector<int>& corners) const {
     const Vector3 up = state_.attitude.toRotationMatrix().row(2);
-    const auto place = [&](int i) -> const Vector3& { return body_.vertices[static_cast<std::size_t>(i)]; };
+    const auto place = [&](int i) -> const Vector3& { return body_.vertices[i]; };
     const auto is_round = [&](int i) { return static_cast<std::size_t>(i) >= body_.vertices.size(); };
     if (std::ranges::any_of(corners, is_round)) return true;
     return std::ranges::all_of(corners, [&](int i) {
@@ -170,7 +168,7 @@ class Run : public SequenceLoop<Sequence, ErrorGrowth> {
     flown = first_contact(body_, flight, touches_);
     result_.root_evaluations += flown.evaluations;
     const auto lifted = std::exchange(lifted_, {});
-    const Vector3& from = lifted ? body_.vertices[static_cast<std::size_t>(*lifted)] : last.corners.front().place;
+    const Vector3& from = lifted ? body_.vertices[*lifted] : last.corners.front().place;
     if (flown.end == FlightEnd::contact || flown.end == FlightEnd::no_contact)
       note_flight(flight, from, flown.end == FlightEnd::contact ? time_ + flown.time : infinite);
     if (flown.end == FlightEnd::contact && is_over(time_ + flown.time)) return Next::end;
@@ -729,9 +727,7 @@ class Run : public SequenceLoop<Sequence, ErrorGrowth> {
 
   /// Turns the body by what its corners below still lack of lying level, and puts them on the ground.
   void lie_level() {
-    const auto place = [&](std::size_t i) -> const Vector3& {
-      return body_.vertices[static_cast<std::size_t>(lying_[i])];
-    };
+    const auto place = [&](std::size_t i) -> const Vector3& { return body_.vertices[lying_[i]]; };
     Vector3 from, to;  // a direction of the body as it is and as it would be
     if (lying_.size() == 2) {
       to = from = state_.attitude * (place(1) - place(0));

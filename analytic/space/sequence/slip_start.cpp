@@ -12,6 +12,9 @@
 
 namespace clatter::analytic::space {
 
+using detail::epsilon;
+using detail::infinite;
+
 namespace {
 
 /// P_0 … P_n.
@@ -25,37 +28,48 @@ std::array<double, count> legendre(double x) {
   return p;
 }
 
-}  // namespace
+/// Collocation at Radau points: an implicit Runge–Kutta method for motions that are stiff at first.
+///
+/// The rates K_j at the points c_j of a step h from y give
+///     Y_i = y + h Σ_j A_ij K_j,   A_ij = ∫₀^{c_i} l_j(c) dc,   c_s = 1,                                     (1)
+/// l_j the polynomials of Lagrange.  The error of Y_s is of order h^(2s) where the motion is not stiff; one that is
+/// driven back to where its slow solution lies is damped whatever the step (Hairer and Wanner, Radau IIA).
+struct RadauRule {
+  static constexpr int points = SlipStart::order;
+  using Array = Eigen::Matrix<double, points, 1>;
 
-RadauRule::RadauRule() {
-  constexpr auto s = static_cast<std::size_t>(points);
-  Eigen::Matrix<double, points, points> values, integrals;
-  for (int i = 0; i < points; ++i) {
-    // The zeros of P_s − P_{s−1}, by Newton's method from those of a Chebyshev polynomial; the last is 1.
-    double x = -std::cos(std::numbers::pi * (2 * i + 1) / (2 * points - 1));
-    if (i == points - 1) x = 1;
-    for (int k = 0; k < 50 && i < points - 1; ++k) {
+  RadauRule() {
+    constexpr auto s = static_cast<std::size_t>(points);
+    Eigen::Matrix<double, points, points> values, integrals;
+    for (int i = 0; i < points; ++i) {
+      // The zeros of P_s − P_{s−1}, by Newton's method from those of a Chebyshev polynomial; the last is 1.
+      double x = -std::cos(std::numbers::pi * (2 * i + 1) / (2 * points - 1));
+      if (i == points - 1) x = 1;
+      for (int k = 0; k < 50 && i < points - 1; ++k) {
+        const auto p = legendre<s + 1>(x);
+        const double n = points, scale = x * x - 1;
+        const double slope = (n * (x * p[s] - p[s - 1]) - (n - 1) * (x * p[s - 1] - p[s - 2])) / scale;
+        x -= (p[s] - p[s - 1]) / slope;
+      }
+      at[i] = (1 + x) / 2;
       const auto p = legendre<s + 1>(x);
-      const double n = points, scale = x * x - 1;
-      const double slope = (n * (x * p[s] - p[s - 1]) - (n - 1) * (x * p[s - 1] - p[s - 2])) / scale;
-      x -= (p[s] - p[s - 1]) / slope;
+      for (std::size_t k = 0; k < s; ++k) {
+        const auto column = static_cast<Eigen::Index>(k);
+        values(i, column) = p[k];
+        integrals(i, column) = k == 0 ? (1 + x) / 2 : (p[k + 1] - p[k - 1]) / (2 * (2 * static_cast<double>(k) + 1));
+      }
     }
-    at[i] = (1 + x) / 2;
-    const auto p = legendre<s + 1>(x);
-    for (std::size_t k = 0; k < s; ++k) {
-      const auto column = static_cast<Eigen::Index>(k);
-      values(i, column) = p[k];
-      integrals(i, column) = k == 0 ? (1 + x) / 2 : (p[k + 1] - p[k - 1]) / (2 * (2 * static_cast<double>(k) + 1));
-    }
+    const Eigen::Matrix<double, points, points> coefficients = values.inverse();
+    weight = integrals * coefficients;
+    highest = coefficients.row(points - 1);
   }
-  const Eigen::Matrix<double, points, points> coefficients = values.inverse();
-  weight = integrals * coefficients;
-  highest = coefficients.row(points - 1);
-}
 
-using detail::epsilon;
-
-namespace {
+  Array at;                                      ///< c_j, ascending, the last is 1
+  Eigen::Matrix<double, points, points> weight;  ///< A
+  /// Coefficient of the highest Legendre polynomial of what has these values at the points: it falls off geometrically
+  /// with the number of points, and times h bounds what the polynomial through them leaves out of Y_s.
+  Array highest;
+};
 
 using SlipSlopes = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, 2, 2>;
 
@@ -74,8 +88,8 @@ SlipAngles across(const GroundLaw& law, const State& s, const std::vector<Ground
 
 SlipAngles angles_of(const std::vector<GroundPoint>& points) {
   const auto turning = turning_points(points);
-  SlipAngles angles(static_cast<Eigen::Index>(turning.size()));
-  for (Eigen::Index k = 0; k < angles.size(); ++k) angles[k] = points[turning[static_cast<std::size_t>(k)]].angle;
+  SlipAngles angles(turning.size());
+  for (Eigen::Index k = 0; k < angles.size(); ++k) angles[k] = points[turning[k]].angle;
   return angles;
 }
 
@@ -254,9 +268,6 @@ std::vector<std::vector<GroundPoint>> ways_to_slip(const GroundLaw& law, const S
   return ways;
 }
 
-using detail::epsilon;
-using detail::infinite;
-
 namespace {
 
 constexpr int stages = RadauRule::points;
@@ -289,9 +300,7 @@ class Collocation {
   using Numbers = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, 2 * stages, 1>;
 
   [[nodiscard]] int corners() const { return static_cast<int>(turning_.size()); }
-  [[nodiscard]] GroundPoint& point(std::vector<GroundPoint>& of, int k) const {
-    return of[turning_[static_cast<std::size_t>(k)]];
-  }
+  [[nodiscard]] GroundPoint& point(std::vector<GroundPoint>& of, int k) const { return of[turning_[k]]; }
   [[nodiscard]] Stages reached(const Stages& rates) const {
     return from_.replicate<1, stages>() + length_ * rates * radau_rule().weight.transpose();
   }
@@ -335,11 +344,11 @@ bool Collocation::begin(const std::vector<GroundPoint>& given) {
   const GroundMotion first = rate(from_, points_);
   for (int l = 0; l < stages; ++l) {
     const GroundMotion at = from_ + radau_rule().at[l] * length_ * first;
-    const SlipAngles none = SlipAngles::Zero(static_cast<Eigen::Index>(beginning.size()));
+    const SlipAngles none = SlipAngles::Zero(beginning.size());
     const SlipAngles angles = slip_angles(law_, state_of(at, points_), given, none);
     if (!angles.allFinite()) return false;
     auto now = points_;
-    for (std::size_t k = 0; k < beginning.size(); ++k) now[beginning[k]].angle = angles[static_cast<Eigen::Index>(k)];
+    for (std::size_t k = 0; k < beginning.size(); ++k) now[beginning[k]].angle = angles[k];
     for (int k = 0; k < corners(); ++k) angles_(k, l) = point(now, k).angle;
     rates_.col(l) = rate(at, now);
   }
@@ -363,7 +372,7 @@ void Collocation::find_rates() {
       auto more = directed(l), less = more;
       point(more, k).angle += step;
       point(less, k).angle -= step;
-      by_angle_[static_cast<std::size_t>(k)].col(l) = (rate(y, more) - rate(y, less)) / (2 * step);
+      by_angle_[k].col(l) = (rate(y, more) - rate(y, less)) / (2 * step);
     }
   }
 }
@@ -384,7 +393,7 @@ void Collocation::set_equations(const Stages& next, Equations& equations, Number
       const int row = corners() * l + k;
       for (int m = 0; m < stages; ++m) {
         for (int j = 0; j < corners(); ++j) {
-          const double turned = by_state.dot(by_angle_[static_cast<std::size_t>(j)].col(m));
+          const double turned = by_state.dot(by_angle_[j].col(m));
           equations(row, corners() * m + j) = length_ * radau_rule().weight(l, m) * turned;
         }
       }
@@ -407,7 +416,7 @@ double Collocation::improve(const MotionScale& scale) {
     for (int k = 0; k < corners(); ++k) {
       const double angle = turned[corners() * l + k];
       angles_(k, l) += angle;
-      turning.col(l) += angle * by_angle_[static_cast<std::size_t>(k)].col(l);
+      turning.col(l) += angle * by_angle_[k].col(l);
     }
   }
   next += length_ * turning * radau_rule().weight.transpose();
@@ -423,8 +432,8 @@ double Collocation::stiffness() const {
     double turns = 0;
     for (int j = 0; j < corners(); ++j) {
       GroundMotion by = end();
-      by.segment<5>(4) = by_angle_[static_cast<std::size_t>(j)].col(stages - 1).segment<5>(4);
-      turns += slip_of(by, points_, points_[turning_[static_cast<std::size_t>(k)]]).norm();
+      by.segment<5>(4) = by_angle_[j].col(stages - 1).segment<5>(4);
+      turns += slip_of(by, points_, points_[turning_[k]]).norm();
     }
     largest = std::fmax(largest, turns / speed_(k, stages - 1));
   }

@@ -5,7 +5,7 @@
 // the direction φ₀ with g(φ₀) = 0, where σ = f t and φ₀ = φ₀(0) + φ₀′ t,
 //     φ = φ₀ + σ φ₀′/(g_φ − f),   g_φ < 0,                                                               (1)
 // and whatever is beside this solution goes away as t^(g_φ/f).  Velocities are smooth functions of time on it, from
-// the moment when slip is zero on.  One step of RadauRule, implicit in the directions of all that slips, finds
+// the moment when slip is zero on.  One step of Radau's rule, implicit in the directions of all that slips, finds
 // them without (1): at each point of the step slip has the direction in which friction acts against it.
 #pragma once
 
@@ -16,26 +16,6 @@
 #include "analytic/space/sequence/ground_forces.hpp"
 
 namespace clatter::analytic::space {
-
-// Collocation at Radau points: an implicit Runge–Kutta method for motions that are stiff at first.
-//
-// The rates K_j at the points c_j of a step h from y give
-//     Y_i = y + h Σ_j A_ij K_j,   A_ij = ∫₀^{c_i} l_j(c) dc,   c_s = 1,                                     (1)
-// l_j the polynomials of Lagrange.  The error of Y_s is of order h^(2s) where the motion is not stiff; one that is
-// driven back to where its slow solution lies is damped whatever the step (Hairer and Wanner, Radau IIA).
-
-struct RadauRule {
-  static constexpr int points = 6;
-  using Array = Eigen::Matrix<double, points, 1>;
-
-  RadauRule();
-
-  Array at;                                      ///< c_j, ascending, the last is 1
-  Eigen::Matrix<double, points, points> weight;  ///< A
-  /// Coefficient of the highest Legendre polynomial of what has these values at the points: it falls off geometrically
-  /// with the number of points, and times h bounds what the polynomial through them leaves out of Y_s.
-  Array highest;
-};
 
 // How slip begins at corners that stay on the ground and stuck.
 //
@@ -71,11 +51,11 @@ using SlipAngles = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, 2, 
                                                                  const std::vector<GroundPoint>& points);
 
 struct SlipStart {
-  static constexpr int order = RadauRule::points;  ///< of `error` in the length of the step
-  GroundMotion end;                                ///< the beginning, if no such step was found
-  GroundMotion error;                              ///< an estimate; infinite, if no such step was found
-  std::vector<GroundPoint> points;                 ///< with their directions at the end
-  double stiffness = 0;  ///< largest rate at which a direction is driven back, or away, at the end [1/s]
+  static constexpr int order = 6;   ///< of `error` in the length of the step
+  GroundMotion end;                 ///< the beginning, if no such step was found
+  GroundMotion error;               ///< an estimate; infinite, if no such step was found
+  std::vector<GroundPoint> points;  ///< with their directions at the end
+  double stiffness = 0;             ///< largest rate at which a direction is driven back, or away, at the end [1/s]
 };
 
 /// @param points  none sticks, and some begin to slip

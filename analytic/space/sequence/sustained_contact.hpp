@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A body that turns on while one or two of its corners stay on the ground.
 //
-// ground_forces.hpp has the forces, contact_motion.hpp solves the equations of motion.
+// ground_forces.hpp has the forces.
 //     corner sticks   while |f_t| <= μ N; where that ends, slip begins against the friction that held it
 //                     (slip_start.hpp).  An edge sticks while some division of the friction along it holds both
 //                     corners; then one slips across it, or both slip

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Limits of the impulse ratio, and the restitution of a damped ground.
-#include "analytic/law/impact_limits.hpp"
+#include "analytic/law/impact_law.hpp"
 #include "analytic/law/viscoelastic.hpp"
 #include "analytic/plane/impact.hpp"
 #include "tests/support.hpp"

@@ -113,7 +113,7 @@ BOOST_AUTO_TEST_CASE(every_sector_is_what_its_own_directions_give_and_elastic_st
       Eigen::Vector2d rate = Eigen::Vector2d::Zero();
       for (const CornerStrike& strike : sector.strikes) {
         v += strike.impulse;
-        rate += strike.impulse * uneven.mobility * uneven.corners[static_cast<std::size_t>(strike.corner)];
+        rate += strike.impulse * uneven.mobility * uneven.corners[strike.corner];
         lost += strike.impulse * strike.approach * (1 - e) / 2;
       }
       BOOST_CHECK_LE(std::fabs((v * v + rate.dot(uneven.mobility.inverse() * rate)) / 2 + lost - 0.5), 1e-14);

@@ -2,7 +2,6 @@
 #include "analytic/plane/flight.hpp"
 
 #include "analytic/base/angle.hpp"
-#include "analytic/plane/first_root.hpp"
 #include "tests/support.hpp"
 
 namespace {

@@ -40,8 +40,7 @@ oracle::EventSequence<Real> simulated(const Numbers& n, int count, std::size_t p
   oracle::EventBody<Real> body{drop.body.mass, 0, {}};
   body.gyration_square = n.is_box ? (Real(n.is_box ? 0.75 : 1) * 0.75 + Real(0.25) * 0.25) / 12 : Real(1) / 12;
   for (int i = 0; i < drop.body.vertex_count; ++i)
-    body.vertices.push_back({Real(drop.body.vertices[static_cast<std::size_t>(i)].x),
-                             Real(drop.body.vertices[static_cast<std::size_t>(i)].z)});
+    body.vertices.push_back({Real(drop.body.vertices[i].x), Real(drop.body.vertices[i].z)});
   const auto moved = [&](std::size_t which, double value) { return Real(value) + (which == parameter ? by : Real(0)); };
   oracle::EventLaw<Real> law{.restitution = moved(2, n.restitution), .gravity = Real(n.gravity)};
   law.kind = n.law == RestitutionLaw::poisson   ? oracle::EventRestitution::poisson

@@ -5,7 +5,6 @@
 
 #include "analytic/base/errors.hpp"
 #include "analytic/plane/contact_angles.hpp"
-#include "analytic/plane/summed_sequence.hpp"
 #include "tests/support.hpp"
 
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "numeric/contact/smooth_contact.hpp"
+#include "numeric/contact/contact_load.hpp"
 
 #include "numeric/contact/gauss_rules.hpp"
 #include "tests/numeric/bodies.hpp"
@@ -183,7 +183,7 @@ SlipLoad summed(const SmoothShape& shape, const Ground& ground, const GroundView
   const double height = -view.sink / stretched.norm();
   SlipLoad load;
   for (int k = 0; k < heights * nodes; ++k) {
-    const GaussNode node = gauss_rule(nodes)[static_cast<std::size_t>(k % nodes)];
+    const GaussNode node = gauss_rule(nodes)[k % nodes];
     const double t = (k / nodes + (1 + node.at) / 2) / heights, z = height * t * t, rho = std::sqrt(z * (2 - z));
     for (int i = 0; i < around; ++i) {
       const double angle = 2 * pi * i / around;

@@ -26,41 +26,40 @@ constexpr Method methods[] = {Method::automatic, Method::tvd_rk3, Method::rk4,
 
 /// A box or rod that a hand could throw, by its number.
 struct Scene {
-  explicit Scene(unsigned number);
+  explicit Scene(unsigned number) {
+    Random random(number);
+    const auto over = [&](double low, double high) { return std::exp(random(std::log(low), std::log(high))); };
+    const double mass = over(0.02, 5), length = over(0.05, 0.5), thickness = over(0.01, 0.2);
+    const bool is_rod = random.one_in(3);
+    body = is_rod ? Body(rod_mesh({.length = 2 * length, .radius = thickness / 4, .mass = mass}))
+                  : box_body({length, over(0.02, 0.3), thickness}, mass);
+    const double angles[] = {0, 90, over(1e-3, 5), random(0, 90)}, tilts[] = {0, 90, random(0, 90)};
+    world.planar = random.one_in(2);
+    const double speed = over(0.3, 5);
+    start = touching_state(body, {.inclination = angles[random.below(4)] * degree,
+                                  .velocity = {random.one_in(2) ? 0 : random(-2, 2), 0, -speed},
+                                  .spin = random.one_in(2) ? 0 : random(-5, 5),
+                                  .out_of_plane_tilt = world.planar ? 0 : tilts[random.below(3)] * degree});
+    Ground& ground = world.ground;
+    ground.stiffness = over(1e7, 1e11);
+    ground.damping = random.one_in(2) ? 0 : over(0.003, 0.3) * ground.stiffness / speed;
+    ground.sliding_friction = random.one_in(8) ? 0 : random(0, 2);
+    ground.static_friction = random.one_in(2) ? ground.sliding_friction : random(ground.sliding_friction, 2);
+    ground.area = random.one_in(2) ? AreaMeasure::surface : AreaMeasure::projected;
+    // Over the many facets on which a rod lies the regularised law, which is stiff, takes a minute.
+    if (random.one_in(8) && !is_rod) ground.friction = FrictionLaw::regularised;
+    accuracy.method = methods[random.below(6)];
+    accuracy.digits = 4 + static_cast<int>(random.below(2));
+    request.impacts = 1 + static_cast<int>(random.below(3));
+    world.gravity = random.one_in(2) ? 0 : 9.81;
+  }
+
   Body body = phone();
   World world;
   Request request;
   Accuracy accuracy;
   MotionState start;
 };
-
-Scene::Scene(unsigned number) {
-  Random random(number);
-  const auto over = [&](double low, double high) { return std::exp(random(std::log(low), std::log(high))); };
-  const double mass = over(0.02, 5), length = over(0.05, 0.5), thickness = over(0.01, 0.2);
-  const bool is_rod = random.one_in(3);
-  body = is_rod ? Body(rod_mesh({.length = 2 * length, .radius = thickness / 4, .mass = mass}))
-                : box_body({length, over(0.02, 0.3), thickness}, mass);
-  const double angles[] = {0, 90, over(1e-3, 5), random(0, 90)}, tilts[] = {0, 90, random(0, 90)};
-  world.planar = random.one_in(2);
-  const double speed = over(0.3, 5);
-  start = touching_state(body, {.inclination = angles[random.below(4)] * degree,
-                                .velocity = {random.one_in(2) ? 0 : random(-2, 2), 0, -speed},
-                                .spin = random.one_in(2) ? 0 : random(-5, 5),
-                                .out_of_plane_tilt = world.planar ? 0 : tilts[random.below(3)] * degree});
-  Ground& ground = world.ground;
-  ground.stiffness = over(1e7, 1e11);
-  ground.damping = random.one_in(2) ? 0 : over(0.003, 0.3) * ground.stiffness / speed;
-  ground.sliding_friction = random.one_in(8) ? 0 : random(0, 2);
-  ground.static_friction = random.one_in(2) ? ground.sliding_friction : random(ground.sliding_friction, 2);
-  ground.area = random.one_in(2) ? AreaMeasure::surface : AreaMeasure::projected;
-  // Over the many facets on which a rod lies the regularised law, which is stiff, takes a minute.
-  if (random.one_in(8) && !is_rod) ground.friction = FrictionLaw::regularised;
-  accuracy.method = methods[random.below(6)];
-  accuracy.digits = 4 + static_cast<int>(random.below(2));
-  request.impacts = 1 + static_cast<int>(random.below(3));
-  world.gravity = random.one_in(2) ? 0 : 9.81;
-}
 
 }  // namespace
 

@@ -3,7 +3,7 @@
 #include <new>
 
 #include "analytic/base/errors.hpp"
-#include "numeric/errors.hpp"
+#include "numeric/base/errors.hpp"
 #include "tests/support.hpp"
 #include "validation/embedded/embedded.hpp"
 #include "validation/output/bad_input.hpp"

@@ -50,7 +50,7 @@ Scene random_scene(auto& random) {
     return s;
   }
   for (int i = 0; i < static_cast<int>(s.body.vertices.size()); ++i) {
-    const Vector3 r = s.state.attitude * s.body.vertices[static_cast<std::size_t>(i)];
+    const Vector3 r = s.state.attitude * s.body.vertices[i];
     if (std::fabs(r.z() + s.state.position.z()) > 1e-12) continue;
     s.touching = i;
     const double u = s.state.velocity.z() + s.state.angular_velocity.cross(r).z();
@@ -69,8 +69,8 @@ class March {
     const Quaternion q = scene.state.attitude * Quaternion(axes);
     const Vector3 w = q.conjugate() * scene.state.angular_velocity;
     for (int k = 0; k < 3; ++k) {
-      top_.moments[static_cast<std::size_t>(k)] = solver.eigenvalues()[k];
-      top_.w[static_cast<std::size_t>(k)] = w[k];
+      top_.moments[k] = solver.eigenvalues()[k];
+      top_.w[k] = w[k];
     }
     top_.q = {q.w(), q.x(), q.y(), q.z()};
     for (const Vector3& r : scene.body.vertices) places_.push_back(axes.transpose() * r);
@@ -165,7 +165,7 @@ class March {
 FirstContact find(const Scene& s) {
   const FreeFlight flight(PrincipalAxes(s.body.inertia), s.state, s.gravity);
   if (s.touching < 0) return first_contact(s.body, flight, {});
-  const Vector3 r = s.state.attitude * s.body.vertices[static_cast<std::size_t>(s.touching)];
+  const Vector3 r = s.state.attitude * s.body.vertices[s.touching];
   const Touch touch{s.touching, s.state.velocity.z() + s.state.angular_velocity.cross(r).z()};
   return first_contact(s.body, flight, {&touch, 1});
 }
@@ -178,7 +178,7 @@ BOOST_AUTO_TEST_CASE(a_touching_corner_that_approaches_by_rounding_arrives_alone
   s.attitude = Quaternion(Eigen::AngleAxisd(0.1, Vector3(1, 2, 0).normalized()));
   const auto height = [&](const Vector3& place) { return (s.attitude * place).z(); };
   const auto lowest = static_cast<int>(std::ranges::min_element(body.vertices, {}, height) - body.vertices.begin());
-  const Vector3 arm = s.attitude * body.vertices[static_cast<std::size_t>(lowest)];
+  const Vector3 arm = s.attitude * body.vertices[lowest];
   s.position.z() = -arm.z();
   s.angular_velocity = {0.4, -1, 0};
   s.velocity = -s.angular_velocity.cross(arm);

@@ -30,8 +30,8 @@ clatter::oracle::Top<Quad> top_of(const Case& c) {
   for (int i = 0; i < 4; ++i) inverse = inverse * (3 - square * inverse * inverse) / 2;
   for (std::size_t k = 0; k < 4; ++k) top.q[k] = Quad(parts[k]) * inverse;
   for (int k = 0; k < 3; ++k) {
-    top.moments[static_cast<std::size_t>(k)] = c.moments[k];
-    top.w[static_cast<std::size_t>(k)] = c.velocity[k];
+    top.moments[k] = c.moments[k];
+    top.w[k] = c.velocity[k];
   }
   return top;
 }
@@ -90,9 +90,7 @@ const Case cases[] = {
 }  // namespace
 
 BOOST_AUTO_TEST_CASE(the_attitude_after_1000_turns_is_that_of_a_taylor_series_in_quadruple_precision) {
-  for (const Case& c : {cases[0], cases[6]}) {
-    BOOST_TEST(error_after(c, 1000, 0.75, 44) <= 1e-13);
-  }
+  for (const Case& c : {cases[0], cases[6]}) BOOST_TEST(error_after(c, 1000, 0.75, 44) <= 1e-13);
 }
 
 BOOST_AUTO_TEST_CASE(for_every_inertia_ratio_and_near_the_separatrix_the_attitude_is_that_of_a_taylor_series) {

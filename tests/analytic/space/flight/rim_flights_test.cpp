@@ -268,7 +268,7 @@ long double flown_height(const Scene& s, const ImpactRow& row, double time, int 
     const long double t = part * (i + 1),
                       centre = row.before.position.z() + t * (from.velocity.z() - s.drop.gravity / 2 * t);
     for (int k = 0; k < 2; ++k) {
-      const Rim& one = body.rims[static_cast<std::size_t>(k)];
+      const Rim& one = body.rims[k];
       const long double at = centre + up.dot(one.centre.cast<long double>()) - one.radius * std::hypot(up[1], up[2]);
       if (i + 1 < steps * parts) lowest = std::fmin(lowest, at);
       if (k == rim) height = at;

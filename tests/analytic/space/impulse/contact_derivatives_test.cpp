@@ -6,10 +6,10 @@
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 
+#include "analytic/space/flight/first_contact.hpp"
 #include "analytic/space/flight/flight_derivatives.hpp"
-#include "analytic/space/flight/point_height.hpp"
+#include "analytic/space/impulse/impact.hpp"
 #include "analytic/space/impulse/slip_field.hpp"
-#include "analytic/space/impulse/strike_derivatives.hpp"
 #include "tests/analytic/space/impulse/random_contact.hpp"
 #include "validation/oracles/digits.hpp"
 #include "validation/oracles/stepped_impact.hpp"

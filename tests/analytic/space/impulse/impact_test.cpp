@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "analytic/base/errors.hpp"
-#include "analytic/law/impact_limits.hpp"
+#include "analytic/law/impact_law.hpp"
 #include "analytic/plane/impact.hpp"
 #include "analytic/space/impulse/slip_field.hpp"
 #include "tests/analytic/space/impulse/random_contact.hpp"
@@ -316,7 +316,7 @@ BOOST_AUTO_TEST_CASE(invariant_directions_are_all_the_directions_in_which_slip_d
     // A pair of zeros that nearly coincide can lie between two samples.
     BOOST_CHECK(zeros == all.count || std::fabs(SlipField(w, friction).astroid_excess()) < 1e-4);
     for (int k = 0; k < all.count; ++k) {
-      const auto& invariant = all.list[static_cast<std::size_t>(k)];
+      const auto& invariant = all.list[k];
       const double angle = std::atan2(invariant.direction.y(), invariant.direction.x());
       const Vector2 rate = rates(angle);
       BOOST_CHECK_LE(std::fabs(rate[1]), 1e-13 * w.norm() * (1 + friction));

@@ -33,7 +33,7 @@ constexpr double tolerance = 1e-13;
 ImpactLaw random_law(Random& random, int number) {
   ImpactLaw law;
   law.law = std::array{RestitutionLaw::newton, RestitutionLaw::poisson, RestitutionLaw::stronge,
-                       RestitutionLaw::viscoelastic}[static_cast<std::size_t>(number % 4)];
+                       RestitutionLaw::viscoelastic}[number % 4];
   law.restitution = number / 4 % 2 == 0 ? 0 : random.uniform(0, 1);
   if (law.law == RestitutionLaw::viscoelastic) law.restitution = 1, law.damping_per_stiffness = random.uniform(0.1, 5);
   return law;
@@ -50,7 +50,7 @@ struct Landing {
   }
   /// Normal velocity of its left or right end.
   [[nodiscard]] double of_end(const PlanarVelocity& v, int end) const {
-    return v.normal - v.angular * planar.body.vertices[static_cast<std::size_t>(end)].x;
+    return v.normal - v.angular * planar.body.vertices[end].x;
   }
 };
 
@@ -410,7 +410,7 @@ struct Wheel {
     before.velocity = -before.angular_velocity.cross(body.vertices[0]);
     before.velocity.y() = 0;
   }
-  [[nodiscard]] Corner corner(int i) const { return {i, body.vertices[static_cast<std::size_t>(i)]}; }
+  [[nodiscard]] Corner corner(int i) const { return {i, body.vertices[i]}; }
 };
 
 }  // namespace

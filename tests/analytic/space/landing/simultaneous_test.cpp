@@ -126,10 +126,10 @@ BOOST_AUTO_TEST_CASE(three_corners_rebound_as_a_whole_exactly_where_their_three_
     Matrix3 g;
     Vector3 approach;
     for (int row = 0; row < 3; ++row) {
-      const Vector3& r = feet[static_cast<std::size_t>(row)];
+      const Vector3& r = feet[row];
       approach[row] = -normal_velocity(c.before.velocity, c.before.angular_velocity, r);
       for (int column = 0; column < 3; ++column) {
-        const Vector3& other = feet[static_cast<std::size_t>(column)];
+        const Vector3& other = feet[column];
         g(row, column) = 1 / c.body.mass + r.cross(Vector3::UnitZ()).dot(inverse * other.cross(Vector3::UnitZ()));
       }
     }

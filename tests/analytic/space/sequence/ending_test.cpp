@@ -10,7 +10,7 @@
 #include "analytic/plane/sequence.hpp"
 #include "analytic/space/flight/body.hpp"
 #include "analytic/space/sequence/accumulation.hpp"
-#include "analytic/space/sequence/resting_face.hpp"
+#include "analytic/space/sequence/ending.hpp"
 #include "analytic/space/sequence/sequence.hpp"
 
 namespace {
@@ -278,9 +278,7 @@ space::Drop nudged(space::Drop drop) {
 /// Whether the body can stand on the face: its vertices are of one plane, with all others above it, and the foot of the
 /// perpendicular from the centre of mass lies inside every edge.
 bool stands_on(const space::Body& body, const std::vector<int>& face) {
-  const auto vertex = [&](std::size_t k) -> const Vector3& {
-    return body.vertices[static_cast<std::size_t>(face[k % face.size()])];
-  };
+  const auto vertex = [&](std::size_t k) -> const Vector3& { return body.vertices[face[k % face.size()]]; };
   const Vector3 normal = (vertex(1) - vertex(0)).cross(vertex(2) - vertex(1)).normalized();
   const double side = vertex(0).dot(normal) > 0 ? 1 : -1;
   for (std::size_t i = 0; i < body.vertices.size(); ++i) {

@@ -43,9 +43,7 @@ class SteppedFlight {
   }
 
  private:
-  [[nodiscard]] Triple place(int vertex) const {
-    return body_.vertices[static_cast<std::size_t>(vertex)].cast<Number>();
-  }
+  [[nodiscard]] Triple place(int vertex) const { return body_.vertices[vertex].cast<Number>(); }
   [[nodiscard]] Number height(const Flying& s, int vertex, Number centre) const {
     return centre + (s.attitude * place(vertex)).z();
   }
@@ -144,7 +142,7 @@ BOOST_AUTO_TEST_CASE(changes_of_a_drop_grow_until_the_next_touch_as_flights_do_t
     const FirstContact contact = first_contact(body, flight, {&touch, 1});
     BOOST_REQUIRE(contact.end == clatter::analytic::FlightEnd::contact);
     ErrorGrowth growth(body, start, g);
-    growth.fly(flight, contact, body.vertices[departs], body.vertices[static_cast<std::size_t>(contact.point)]);
+    growth.fly(flight, contact, body.vertices[departs], body.vertices[contact.point]);
     BOOST_TEST_REQUIRE(growth.predictable());
     const auto expected = differences(body, start, contact);
     for (int block = 0; block < 3; ++block) {

@@ -52,7 +52,7 @@ class Oracle {
     if (parameter == SpaceParameter::angle) attitude = Eigen::Quaternion<Many>(cos(half), 0, -sin(half), 0) * attitude;
     if (parameter == SpaceParameter::tilt) attitude = attitude * Eigen::Quaternion<Many>(cos(half), sin(half), 0, 0);
     top_.q = {attitude.w(), attitude.x(), attitude.y(), attitude.z()};
-    for (int k = 0; k < 3; ++k) top_.moments[static_cast<std::size_t>(k)] = drop.body.inertia(k, k);
+    for (int k = 0; k < 3; ++k) top_.moments[k] = drop.body.inertia(k, k);
     velocity_ = drop.velocity.cast<Many>();
     if (parameter == SpaceParameter::speed) velocity_[2] -= by;
     set_turning(drop.angular_velocity.cast<Many>());
@@ -75,7 +75,7 @@ class Oracle {
  private:
   [[nodiscard]] ManyVector arm(int corner) const { return arm(top_, corner); }
   [[nodiscard]] ManyVector arm(const Top& top, int corner) const {
-    return axes_of(top.q) * places_[static_cast<std::size_t>(corner)].cast<Many>();
+    return axes_of(top.q) * places_[corner].cast<Many>();
   }
   [[nodiscard]] int lowest(const Top& top) const {
     const ManyMatrix axes = axes_of(top.q);

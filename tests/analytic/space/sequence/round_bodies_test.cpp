@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "analytic/space/impulse/strike_derivatives.hpp"
+#include "analytic/space/impulse/impact.hpp"
 #include "analytic/space/sequence/sequence.hpp"
 #include "tests/analytic/space/impulse/random_contact.hpp"
 
@@ -76,7 +76,7 @@ class Heights {
     return z_ + t * (speed_ - gravity_ / 2 * t) + support(part, vertical(t));
   }
   [[nodiscard]] Real velocity(int part, Real t) const {
-    const auto& [c, axes] = body_.ellipsoids[static_cast<std::size_t>(part)];
+    const auto& [c, axes] = body_.ellipsoids[part];
     const Vector e = vertical(t), rate = slope(t), d = axes.template cast<Real>();
     const Vector v = d.cwiseProduct(e);
     return speed_ - gravity_ * t + rate.dot(c.template cast<Real>()) - v.dot(d.cwiseProduct(rate)) / v.norm();
@@ -88,7 +88,7 @@ class Heights {
   using Series = std::array<Vector, terms>;
 
   [[nodiscard]] Real support(int part, const Vector& e) const {
-    const auto& [c, axes] = body_.ellipsoids[static_cast<std::size_t>(part)];
+    const auto& [c, axes] = body_.ellipsoids[part];
     return e.dot(c.template cast<Real>()) - axes.template cast<Real>().cwiseProduct(e).norm();
   }
   static Vector sum(const Series& series, Real t) {
@@ -182,7 +182,7 @@ void check(const Drop& drop, const ImpactRow& from, const ImpactRow& to, Counts&
   if (!to.flight.is_hop || part != from.corners[0].index) return;
   ++counts.hops;
   // Rounding of an ellipsoid's attitude turns its lowest point, by the ratio of its axes at most.
-  const Vector3& axes = drop.body.ellipsoids[static_cast<std::size_t>(part)].semiaxes;
+  const Vector3& axes = drop.body.ellipsoids[part].semiaxes;
   const double turned = axes.maxCoeff() / axes.minCoeff();
   const Heights<Wide> wide(drop.body, from, drop.gravity, t);
   const double arrival = static_cast<double>(wide.velocity(part, t));

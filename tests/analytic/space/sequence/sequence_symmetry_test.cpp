@@ -45,7 +45,7 @@ PlanarScene planar_scene(auto& random) {
   drop.body.mass = body.mass;
   drop.body.inertia = Vector3(0.7 * inertia, inertia, 0.9 * inertia).asDiagonal();
   for (int i = 0; i < body.vertex_count; ++i) {
-    const Vertex& v = body.vertices[static_cast<std::size_t>(i)];
+    const Vertex& v = body.vertices[i];
     drop.body.vertices.emplace_back(v.x, 0, v.z);
   }
   const double half = s.planar.inclination.radians / 2;

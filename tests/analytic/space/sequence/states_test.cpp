@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "analytic/plane/sequence.hpp"
-#include "analytic/space/landing/face_slide.hpp"
+#include "analytic/space/landing/face_friction.hpp"
 #include "analytic/space/sequence/sequence.hpp"
 
 namespace {

@@ -37,7 +37,7 @@ Drop drop_of(const Body& body, double friction) {
 /// The state in which the vertex is at rest but for the slip.
 State standing(const Body& body, const Quaternion& attitude, int vertex, const Vector3& turning,
                const Vector3& slip = Vector3::Zero()) {
-  const Vector3 arm = attitude * body.vertices[static_cast<std::size_t>(vertex)];
+  const Vector3 arm = attitude * body.vertices[vertex];
   return {.position = {0, 0, -arm.z()},
           .attitude = attitude,
           .velocity = slip - turning.cross(arm),
@@ -193,7 +193,7 @@ BOOST_AUTO_TEST_CASE(a_body_that_turns_on_a_corner_keeps_its_energy_and_what_no_
       BOOST_TEST(std::fabs(energy(drop, s) - energy(drop, end)) <= 1e-11);
       const bool held = drop.law.friction == FrictionKind::coulomb;
       const auto about_vertical = [&](const State& at) {
-        const Vector3 arm = at.attitude * body.vertices[static_cast<std::size_t>(lowest)];
+        const Vector3 arm = at.attitude * body.vertices[lowest];
         const Vector3 orbital = held ? Vector3(body.mass * (-arm).cross(at.velocity)) : Vector3(Vector3::Zero());
         return (angular_momentum(drop, at) + orbital).z();
       };
@@ -364,7 +364,7 @@ BOOST_AUTO_TEST_CASE(a_contact_that_ends_soon_after_slip_began_has_moved_as_one_
     const Quaternion attitude = Quaternion(1, 0.4 * normal(random), 0.4 * normal(random), normal(random)).normalized();
     const int lowest = lowest_vertex(body, attitude);
     const State s = standing(body, attitude, lowest, Vector3(normal(random), normal(random), normal(random)));
-    const Vector3 place = body.vertices[static_cast<std::size_t>(lowest)];
+    const Vector3 place = body.vertices[lowest];
     PlainContact plain{body, place, 0.35, s.attitude, s.angular_velocity, Vector3::Zero()};
     if (!(plain.friction_left() > 0)) continue;
     const SustainedContact whole = follow_contact(drop_of(body, 0.35), s, {lowest});
@@ -400,8 +400,7 @@ BOOST_AUTO_TEST_CASE(slip_that_begins_where_friction_gives_way_is_that_of_short_
     const Quaternion attitude = Quaternion(1, 0.4 * normal(random), 0.4 * normal(random), normal(random)).normalized();
     const int lowest = lowest_vertex(body, attitude);
     const State s = standing(body, attitude, lowest, Vector3(normal(random), normal(random), normal(random)));
-    PlainContact plain{
-        body, body.vertices[static_cast<std::size_t>(lowest)], 0.35, s.attitude, s.angular_velocity, Vector3::Zero()};
+    PlainContact plain{body, body.vertices[lowest], 0.35, s.attitude, s.angular_velocity, Vector3::Zero()};
     if (!(plain.friction_left() > 0)) continue;
     const SustainedContact contact = follow_contact(drop, s, {lowest});
     if (!contact.sticks || !contact.slips || contact.pivots.size() > 1) continue;
@@ -517,10 +516,10 @@ std::optional<std::pair<double, int>> against_plane(double width, double height,
   const Drop drop = drop_of(box(1, {.size = {0.2, width, height}}), friction);
   const Quaternion attitude(Eigen::AngleAxisd(tilt, Vector3::UnitX()));
   const int lowest = lowest_vertex(drop.body, attitude);
-  const Vector3 arm = attitude * drop.body.vertices[static_cast<std::size_t>(lowest)];
+  const Vector3 arm = attitude * drop.body.vertices[lowest];
   std::vector<int> edge;
   for (int i = 0; i < 8; ++i) {
-    if (std::fabs((attitude * drop.body.vertices[static_cast<std::size_t>(i)] - arm).z()) < 1e-9) edge.push_back(i);
+    if (std::fabs((attitude * drop.body.vertices[i] - arm).z()) < 1e-9) edge.push_back(i);
   }
   if (edge.size() != 2 || arm.y() >= 0) return {};
   const SustainedContact contact = follow_contact(drop, standing(drop.body, attitude, lowest, {spin, 0, 0}), edge);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "analytic/plane/error_factor.hpp"
+#include "analytic/plane/error_growth.hpp"
 
 #include "tests/support.hpp"
 
