@@ -15,7 +15,7 @@
 #include "validation/evidence/extreme_cases.hpp"
 #include "validation/evidence/oracles.hpp"
 #include "validation/scene/names.hpp"
-#include "validation/sweep/counter_random.hpp"
+#include "validation/sweep/points.hpp"
 
 namespace clatter::validation {
 namespace {
