@@ -10,7 +10,7 @@
 #include "numeric/base/errors.hpp"
 #include "validation/evidence/extreme_cases.hpp"
 #include "validation/evidence/oracles.hpp"
-#include "validation/sweep/counter_random.hpp"
+#include "validation/sweep/points.hpp"
 
 namespace clatter::validation {
 namespace {

@@ -18,7 +18,7 @@
 #include "validation/output/number.hpp"
 #include "validation/scene/names.hpp"
 #include "validation/scene/scene.hpp"
-#include "validation/sweep/counter_random.hpp"
+#include "validation/sweep/points.hpp"
 
 namespace clatter::validation {
 namespace {

@@ -247,7 +247,9 @@ std::string data_block(const PlotData& data, const FigurePlot& plot, const Figur
   const bool is_area = curve.style == Style::area, is_segment = curve.style == Style::segments;
   std::string text = fmt::format("{} << END\n# {}; {}{}\n", name, column_words(data, curve.x),
                                  is_area ? column_words(data, curve.y_low) + "; " : "", column_words(data, curve.y));
-  for (const CurvePoint& point : thinned(points_of(data, plot, curve))) {
+  std::vector<CurvePoint> points = points_of(data, plot, curve);
+  if (curve.style != Style::regions) points = thinned(points);
+  for (const CurvePoint& point : points) {
     if (!point.is_gap()) {
       text += shortest(point.x) + " " + (is_area ? shortest(point.low) + " " : "") + shortest(point.y) +
               (is_segment ? " " + shortest(point.x_end) + " " + shortest(point.y_end) : "") + "\n";

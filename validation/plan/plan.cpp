@@ -43,7 +43,7 @@ double least_seconds_of(int repeats, const std::function<void()>& work) {
 class Planner {
  public:
   Planner(const Scene& scene, const PlanTarget& target, const numeric::Observer& observer)
-      : ladder_(limited(without(scene, Part::unmerged_faces)), observer), full_(ladder_.full()) {
+      : given_(scene), ladder_(limited(without(scene, Part::unmerged_faces)), observer), full_(ladder_.full()) {
     plan_.target = target;
     plan_.asked = std::pow(10.0, -target.digits);
     plan_.scene = scene;
@@ -57,6 +57,7 @@ class Planner {
     weigh_the_rest();
     choose();
     price_estimates();
+    measure();
     return std::move(plan_);
   }
 
@@ -280,6 +281,16 @@ class Planner {
     plan_.seconds_with_estimates = plan_.seconds * static_cast<double>(evaluations) / plan_.evaluations;
   }
 
+  void measure() {
+    Scene scene = given_;
+    scene.accuracy.digits = plan_.target.digits;
+    const numeric::Body body = scene.make_body();
+    PlannedRun run;
+    plan_.simulate_seconds = least_seconds_of(1, [&] { run = run_to_digits(scene, body, ladder_.observer()); });
+    plan_.simulate_evaluations = run.run.force_evaluations;
+  }
+
+  const Scene& given_;
   ModelHierarchy ladder_;
   ModelLevel full_;
   Plan plan_;

@@ -54,6 +54,9 @@ struct Plan {
   /// The same of a continuous choice with the error estimates and the growth of errors that the scene asks for; 0: it
   /// asks for neither.
   double evaluations_with_estimates = 0, seconds_with_estimates = 0;
+  /// What `clatter simulate` took, measured once, with all the runs by which it finds its own setting and errors.
+  double simulate_seconds = 0;
+  long simulate_evaluations = 0;
   int impacts = 0;              ///< that happen, at most as many as the scene asks for
   int known_impacts = 0;        ///< the first impacts, which can be had to what was asked by the full level
   int predictable_impacts = 0;  ///< those before which errors out of the plane have not outgrown what was asked

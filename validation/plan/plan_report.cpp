@@ -63,6 +63,15 @@ std::string price_words(const Plan& plan) {
                                                : "run.amplification");
 }
 
+std::string measured_words(const Plan& plan) {
+  if (plan.simulate_evaluations == 0) return "";
+  return fmt::format(
+      "Measured: clatter simulate, as each scene of a sweep, finds its own setting and took {} ms, {} force "
+      "evaluations; "
+      "probes and other attitudes may take many times that, which clatter sweep --scenes 0:9 tells",
+      significant(1e3 * plan.simulate_seconds, 2), plan.simulate_evaluations);
+}
+
 std::string part_words(const WeighedPart& part) {
   if (part.part == Part::unmerged_faces) return "elements of flat faces (they change nothing)";
   return fmt::format("{} ({})", part_name(part.part), error_words(part.error));
@@ -139,7 +148,7 @@ std::vector<std::string> notes_of(const Plan& plan) {
   const bool has_choice = !std::isnan(plan.error);
   std::vector<std::string> notes{has_choice ? choice_words(plan) : "", price_words(plan),
                                  shortfall.empty() ? "" : "Not as asked: " + shortfall,
-                                 has_choice ? "Run it: " + command_line(plan) : ""};
+                                 has_choice ? "Run it: " + command_line(plan) : "", measured_words(plan)};
   for (const WeighedLevel& level : plan.levels) notes.push_back(level_words(level, plan));
   notes.insert(notes.end(),
                {parts_words(plan, true), parts_words(plan, false),
@@ -162,6 +171,8 @@ void add_results(const Plan& plan, Value& fields) {
   fields["predictable_impacts"] = plan.predictable_impacts;
   fields["growth_out_of_plane"] = plan.growth_out_of_plane;
   fields["error_constant"] = plan.error_constant;
+  fields["simulate_seconds"] = plan.simulate_seconds;
+  fields["simulate_evaluations"] = plan.simulate_evaluations;
   fields["planning_evaluations"] = plan.planning_evaluations;
   const std::string shortfall = plan_shortfall(plan);
   fields["shortfall"] = text_or_nothing(shortfall);

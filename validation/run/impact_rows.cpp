@@ -307,7 +307,7 @@ void append_impact(CellWriter& out, const Impact& impact, const ImpactText& text
   for (const ImpactQuantity& quantity : impact_quantities()) {
     if (quantity.known_to(text.columns) == Known::absent) continue;
     const bool is_known = known_of(quantity, text.model, impact) >= Known::value_only;
-    const bool is_asked = text.errors || quantity.name != std::string_view("predictable");
+    const bool is_asked = text.predictions || quantity.name != std::string_view("predictable");
     if (is_known && is_asked) append_entry(out, quantity.value(impact));
     else out.nothing(width_of(quantity.kind()));
   }

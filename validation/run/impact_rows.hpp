@@ -80,7 +80,8 @@ struct ImpactDigits {
 /// An impact, or a tail, in rows that are written by the million.
 struct ImpactText {
   RunModel model, columns;  ///< of the impact, and of the columns: one in the plane may stand under those of space
-  bool errors = true;       ///< whether they were asked for; else they are left empty, as is `predictable`
+  bool errors = true, predictions = true;  ///< whether they and their growth were asked for; else they, or
+                                           ///< `predictable`, are left empty
 };
 /// Appends the cells; what the impact has no value of is left empty.
 void append_impact(CellWriter& out, const Impact& impact, const ImpactText& text);

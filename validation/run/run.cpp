@@ -523,8 +523,8 @@ Totals totals(const Run& run) {
   }
   if (run.total_normal_impulse) sums.normal_impulse = *run.total_normal_impulse;
   if (sums.predictable) return sums;
-  for (Estimated* sum :
-       {&sums.normal_impulse, &sums.energy_loss, &sums.last_start, &sums.largest_peak, &sums.largest_depth})
+  if (!run.total_normal_impulse) sums.normal_impulse.error = unknown_error;
+  for (Estimated* sum : {&sums.energy_loss, &sums.last_start, &sums.largest_peak, &sums.largest_depth})
     sum->error = unknown_error;
   return sums;
 }

@@ -30,9 +30,13 @@ void Shortfalls::add(const std::string& place, const std::string& why) {
   if (count_++ == 0) first_ = fmt::format("{}: {}", place, why);
 }
 
+std::string Shortfalls::words(long long all, const char* what) const {
+  return count_ == 0 ? "" : fmt::format("{} of {} {} fall short; {}", count_, all, what, first_);
+}
+
 int Shortfalls::status(long long all, const char* what) const {
   if (count_ == 0) return 0;
-  say(fmt::format("{} of {} {} fall short; {}", count_, all, what, first_));
+  say(words(all, what));
   return exit_status(FailureKind::not_computed);
 }
 

@@ -22,7 +22,9 @@ class Shortfalls {
   /// @param place  the run's value or number
   /// @param why  empty: it does not fall short
   void add(const std::string& place, const std::string& why);
-  /// Says "2 of 9 values fall short; PLACE: WHY".  @returns 3, or 0 if none does
+  /// "2 of 9 values fall short; PLACE: WHY"; empty: none does.
+  [[nodiscard]] std::string words(long long all, const char* what) const;
+  /// Says so.  @returns 3, or 0 if none does
   [[nodiscard]] int status(long long all, const char* what) const;
   [[nodiscard]] long long count() const { return count_; }
   [[nodiscard]] const std::string& first() const { return first_; }

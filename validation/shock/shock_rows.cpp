@@ -6,6 +6,8 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <iterator>
 #include <limits>
 #include <span>
 
@@ -202,13 +204,14 @@ numeric::Accuracy settled(const Scene& scene, const numeric::Simulation& run) {
 
 /// A recorded drop, without estimates.
 numeric::Simulation record(const Scene& scene, const numeric::Body& body, int impacts,
-                           const numeric::Accuracy& accuracy, MotionRecorder& motion,
+                           const numeric::Accuracy& accuracy,
+                           const std::function<void(const numeric::HistoryPiece&)>& take,
                            const numeric::Observer& observer) {
   numeric::Request alone = scene.request;
   alone.impacts = impacts;
   alone.error_estimates = alone.amplification = alone.local_slip = false;
   return numeric::simulate(body, scene.world, scene.start(body), alone, accuracy,
-                           {.pieces = std::ref(motion), .progress = observer.progress});
+                           {.pieces = take, .progress = observer.progress});
 }
 
 /// Relative error of each impact's impulse; infinite from the impact on that cannot be predicted, or in which the
@@ -231,8 +234,8 @@ std::vector<double> shifted_peaks(const Scene& scene, const numeric::Body& body,
   other.world.ground.stiffen(std::exp(shift));
   const std::vector<numeric::ImpactRecord>& impacts = shock.planned.run.impacts;
   MotionRecorder motion;
-  const numeric::Simulation run =
-      record(other, body, static_cast<int>(impacts.size()), settled(scene, shock.planned.run), motion, observer);
+  const numeric::Simulation run = record(other, body, static_cast<int>(impacts.size()),
+                                         settled(scene, shock.planned.run), std::ref(motion), observer);
   std::vector<double> peaks;
   for (const ShockRow& row : shock_rows(motion, {.places = places, .mass = body.mass()})) {
     const auto i = static_cast<std::size_t>(row.impact - 1);
@@ -324,11 +327,26 @@ ContinuousShock continuous_shock(const Scene& scene, const numeric::Body& body, 
   else other.tolerance *= 0.1 * run.tolerance >= numeric::least_tolerance ? 0.1 : 10;
   shock.error_per_distance = 4;  // as the simulator's own estimates take for a tenth of the tolerance
   const double gravity = scene.world.gravity_in_contact ? scene.world.gravity : 0;
-  record(scene, body, impacts, accuracy, shock.motion, observer);
-  if (scene.request.error_estimates) record(scene, body, impacts, other, shock.other, observer);
   const RecordedShock asked{.places = places, .mass = body.mass(), .gravity = gravity, .parts = request.parts};
-  shock.rows = shock_rows(shock.motion, asked);
-  const std::vector<ShockRow> others = shock_rows(shock.other, asked);
+  const auto recorded = [&](const numeric::Accuracy& by, MotionRecorder& motion) {
+    std::vector<ShockRow> rows;
+    const auto take_rows = [&] { std::ranges::move(shock_rows(motion, asked), std::back_inserter(rows)); };
+    const auto take = [&](const numeric::HistoryPiece& piece) {
+      if (!request.keeps_motion && !piece.in_contact) {
+        take_rows();
+        motion = {};
+      } else {
+        motion(piece);
+      }
+    };
+    record(scene, body, impacts, by, take, observer);
+    take_rows();
+    if (!request.keeps_motion) motion = {};
+    return rows;
+  };
+  shock.rows = recorded(accuracy, shock.motion);
+  const std::vector<ShockRow> others =
+      scene.request.error_estimates ? recorded(other, shock.other) : std::vector<ShockRow>{};
   shock.trust = trust_of(run);
   for (std::size_t i = 0; i < shock.rows.size(); ++i) {
     ShockRow& row = shock.rows[i];

@@ -85,6 +85,7 @@ struct ContinuousShock {
 struct ContinuousRequest {
   std::vector<FragilePart> parts{};  ///< to whose oscillators rows have responses
   bool sensitivity = false;
+  bool keeps_motion = true;  ///< else of no recording more than a contact is held at a time
   numeric::Observer observer{};
 };
 /// Runs the scene to its digits, then again twice, recorded, where no errors are asked for once, and with the

@@ -12,7 +12,7 @@ namespace clatter::validation {
 namespace {
 
 using Open = ColumnFile* (*)(const std::string&, const ColumnFileHead&);
-using Compare = bool (*)(const std::string&, const ColumnFileHead&, long long);
+using Read = bool (*)(const std::string&, ColumnFileHead&);
 
 void* find_module() {
   std::error_code error;
@@ -43,9 +43,9 @@ std::unique_ptr<ColumnFile> open_hdf5(const std::string& path, const ColumnFileH
   return std::unique_ptr<ColumnFile>(in_module<Open>("clatter_open_hdf5")(path, head));
 }
 
-bool is_hdf5_of(const std::string& path, const ColumnFileHead& head, long long last) {
+std::optional<ColumnFileHead> read_hdf5_head(const std::string& path, ColumnFileHead head) {
   require_hdf5();
-  return in_module<Compare>("clatter_is_hdf5_of")(path, head, last);
+  return in_module<Read>("clatter_read_hdf5_head")(path, head) ? std::optional(std::move(head)) : std::nullopt;
 }
 
 }  // namespace clatter::validation

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -15,8 +16,10 @@ namespace clatter::validation {
 /// What a file of columns begins with.
 struct ColumnFileHead {
   std::vector<Column> columns;
+  std::vector<std::string> truths{};                            ///< names of those that say true or false
   std::vector<std::pair<std::string, std::string>> attributes;  ///< of the whole file: title, scene, ...
   long long rows = 0;                                           ///< how many are to come, for the size of its chunks
+  std::string fell_short{};                                     ///< of its scenes, in words; empty: none
 };
 
 /// A file that takes rows and holds columns.
@@ -35,11 +38,12 @@ class ColumnFile {
 void require_hdf5();
 /// Opens an HDF5 file, made anew.  The library comes from a module beside the program, so that no other run waits for
 /// it.  One dataset a column, at most 65,536 rows a chunk: numbers as 64-bit floating point, NaN where there is
-/// nothing; texts as numbers of the texts in the dataset words/COLUMN, −1 where there is nothing.  Each has its unit
-/// and its meaning as attributes.
+/// nothing; texts as numbers of the texts in the dataset words/COLUMN, truths as 8-bit integers 1 and 0, −1 where there
+/// is nothing.  Each has its unit and its meaning as attributes.
 /// @throws BadInput where the program was built without HDF5, std::runtime_error if the file cannot be written
 [[nodiscard]] std::unique_ptr<ColumnFile> open_hdf5(const std::string& path, const ColumnFileHead& head);
-/// Whether there is an HDF5 file with these attributes whose last row is that of scene `last`.
-[[nodiscard]] bool is_hdf5_of(const std::string& path, const ColumnFileHead& head, long long last);
+/// What stands in an HDF5 file of the attributes that such a head has, what fell short, and as `rows` the scene of its
+/// last row; none: there is no such file.
+[[nodiscard]] std::optional<ColumnFileHead> read_hdf5_head(const std::string& path, ColumnFileHead head);
 
 }  // namespace clatter::validation

@@ -59,7 +59,9 @@ void write_attribute(hid_t object, const std::string& name, const std::string& t
   require(H5Awrite(attribute, type, &bytes));
 }
 
+/// Empty where there is none.
 std::string attribute_of(hid_t object, const std::string& name) {
+  if (!(H5Aexists(object, name.c_str()) > 0)) return "";
   const Handle attribute(H5Aopen(object, name.c_str(), H5P_DEFAULT), H5Aclose), type = text_type();
   char* bytes = nullptr;
   require(H5Aread(attribute, type, &bytes));
@@ -82,10 +84,13 @@ double last_of(hid_t file, const char* name) {
 /// One column: its dataset, and the rows that were not written yet.
 class Dataset {
  public:
-  Dataset(hid_t file, const Column& column, hsize_t chunk) : file_(file), column_(column), chunk_(chunk) {}
+  Dataset(hid_t file, const Column& column, bool is_truth, hsize_t chunk)
+      : file_(file), column_(column), is_truth_(is_truth), chunk_(chunk) {}
 
   void add(const PackedCell& cell) {
-    if (column_.words) {
+    if (is_truth_) {
+      codes_.push_back(cell.is_truth ? static_cast<std::int32_t>(cell.number) : -1);
+    } else if (column_.words) {
       const auto next = static_cast<std::int32_t>(words_.size());
       codes_.push_back(cell.is_text ? words_.try_emplace(std::string(cell.text), next).first->second : -1);
     } else {
@@ -109,13 +114,15 @@ class Dataset {
   }
 
  private:
+  [[nodiscard]] bool is_coded() const { return is_truth_ || column_.words; }
+
   /// Whole numbers, texts, errors of two digits and values of a grid compress well; what measures something has random
   /// last bits.
   [[nodiscard]] bool is_compressible() const {
     const auto is_whole = [](double number) { return !std::isfinite(number) || number == std::floor(number); };
     const bool is_grid =
         column_.name.find('.') != std::string::npos && std::is_sorted(numbers_.begin(), numbers_.end());
-    return column_.words || is_grid || column_.name.ends_with("_error") ||
+    return is_coded() || is_grid || column_.name.ends_with("_error") ||
            std::all_of(numbers_.begin(), numbers_.end(), is_whole);
   }
 
@@ -128,9 +135,8 @@ class Dataset {
       require(H5Pset_shuffle(options));
       require(H5Pset_deflate(options, 1));
     }
-    dataset_.emplace(H5Dcreate2(file_, column_.name.c_str(), column_.words ? H5T_STD_I32LE : H5T_IEEE_F64LE, space,
-                                H5P_DEFAULT, options, H5P_DEFAULT),
-                     H5Dclose);
+    const hid_t type = is_truth_ ? H5T_STD_I8LE : column_.words ? H5T_STD_I32LE : H5T_IEEE_F64LE;
+    dataset_.emplace(H5Dcreate2(file_, column_.name.c_str(), type, space, H5P_DEFAULT, options, H5P_DEFAULT), H5Dclose);
     write_attribute(*dataset_, "unit", column_.unit);
     write_attribute(*dataset_, "meaning", column_.meaning);
   }
@@ -142,15 +148,15 @@ class Dataset {
     require(H5Dset_extent(*dataset_, &rows_));
     const Handle memory(H5Screate_simple(1, &count, nullptr), H5Sclose), place(H5Dget_space(*dataset_), H5Sclose);
     require(H5Sselect_hyperslab(place, H5S_SELECT_SET, &first, nullptr, &count, nullptr));
-    const void* const rows = column_.words ? static_cast<const void*>(codes_.data()) : numbers_.data();
-    require(
-        H5Dwrite(*dataset_, column_.words ? H5T_NATIVE_INT32 : H5T_NATIVE_DOUBLE, memory, place, H5P_DEFAULT, rows));
+    const void* const rows = is_coded() ? static_cast<const void*>(codes_.data()) : numbers_.data();
+    require(H5Dwrite(*dataset_, is_coded() ? H5T_NATIVE_INT32 : H5T_NATIVE_DOUBLE, memory, place, H5P_DEFAULT, rows));
     codes_.clear();
     numbers_.clear();
   }
 
   hid_t file_;
   Column column_;
+  bool is_truth_;
   hsize_t chunk_;
   std::optional<Handle> dataset_;
   hsize_t rows_ = 0;
@@ -164,11 +170,15 @@ class Hdf5File final : public ColumnFile {
   Hdf5File(const std::string& path, const ColumnFileHead& head)
       : file_(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), H5Fclose) {
     for (const auto& [name, text] : head.attributes) write_attribute(file_, name, text);
+    write_attribute(file_, "fell_short", head.fell_short);
     const Handle options(H5Pcreate(H5P_GROUP_CREATE), H5Pclose);
     require(H5Pset_obj_track_times(options, false));
     const Handle words(H5Gcreate2(file_, "words", H5P_DEFAULT, options, H5P_DEFAULT), H5Gclose);
     datasets_.reserve(head.columns.size());
-    for (const Column& column : head.columns) datasets_.emplace_back(file_, column, chunk_of(head.rows));
+    for (const Column& column : head.columns) {
+      const bool is_truth = std::ranges::find(head.truths, column.name) != head.truths.end();
+      datasets_.emplace_back(file_, column, is_truth, chunk_of(head.rows));
+    }
   }
 
   void add(const std::vector<PackedCell>& row) override {
@@ -193,16 +203,15 @@ extern "C" clatter::validation::ColumnFile* clatter_open_hdf5(const std::string&
   return new clatter::validation::Hdf5File(path, head);
 }
 
-extern "C" bool clatter_is_hdf5_of(const std::string& path, const clatter::validation::ColumnFileHead& head,
-                                   long long last) {
+extern "C" bool clatter_read_hdf5_head(const std::string& path, clatter::validation::ColumnFileHead& head) {
   using namespace clatter::validation;
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
   try {
     const Handle file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
-    for (const auto& [name, text] : head.attributes) {
-      if (attribute_of(file, name) != text) return false;
-    }
-    return last_of(file, "index") == static_cast<double>(last);
+    for (auto& [name, text] : head.attributes) text = attribute_of(file, name);
+    head.fell_short = attribute_of(file, "fell_short");
+    head.rows = static_cast<long long>(last_of(file, "index"));
+    return true;
   } catch (const std::runtime_error&) {
     return false;
   }

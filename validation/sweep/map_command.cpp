@@ -140,12 +140,12 @@ int write_map(const MapInput& input, const MapPlan& plan, int threads, const Mak
   MapOutput output(input, plan);
   RangeQueue queue({output.first(), plan.rows - output.first()}, map_range(plan));
   if (output.first() > 0) say(fmt::format("goes on at row {} of {}", output.first() + 1, plan.rows));
-  Progress progress;
+  RunProgress progress(output.first(), plan.rows, "rows");
   SweepHooks hooks;
   hooks.write = [&](const RangeRows& rows) { output.write(rows); };
   hooks.tick = [&] {
     output.write({});
-    progress.show(progress_bar(static_cast<std::size_t>(queue.taken()), static_cast<std::size_t>(plan.rows)));
+    progress.tick(queue.taken());
   };
   hooks.stop = [&] { return interrupt.requested(); };
   compute_ranges(queue, threads, make, hooks, ranks);

@@ -226,12 +226,14 @@ struct Sheet {
   std::vector<std::string> subtitles;
   double top, bottom, height;
 
-  Sheet(const MapPlan& plan, const std::string& words)
+  /// @param below  entries of a legend below the map
+  Sheet(const MapPlan& plan, const std::string& words, std::size_t below)
       : across(side(plan.columns, plan.rows)), upward(side(plan.rows, plan.columns)),
         scale(std::clamp(static_cast<double>(plan.rows * upward) / 600, 0.75, 3.0)), left(115 * scale),
         right(250 * scale), width(left + static_cast<double>(plan.columns * across) + right),
         subtitles(lines_of(words, (width - left) / (8.2 * scale))),
-        top((40 + 17 * static_cast<double>(subtitles.size())) * scale), bottom(72 * scale),
+        top((40 + 17 * static_cast<double>(subtitles.size())) * scale),
+        bottom((72 + 20 * static_cast<double>(below)) * scale),
         height(top + static_cast<double>(plan.rows * upward) + bottom) {}
 
   /// The side of a pixel, where the map has so many along it and so many beside it.
@@ -283,6 +285,12 @@ std::string class_word(const MapQuantity& quantity, const std::string& text) {
   return std::string(quantity.name) == "hardest" ? "impact " + text : text;
 }
 
+/// Whether a pixel has neither class nor number.
+bool has_empty(const MapImage& image) {
+  const auto has_none = [](const MapPixel& pixel) { return pixel.value.empty(); };
+  return std::ranges::any_of(image.rows, [&](const auto& row) { return std::ranges::any_of(row, has_none); });
+}
+
 /// What stands beside the colours: the classes, then what is open and, of numbers, what has none.
 std::string legend_commands(const MapPlan& plan, const MapImage& image, const Legend& legend, double scale) {
   std::string text;
@@ -290,18 +298,18 @@ std::string legend_commands(const MapPlan& plan, const MapImage& image, const Le
     text += fmt::format(", \\\n  NaN with points pt 5 ps {} lc rgb '{}' title {}", 2.2 * scale, colour,
                         gnuplot_quoted(words));
   };
-  bool are_many = false;  // counts that share the last colour
+  // Classes of one colour have one entry: the least of counts stands for all.
+  std::vector<std::pair<const char*, std::string>> entries;
   for (const auto& [words, colour] : legend) {
-    const bool is_many = colour == palette::classes.back();
-    if (!is_many) entry(colour, class_word(*plan.quantity, words));
-    else if (!are_many) entry(colour, fmt::format("{} and more", palette::classes.size()));
-    are_many = are_many || is_many;
+    const auto same = std::ranges::find(entries, colour, &std::pair<const char*, std::string>::first);
+    if (same == entries.end()) entries.emplace_back(colour, class_word(*plan.quantity, words));
+    else if (colour == palette::refused) same->second += ", " + words;
+    else if (colour == palette::classes.back())
+      same->second = is_count(*plan.quantity) ? fmt::format("{} and more", palette::classes.size()) : "others";
   }
-  if (image.open() > 0) entry(palette::open, "left open by rounding");
-  const auto has_none = [](const MapPixel& pixel) { return pixel.value.empty(); };
-  if (legend.empty() &&
-      std::ranges::any_of(image.rows, [&](const auto& row) { return std::ranges::any_of(row, has_none); }))
-    entry(palette::refused, "no drop, or no number");
+  for (const auto& [colour, words] : entries) entry(colour, words);
+  if (image.open() > 0) entry(palette::open, "left open");
+  if (legend.empty() && has_empty(image)) entry(palette::refused, "no drop, or no number");
   return text;
 }
 
@@ -380,10 +388,14 @@ std::vector<FoldCurve> fold_curves(const MapPlan& plan) {
 
 namespace {
 
-/// The legend stands beside a map of classes, in one column; curves alone have theirs in the map.
+/// The legend stands beside a map of classes, in one column; curves alone have theirs below the map.
 /// @param others  entries that are no classes, about
 std::string key_text(const Sheet& sheet, const Legend& legend, std::size_t others) {
-  if (legend.empty()) return others > 0 ? "set key at graph 0.99, graph 0.98 right top opaque\n" : "unset key\n";
+  if (legend.empty()) {
+    return others == 0 ? "unset key\n"
+                       : fmt::format("set key at screen {}, screen {} left bottom Left reverse vertical samplen 1.6\n",
+                                     sheet.left / sheet.width, 6 * sheet.scale / sheet.height);
+  }
   const double entries = static_cast<double>(std::min(legend.size(), palette::classes.size() + 4) + others);
   const double room = (sheet.height - sheet.top - sheet.bottom) / (entries * 22 * sheet.scale);
   return fmt::format("set key at screen {}, screen {} left top Left reverse vertical samplen 1.6 spacing {}\n",
@@ -409,10 +421,11 @@ std::string magnified(const std::string& bytes, long long columns, const Sheet& 
 }  // namespace
 
 std::string map_picture(const MapPlan& plan, const MapImage& image) {
-  const Sheet sheet(plan, words_of(plan, image));
   const bool has_classes = plan.quantity->is_class() && !plan.counts();
   const Legend legend = has_classes ? legend_of(image) : Legend{};
   const std::vector<FoldCurve> curves = plan.counts() ? std::vector<FoldCurve>{} : fold_curves(plan);
+  const std::size_t others = curves.size() + (image.open() > 0 ? 1 : 0) + (!has_classes && has_empty(image) ? 1 : 0);
+  const Sheet sheet(plan, words_of(plan, image), has_classes ? 0 : others);
   std::string script = sheet.text() + axis_text(plan.across(), 'x') + axis_text(plan.upward(), 'y') +
                        title_text(plan, sheet) + curve_blocks(plan, curves);
   std::string bytes, rest;
@@ -426,7 +439,7 @@ std::string map_picture(const MapPlan& plan, const MapImage& image) {
     rest = ", \\\n  NaN with points palette notitle";
   }
   const std::string entries = legend_commands(plan, image, legend, sheet.scale);
-  script += key_text(sheet, legend, curves.size() + (entries.empty() ? 0 : 1));
+  script += key_text(sheet, legend, others);
   const long long columns = plan.columns * sheet.across, rows = plan.rows * sheet.upward;
   const double left = placed(plan.across(), plan.across().first), right = placed(plan.across(), plan.across().last);
   const double low = placed(plan.upward(), plan.upward().first), high = placed(plan.upward(), plan.upward().last);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "validation/sweep/points.hpp"
 
+#include <Random123/philox.h>
 #include <fmt/format.h>
 
 #include <Eigen/Geometry>
@@ -13,7 +14,6 @@
 #include "validation/output/numeric_table.hpp"
 #include "validation/scene/keys.hpp"
 #include "validation/scene/orientation.hpp"
-#include "validation/sweep/counter_random.hpp"
 
 namespace clatter::validation {
 
@@ -152,6 +152,13 @@ SweptAttitude uniform_attitude(const std::array<double, 3>& parts) {
   return q;
 }
 
+double uniform_at(std::uint64_t seed, std::uint64_t scene, std::uint32_t column, std::uint32_t draw) {
+  const auto high = [](std::uint64_t number) { return static_cast<std::uint32_t>(number >> 32); };
+  const auto low = [](std::uint64_t number) { return static_cast<std::uint32_t>(number); };
+  const auto words = r123::Philox4x32{}({{low(scene), high(scene), column, draw}}, {{low(seed), high(seed)}});
+  return static_cast<double>((std::uint64_t{words[0]} << 32 | words[1]) >> 11) * 0x1p-53;
+}
+
 SweptAttitude turned(const SweptAttitude& attitude, const std::array<double, 3>& vector) {
   const double angle = std::hypot(vector[0], vector[1], vector[2]);
   if (angle == 0) return attitude;
@@ -222,6 +229,15 @@ SweepAxis read_attitude_axis(const std::string& key, const std::string& text) {
   axis.attitudes = text.starts_with('@') ? attitudes_of_file(text.substr(1)) : attitudes_in_brackets(key, text);
   axis.count = static_cast<long long>(axis.attitudes.size());
   return axis;
+}
+
+SceneRange read_scene_range(const std::string& text, long long count) {
+  const std::size_t colon = std::min(text.find(':'), text.size());
+  long long from = 0, to = 0;
+  if (!read_integer(text.substr(0, colon), from) || !read_integer(text.substr(std::min(colon + 1, text.size())), to) ||
+      !(0 <= from && from <= to && to < count))
+    throw BadInput(fmt::format("--scenes '{}': must be FROM:TO, whole numbers from 0 to {}", text, count - 1));
+  return {from, to - from + 1};
 }
 
 SweepPoints::SweepPoints(std::vector<SweepAxis> grid) : axes_(std::move(grid)) {

@@ -18,11 +18,23 @@ using SweptAttitude = std::array<double, 4>;
 /// rotation the one with q₀ >= 0.  Source: Shoemake, Uniform random rotations, Graphics Gems III, 1992.
 [[nodiscard]] SweptAttitude uniform_attitude(const std::array<double, 3>& parts);
 
+/// Number `column` of scene `scene` in the family `seed`, and where a column needs several its number `draw`: uniform
+/// in [0, 1), a multiple of 2^-53, the same on every machine, by its place instead of by its turn.  From Philox 4×32
+/// with ten rounds (Salmon et al., Parallel random numbers: as easy as 1, 2, 3, 2011).
+[[nodiscard]] double uniform_at(std::uint64_t seed, std::uint64_t scene, std::uint32_t column, std::uint32_t draw = 0);
+
 /// An attitude turned by a vector [rad] in the world frame: (cos ½|v|, sin ½|v| v/|v|) q.
 [[nodiscard]] SweptAttitude turned(const SweptAttitude& attitude, const std::array<double, 3>& vector);
 
 /// A swept key as an axis of a picture is called: its last word, and its unit, as in "angle [°]" for drop.angle_deg.
 [[nodiscard]] std::string axis_words(const std::string& key);
+
+/// Scenes first, first + 1, …, first + count − 1.
+struct SceneRange {
+  long long first = 0, count = 0;
+};
+/// FROM:TO, both taken, of `count` scenes.  @throws BadInput naming what was given and what is allowed
+[[nodiscard]] SceneRange read_scene_range(const std::string& text, long long count);
 
 /// The values that one key takes: numbers or attitudes.
 struct SweepAxis {

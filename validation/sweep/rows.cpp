@@ -9,6 +9,7 @@
 
 #include "validation/output/bad_input.hpp"
 #include "validation/output/number.hpp"
+#include "validation/output/plot.hpp"
 #include "validation/run/impact_rows.hpp"
 #include "validation/run/run.hpp"
 #include "validation/scene/names.hpp"
@@ -50,15 +51,15 @@ const std::vector<ProbeNumber>& probe_numbers() {
       {std::string(shock_column), "m/s", "largest change of velocity over an impact of the point ",
        &LargestShock::delta_v, &LargestShock::impact},
       {landing(peak_column), "g",
-       "largest specific force in impacts that begin before the body has gone its own length at the speed of the "
-       "first, "
-       "of the point ",
+       "largest specific force in the first landing, the impacts that begin while the body would go its own length at "
+       "the speed of its first approach, of the point ",
        &LargestShock::landing_peak_g, &LargestShock::landing_peak_impact, true},
-      {landing(shock_column), "m/s", "largest change of velocity in those impacts of the point ",
+      {landing(shock_column), "m/s", "largest change of velocity over an impact of the first landing of the point ",
        &LargestShock::landing_delta_v, &LargestShock::landing_impact},
       {std::string(margin_column), "", "least margin, at most 1: it fails, over the impacts, of the part at the point ",
        &LargestShock::margin, &LargestShock::margin_impact, false, true},
-      {landing(margin_column), "", "least margin in impacts of the first landing of the part at the point ",
+      {landing(margin_column), "",
+       "least margin, at most 1: it fails, over the first landing, of the part at the point ",
        &LargestShock::landing_margin, &LargestShock::landing_margin_impact, false, true}};
   return all;
 }
@@ -84,9 +85,14 @@ void for_each_number(Model model, Use&& use) {
 Column outcome_column() { return word_column("outcome", "outcome", "how the scene ended"); }
 
 /// The error of a column in a row of a scene, which in JSON, too, is a field of its own.
-Column error_beside(const Column& number) {
+/// @param open  when it is empty
+Column error_beside(const Column& number, const char* open = "") {
   const std::string name = number.name + "_error";
-  return {.name = name, .heading = name, .unit = number.unit, .meaning = "error of " + number.name, .shown = false};
+  return {.name = name,
+          .heading = name,
+          .unit = number.unit,
+          .meaning = fmt::format("error of {}{}", number.name, open),
+          .shown = false};
 }
 
 /// The model whose columns rows of impacts have.
@@ -111,12 +117,21 @@ bool has_error(const ImpactQuantity& quantity, const RowLayout& layout) {
 }
 
 std::vector<Column> scene_columns(const RowLayout& layout) {
-  std::vector<Column> columns{{"impacts", "impacts", "", "impacts listed"}, outcome_column()}, errors;
-  const auto add = [&](const Column& number) {
+  std::vector<Column> columns{
+      {"impacts", "impacts", "",
+       "impacts listed; of infinitely many in a finite time those until the sum of the others "
+       "is known to run.digits or lost in rounding, some 1e-9 of the first: no physical number"},
+      outcome_column()},
+      errors;
+  const auto add = [&](const Column& number, const char* open = "") {
     columns.push_back(number);
-    errors.push_back(error_beside(number));
+    errors.push_back(error_beside(number, open));
   };
-  for_each_number(layout.model, [&](const SceneNumber& n) { add({n.name, n.name, n.unit, n.meaning}); });
+  for_each_number(layout.model, [&](const SceneNumber& n) {
+    add({n.name, n.name, n.unit, n.meaning},
+        n.sum == &Totals::first_peak ? ""
+                                     : "; empty where an impact cannot be predicted and nothing bounds what follows");
+  });
   columns.push_back({"predictable", "predictable", "", "whether each impact can be predicted"});
   if (layout.rests) {
     for (const Column& column : rest_columns()) {
@@ -327,8 +342,7 @@ void append_shocks(const RowForm& form) {
     const LargestShock& shock = form.shocks[i];
     for_each_probe_number(form.layout, i, [&](const ProbeNumber& number) {
       const bool is_there = shock.impact > 0;
-      if (is_there) form.out.number((shock.*number.value).value);
-      else form.out.nothing();
+      form.out.number(is_there ? (shock.*number.value).value : no_number);
       if (number.impact == nullptr) return;
       if (is_there) form.out.whole(shock.*number.impact);
       else form.out.nothing();
@@ -357,31 +371,19 @@ void append_scene_row(const RowForm& form, const Run& run) {
   if (form.predictions) form.out.truth(sums.predictable);
   else form.out.nothing();
   append_rest(form);
-  const auto append_curve = [&](auto&& append) {
-    if (form.layout.has_curve && form.curve_depth) append(*form.curve_depth);
-    else if (form.layout.has_curve) form.out.nothing();
-  };
-  append_curve([&](const Estimated& depth) { form.out.number(depth.value); });
+  const auto append_error = [&](double error) { form.out.error(form.errors ? error : unknown_error); };
+  const Estimated depth = form.curve_depth.value_or(Estimated{no_number, unknown_error});
+  if (form.layout.has_curve) form.out.number(depth.value);
   append_asked(form, run, false);
   append_shocks(form);
-  for_each_number(model, [&](const SceneNumber& n) {
-    if (form.errors) form.out.error((sums.*n.sum).error);
-    else form.out.nothing();
-  });
-  if (form.layout.rests) {
-    if (form.errors && form.rest) form.out.error(form.rest->time.error);
-    else form.out.nothing();
-  }
-  append_curve([&](const Estimated& depth) {
-    if (form.errors) form.out.error(depth.error);
-    else form.out.nothing();
-  });
+  for_each_number(model, [&](const SceneNumber& n) { append_error((sums.*n.sum).error); });
+  if (form.layout.rests) append_error(form.rest ? form.rest->time.error : unknown_error);
+  if (form.layout.has_curve) append_error(depth.error);
   append_asked(form, run, true);
   for (std::size_t i = 0; i < form.shocks.size(); ++i) {
     const LargestShock& shock = form.shocks[i];
     for_each_probe_number(form.layout, i, [&](const ProbeNumber& number) {
-      if (form.errors && shock.impact > 0) form.out.error((shock.*number.value).error);
-      else form.out.nothing();
+      append_error(shock.impact > 0 ? (shock.*number.value).error : unknown_error);
     });
   }
   form.out.word(form.reason);
@@ -471,6 +473,16 @@ std::vector<Column> sweep_columns(const RowLayout& layout) {
   return columns;
 }
 
+std::vector<std::string> truth_columns(const RowLayout& layout) {
+  const auto is_truth = [](const ImpactQuantity& one) { return std::holds_alternative<bool>(one.kind()); };
+  std::vector<std::string> names{"rest_known"};
+  for (const ImpactQuantity& quantity : impact_quantities())
+    if (is_truth(quantity)) names.emplace_back(quantity.name);
+  for (const ImpactColumn& asked : layout.asked)
+    if (is_truth(*asked.quantity)) names.push_back(asked.column.name);
+  return names;
+}
+
 std::string row_prefix(long long index, const std::vector<double>& values, bool packed) {
   std::string prefix;
   CellWriter out(prefix, packed);
@@ -484,10 +496,12 @@ void append_rows(const RowForm& form, const Run& run) {
   if (run.impacts.empty()) return append_empty_row(form, 0, run.outcome);
   if (form.layout.rows == RowKind::scene) return append_scene_row(form, run);
   const auto append = [&](const Impact& impact) {
-    const bool is_continuous = run.model == RunModel::continuous;  // errors are none where none were asked for
     form.out.copy(form.prefix);
     append_impact(form.out, impact,
-                  {.model = run.model, .columns = columns_model(form.layout), .errors = is_continuous || form.errors});
+                  {.model = run.model,
+                   .columns = columns_model(form.layout),
+                   .errors = form.errors,
+                   .predictions = form.predictions});
     append_ending(form, run.outcome);
   };
   for (const Impact& impact : run.impacts) append(impact);

@@ -75,6 +75,8 @@ void read_impact_columns(const std::string& names, int impacts, RowLayout& layou
 /// The reason says why a scene has no numbers, fewer impacts than asked for or fewer digits than required; else it is
 /// empty.  Errors and predictable are empty where no errors were asked for, an error alone where it is not known.
 [[nodiscard]] std::vector<Column> sweep_columns(const RowLayout& layout);
+/// Names of columns that say true or false, where rows have them.
+[[nodiscard]] std::vector<std::string> truth_columns(const RowLayout& layout);
 
 /// What all rows of a scene begin with.
 [[nodiscard]] std::string row_prefix(long long index, const std::vector<double>& values, bool packed);

@@ -3,14 +3,16 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <chrono>
+#include <array>
 #include <cmath>
 #include <iterator>
+#include <map>
 #include <memory>
 #include <numbers>
 #include <optional>
 #include <set>
 #include <span>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -26,6 +28,7 @@
 #include "validation/output/picture.hpp"
 #include "validation/output/report.hpp"
 #include "validation/output/sink.hpp"
+#include "validation/scene/failure.hpp"
 #include "validation/scene/keys.hpp"
 #include "validation/scene/names.hpp"
 #include "validation/sweep/column_file.hpp"
@@ -131,7 +134,8 @@ void count_on_y(std::vector<double> values, FigurePlot& plot) {
 
 /// The columns of the key along x and of that whose values have a curve each.
 struct SweptAxes {
-  std::size_t over, of;  ///< the same: one curve
+  std::size_t over, of;    ///< the same: one curve
+  bool are_cells = false;  ///< both have many values
 };
 
 /// Each quantity over a swept key, a curve for each value of the other.
@@ -210,15 +214,15 @@ struct ValueClasses {
   }
 };
 
-/// A curve of points for each class that has some, with the range of its values.
-void add_classes(const ValueClasses& classes, PicturePanel& panel) {
+/// Points or regions for each class that has some, with the range of its values.
+void add_classes(const ValueClasses& classes, FigureCurve::Style style, PicturePanel& panel) {
   for (std::size_t k = 0; k < classes.colours.size(); ++k) {
     const auto is_of_class = [&](const std::vector<double>& row) { return row[2] == static_cast<double>(k); };
     if (std::none_of(panel.rows.begin(), panel.rows.end(), is_of_class)) continue;
     panel.plot.curves.push_back({.x = "x",
                                  .y = "y",
                                  .legend = classes.words(k),
-                                 .style = FigureCurve::Style::points,
+                                 .style = style,
                                  .where = {{"class", static_cast<double>(k)}},
                                  .colour = classes.colours[k]});
   }
@@ -248,7 +252,46 @@ PicturePanel sphere(const Grid& grid, std::size_t attitude, std::size_t quantity
     const auto [x, y] = mapped(attitude_of.normalized().conjugate() * -numeric::Vector3::UnitZ());
     panel.rows.push_back({x, y, static_cast<double>(classes.of(values[i]))});
   }
-  add_classes(classes, panel);
+  add_classes(classes, FigureCurve::Style::points, panel);
+  return panel;
+}
+
+/// The middles between the values of a grid, and as far beyond its ends.
+std::map<double, std::array<double, 2>> cell_sides(const std::vector<double>& numbers) {
+  const std::set<double> each(numbers.begin(), numbers.end());
+  const std::vector<double> values(each.begin(), each.end());
+  std::map<double, std::array<double, 2>> sides;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const double below = i > 0 ? values[i] - values[i - 1] : values[1] - values[0],
+                 above = i + 1 < values.size() ? values[i + 1] - values[i] : below;
+    sides[values[i]] = {values[i] - below / 2, values[i] + above / 2};
+  }
+  return sides;
+}
+
+/// Two keys of many values each: a cell for each scene, coloured by a quantity in classes.
+PicturePanel cells(const Grid& grid, const SweptAxes& keys, std::size_t quantity) {
+  const std::vector<double> x = numbers_of(grid, keys.over), y = numbers_of(grid, keys.of),
+                            values = numbers_of(grid, quantity);
+  const auto across = cell_sides(x), upward = cell_sides(y);
+  const ValueClasses classes(values);
+  PicturePanel panel{.columns = {{"x", "1", named(grid.columns[keys.over])},
+                                 {"y", "1", named(grid.columns[keys.of])},
+                                 {"class", "1", "class of its colour"}},
+                     .plot = {.x_label = fmt::format("{}; colour: {}", axis_words(grid.columns[keys.over].name),
+                                                     named(grid.columns[quantity])),
+                              .y_label = axis_words(grid.columns[keys.of].name),
+                              .x = {across.begin()->second[0], across.rbegin()->second[1]},
+                              .y = {upward.begin()->second[0], upward.rbegin()->second[1]}}};
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (!std::isfinite(values[i])) continue;
+    const auto [left, right] = across.at(x[i]);
+    const auto [low, high] = upward.at(y[i]);
+    const double its_class = static_cast<double>(classes.of(values[i]));
+    const auto add = [&](double across_it, double up) { panel.rows.push_back({across_it, up, its_class}); };
+    add(left, low), add(right, low), add(right, high), add(left, high), add(left, no_number);
+  }
+  add_classes(classes, FigureCurve::Style::regions, panel);
   return panel;
 }
 
@@ -263,7 +306,7 @@ std::size_t varied_quantity(const Grid& grid, const std::vector<std::string>& na
   return place_of(grid, names.front());
 }
 
-/// The rows as few curves, over the last key if that leaves few; none: they are no curves.
+/// The rows as few curves, over the last key if that leaves few, or else as cells; none: they are neither.
 std::optional<SweptAxes> axes_of(const Grid& grid, const SweepRowsView& view) {
   if (view.random || view.swept == 0 || view.swept > 2) return {};
   const std::size_t first = view.first_swept, last = view.first_swept + view.swept - 1;
@@ -275,7 +318,7 @@ std::optional<SweptAxes> axes_of(const Grid& grid, const SweepRowsView& view) {
   }
   if (view.swept == 1 || values[0].size() <= most_curves) return SweptAxes{last, first};
   if (values[1].size() <= most_curves) return SweptAxes{first, last};
-  return {};
+  return SweptAxes{last, first, true};
 }
 
 /// How many rows end where more impacts may follow, so that their sums are no whole sequence's; empty: none.
@@ -295,8 +338,8 @@ bool holds_texts(const Grid& grid, const std::string& column) {
   });
 }
 
-/// One key swept: each quantity over it.  Two keys, of which one has few values: a curve for each of these.
-/// Otherwise, and of random values: how many scenes have which value, in forty classes of equal width.
+/// One key swept: each quantity over it.  Two keys: a curve for each value of that which has few, or a cell for each
+/// scene.  Otherwise, and of random values: how many scenes have which value, in forty classes of equal width.
 /// @param report of the sweep, with its rows; those without a number are left out.
 Picture sweep_rows_picture(const Report& report, const SweepRowsView& view) {
   Picture picture{.what = "Many scenes", .scene = report.head};
@@ -308,14 +351,14 @@ Picture sweep_rows_picture(const Report& report, const SweepRowsView& view) {
   }
   for (const std::string& name : view.quantities) {
     const std::size_t quantity = place_of(report.grid, name);
-    picture.panels.push_back(swept ? curves(report.grid, *swept, quantity)
-                                   : histogram(report.grid.columns[quantity], numbers_of(report.grid, quantity)));
+    picture.panels.push_back(!swept ? histogram(report.grid.columns[quantity], numbers_of(report.grid, quantity))
+                             : swept->are_cells ? cells(report.grid, *swept, quantity)
+                                                : curves(report.grid, *swept, quantity));
   }
-  if (swept) picture.panels.back().plot.x_label = axis_words(report.grid.columns[swept->over].name);
+  if (swept && !swept->are_cells)
+    picture.panels.back().plot.x_label = axis_words(report.grid.columns[swept->over].name);
   return picture;
 }
-
-using Clock = std::chrono::steady_clock;
 
 struct SweepInput {
   SweepRequest request;
@@ -333,32 +376,6 @@ struct SweepWork {
   const SweepBody& body;
   int threads;
   const CooperativeInterrupt& interrupt;
-};
-
-/// How far the sweep is, five times a second.
-class SweepProgress {
- public:
-  SweepProgress(long long first, long long scenes) : first_(first), scenes_(scenes), done_(first) {}
-
-  void add(long long scenes) { done_ += scenes; }
-
-  void tick() {
-    const Clock::time_point now = Clock::now();
-    if (now - shown_ < std::chrono::milliseconds(200)) return;
-    shown_ = now;
-    std::string text = progress_bar(static_cast<std::size_t>(done_), static_cast<std::size_t>(scenes_));
-    if (done_ > first_) {
-      const double per_scene =
-          std::chrono::duration<double>(now - begin_).count() / static_cast<double>(done_ - first_);
-      text += ", " + time_left(per_scene * static_cast<double>(scenes_ - done_));
-    }
-    progress_.show(text);
-  }
-
- private:
-  long long first_, scenes_, done_;
-  Clock::time_point begin_ = Clock::now(), shown_ = begin_;
-  Progress progress_;
 };
 
 bool is_hdf5(const SweepInput& input) { return input.output.ends_with(".h5") || input.output.ends_with(".hdf5"); }
@@ -386,7 +403,7 @@ class SweepOutput {
     const std::string head = csv_head(report_, style_.bare);
     if (input.request.summary) summary_.emplace(plan.layout, plan.points);
     if (writes_file(input)) {
-      file_.emplace(input.output, SweepFileForm{head, plan.points.count()}, input.restart);
+      file_.emplace(input.output, SweepFileForm{head, plan.range.count}, input.restart);
       file_->with_rows([this](std::string_view rows) {
         shortfalls_.add(rows);
         if (plot_.is_wanted()) collected_ += rows;
@@ -399,12 +416,28 @@ class SweepOutput {
 
   [[nodiscard]] long long first() const { return file_ ? file_->scenes() : 0; }
   [[nodiscard]] long long cut() const { return shortfalls_.cut(); }
-  [[nodiscard]] const Shortfalls& shortfalls() const { return shortfalls_.found(); }
+  /// "4 of 1000 scenes fall short; 17: WHY"; empty: none does.
+  [[nodiscard]] std::string fell_short() const {
+    return fell_short_ ? *fell_short_ : shortfalls_.found().words(plan_.range.count, "scenes");
+  }
   /// Whether the file is there already, of this very sweep and with all of its scenes, and none is being made anew.
-  [[nodiscard]] bool is_done() const {
-    if (!file_ || plot_.is_wanted() || style_.bare || first() > 0) return false;
-    const long long last = plan_.points.count() - 1;
-    return hdf5_ ? is_hdf5_of(file_->path(), column_head(), last) : file_->is_complete(csv_head(report_, false), last);
+  /// @throws BadInput if it is there of another sweep
+  [[nodiscard]] bool is_done() {
+    if (!file_ || first() > 0) return false;
+    const long long last = plan_.range.first + plan_.range.count - 1;
+    ShortfallCount found(plan_.layout, false);
+    bool is_whole = false;
+    if (!hdf5_) {
+      is_whole = file_->is_complete(csv_head(report_, style_.bare), last, [&](auto row) { found.add(row); });
+      fell_short_ = found.found().words(plan_.range.count, "scenes");
+    } else if (const auto head = read_hdf5_head(file_->path(), column_head())) {
+      std::istringstream there(lines_of(*head));
+      is_whole = file_->is_own(there, lines_of(column_head())) && head->rows == last;
+      fell_short_ = head->fell_short;
+    }
+    is_whole = is_whole && !plot_.is_wanted() && !style_.bare;
+    if (!is_whole) fell_short_.reset();
+    return is_whole;
   }
   void write(const RangeRows& rows) {
     shortfalls_.add(rows.text);
@@ -452,7 +485,9 @@ class SweepOutput {
   }
 
   [[nodiscard]] ColumnFileHead column_head() const {
-    ColumnFileHead head{report_.grid.columns, {{"title", report_.title}}};
+    ColumnFileHead head{.columns = report_.grid.columns,
+                        .truths = truth_columns(plan_.layout),
+                        .attributes = {{"title", report_.title}}};
     for (const char* name : {"scene", "body"}) {
       const Value* const value = report_.fields.find(name);
       if (value != nullptr) head.attributes.emplace_back(name, compact_json(*value));
@@ -461,10 +496,18 @@ class SweepOutput {
     return head;
   }
 
+  /// As CSV's head has them.
+  [[nodiscard]] static std::string lines_of(const ColumnFileHead& head) {
+    std::string lines;
+    for (const auto& [name, text] : head.attributes) lines += fmt::format("# {}: {}\n", name, text);
+    return lines;
+  }
+
   void write_hdf5(const std::string& path) {
     ColumnFileHead head = column_head();
+    head.fell_short = fell_short();
     std::vector<PackedCell> row(head.columns.size());
-    if (plan_.layout.rows == RowKind::scene) head.rows = plan_.points.count();
+    if (plan_.layout.rows == RowKind::scene) head.rows = plan_.range.count;
     else {
       file_->with_rows([&](std::string_view rows) {
         for (PackedRows packed(rows); packed.next(row);) ++head.rows;
@@ -482,16 +525,14 @@ class SweepOutput {
     Report rows = plan_.report();
     rows.grid.rows = read_csv_rows(collected_);
     SweepRowsView view{.swept = plan_.layout.swept.size(), .random = random_, .quantities = {}};
-    for (const ImpactColumn& asked : plan_.layout.asked) {
-      if (!holds_texts(rows.grid, asked.column.name) && view.quantities.size() < most_panels)
-        view.quantities.push_back(asked.column.name);
-    }
-    std::vector<std::string> others = plan_.layout.named;
+    std::vector<std::string> names;
+    for (const ImpactColumn& asked : plan_.layout.asked) names.push_back(asked.column.name);
+    names.insert(names.end(), plan_.layout.named.begin(), plan_.layout.named.end());
     for (std::size_t probe = 0; probe < plan_.layout.probes.size(); ++probe) {
       const std::string name = ranking_column(plan_.layout, probe);
-      if (std::ranges::find(others, name) == others.end()) others.push_back(name);
+      if (std::ranges::find(names, name) == names.end()) names.push_back(name);
     }
-    for (const std::string& name : others) {
+    for (const std::string& name : names) {
       if (!holds_texts(rows.grid, name) && view.quantities.size() < most_panels) view.quantities.push_back(name);
     }
     if (view.quantities.empty()) view.quantities = {"impacts", "total_normal_impulse", "energy_loss"};
@@ -510,6 +551,7 @@ class SweepOutput {
   std::optional<SweepFile> file_;
   std::optional<Summary> summary_;
   ShortfallCount shortfalls_;
+  std::optional<std::string> fell_short_;  ///< of a file that is there already
 };
 
 void check_output(const SweepInput& input) {
@@ -531,15 +573,13 @@ void check_output(const SweepInput& input) {
 
 /// Computes what the output lacks, as far as it comes.
 void fill(SweepOutput& output, RangeQueue& queue, const SweepWork& what, Ranks& ranks) {
-  SweepProgress progress(queue.taken(), what.plan.points.count());
+  const SceneRange& range = what.plan.range;
+  RunProgress progress(queue.taken() - range.first, range.count, "scenes");
   SweepHooks hooks;
-  hooks.write = [&](const RangeRows& rows) {
-    output.write(rows);
-    progress.add(rows.scenes);
-  };
+  hooks.write = [&](const RangeRows& rows) { output.write(rows); };
   hooks.tick = [&] {
     output.write({});
-    progress.tick();
+    progress.tick(queue.taken() - range.first);
   };
   hooks.stop = [&] { return what.interrupt.requested(); };
   compute_ranges(queue, what.threads, runners_of(what.plan, what.body), hooks, ranks);
@@ -549,21 +589,24 @@ void fill(SweepOutput& output, RangeQueue& queue, const SweepWork& what, Ranks& 
 int run_sweep(const SweepInput& input, const SweepPlan& plan, const SweepBody& body, int threads, Ranks& ranks) {
   const CooperativeInterrupt interrupt;
   SweepOutput output(input, plan);
-  const long long scenes = plan.points.count();
+  const long long scenes = plan.range.count;
   const bool is_done = !input.restart && output.is_done();
   const long long first = is_done ? scenes : output.first();
   if (is_done) say(fmt::format("{} is complete, nothing is left to do; --restart computes it anew", input.output));
   else if (first > 0 && first < scenes)
     say(fmt::format("goes on at {} {} of {}", plan.layout.rows == RowKind::scene ? "row" : "scene", first + 1, scenes));
-  RangeQueue queue({first, scenes - first}, range_size(plan));
+  RangeQueue queue({plan.range.first + first, scenes - first}, range_size(plan));
   fill(output, queue, {plan, body, threads, interrupt}, ranks);
-  if (is_done) return 0;
   if (queue.is_complete()) {
-    output.commit();
-    for (const std::string& remark : plan.remarks(input.request.summary ? 0 : output.cut())) say(remark);
-    return output.shortfalls().status(scenes, "scenes");
+    if (!is_done) {
+      output.commit();
+      for (const std::string& remark : plan.remarks(input.request.summary ? 0 : output.cut())) say(remark);
+    }
+    const std::string short_of = output.fell_short();
+    if (!short_of.empty()) say(short_of);
+    return short_of.empty() ? 0 : exit_status(FailureKind::not_computed);
   }
-  const std::string words = fmt::format("interrupted after {} of {} scenes", queue.taken(), scenes);
+  const std::string words = fmt::format("interrupted after {} of {} scenes", queue.taken() - plan.range.first, scenes);
   output.leave(words);
   if (writes_file(input)) say(words + "; the same command goes on");
   return interrupted_status;
@@ -613,6 +656,11 @@ void add_request_options(Command& command, SweepRequest& request) {
                    "uniform (with --random), 26 or [Q0,Q1,Q2,Q3],[...] or @FILE",
                .repeats = true});
   command.add(sweep_arguments(request));
+  command.add(
+      {.name = "--scenes",
+       .target = &request.scenes,
+       .type = "FROM:TO",
+       .help = "of all the scenes only these, numbered and drawn as without it; a task of an array has its own"});
   command.add({.name = "--probe",
                .target = &request.probes,
                .type = "NAME:X,Y,Z",
@@ -649,7 +697,14 @@ Command sweep_command() {
         add_plot_options(command, input.plot);
         add_process_options(command, input.restart, input.threads);
         command.footer = sweep_footer;
-        command.columns = {{"sweep", [] { return sweep_columns({.model = Model::continuous, .rests = true}); }},
+        command.columns = {{"sweep",
+                            [] {
+                              return sweep_columns({.model = Model::continuous,
+                                                    .probes = {{.name = "NAME"}},
+                                                    .rests = true,
+                                                    .part_at = {FragilePart{}},
+                                                    .has_curve = true});
+                            }},
                            {"sweep-summary", Summary::columns}};
       });
 }

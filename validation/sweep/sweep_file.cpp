@@ -14,6 +14,7 @@
 #include <cstring>
 #include <fstream>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "validation/output/bad_input.hpp"
@@ -92,6 +93,33 @@ std::vector<Record> read_records(const std::string& path) {
   return records;
 }
 
+/// "world.gravity is 9.81 there, 1.62 here": what two lines of heads differ in, "# NAME: VALUE".
+std::string difference(const std::string& there, const std::string& here) {
+  const auto cut = [](const std::string& line) { return std::min(line.find(": "), line.size()); };
+  if (there.substr(0, cut(there)) != here.substr(0, cut(here)))
+    return fmt::format("'{}' there, '{}' here", there.substr(0, 60), here.substr(0, 60));
+  std::string name = here.substr(2, cut(here) - 2), one = there.substr(cut(there) + 2),
+              other = here.substr(cut(here) + 2);
+  using Json = nlohmann::ordered_json;
+  const Json keys = Json::parse(one, nullptr, false), own_keys = Json::parse(other, nullptr, false);
+  if (keys.is_object() && own_keys.is_object()) {
+    const Json::json_pointer key(Json::diff(keys, own_keys).at(0).at("path").get<std::string>());
+    const auto words = [&](const Json& of) { return of.contains(key) ? of.at(key).dump() : "nothing"; };
+    name = (name == "scene" ? "" : name + ".") + key.to_string().substr(1), one = words(keys), other = words(own_keys);
+    std::replace(name.begin(), name.end(), '/', '.');
+  }
+  return fmt::format("{} is {} there, {} here", name, one, other);
+}
+
+/// In what a file differs from the head that it should begin with; empty: it begins with it, or ends within it, and is
+/// then at its end.
+std::string difference(std::istream& file, const std::string& head) {
+  std::istringstream lines(head);
+  for (std::string there, here; std::getline(lines, here) && std::getline(file, there);)
+    if (there != here && !(file.eof() && here.starts_with(there))) return difference(there, here);
+  return "";
+}
+
 bool truncate_to(int file, long long bytes) {
   return ftruncate(file, bytes) == 0 && lseek(file, bytes, SEEK_SET) == bytes;
 }
@@ -151,14 +179,10 @@ void SweepFile::open() {
 
 /// @returns whether the part begins with the whole head; false if it ends within it.  @throws BadInput at another one.
 bool SweepFile::has_head(const std::string& head) {
-  std::string text(head.size(), '\0');
-  const ssize_t size = pread(part_file_, text.data(), text.size(), 0);
-  if (size < 0) fail(part_, "cannot be read");
-  text.resize(static_cast<std::size_t>(size));
-  const auto [same, expected] = std::mismatch(text.begin(), text.end(), head.begin());
-  if (same == text.end()) return text.size() == head.size();
-  refuse(fmt::format("{} is of another sweep (its line {} differs); --restart begins anew", part_,
-                     1 + std::count(text.begin(), same, '\n')));
+  std::ifstream file(part_, std::ios::binary);
+  if (const std::string words = difference(file, head); !words.empty())
+    refuse(fmt::format("{} is of another sweep ({}); --restart begins anew", part_, words));
+  return file.good();
 }
 
 void SweepFile::keep_whole_rows(const SweepFileForm& form) {
@@ -199,16 +223,27 @@ void SweepFile::with_rows(const std::function<void(std::string_view rows)>& take
   take(std::string_view(static_cast<const char*>(bytes), size).substr(static_cast<std::size_t>(head_bytes_)));
 }
 
-bool SweepFile::is_complete(const std::string& head, long long last) const {
+bool SweepFile::is_own(std::istream& there, const std::string& head) const {
+  std::string title;
+  std::getline(there, title);
+  const bool is_sweep = title.starts_with("# ") && title.find(", sweep: ") != std::string::npos;
+  const std::string words = difference(there.seekg(0), head);
+  if (is_sweep && !words.empty())
+    refuse(fmt::format("is there already, of another sweep ({}); --restart overwrites it", words));
+  return words.empty() && there.good();
+}
+
+bool SweepFile::is_complete(const std::string& head, long long last,
+                            const std::function<void(std::string_view rows)>& take) const {
   std::ifstream file(destination_.path, std::ios::binary);
-  std::string begin(head.size(), '\0'), end(block_bytes, '\0');
-  if (!file.read(begin.data(), static_cast<std::streamsize>(begin.size())) || begin != head) return false;
-  const auto size = static_cast<std::size_t>(file.seekg(0, std::ios::end).tellg());
-  end.resize(std::min(end.size(), size - head.size()));
-  file.seekg(static_cast<std::streamoff>(size - end.size())).read(end.data(), static_cast<std::streamsize>(end.size()));
-  if (!file || !end.ends_with('\n')) return false;
-  end.pop_back();
-  return end.substr(end.rfind('\n') + 1).starts_with(fmt::format("{},", last));
+  if (!is_own(file, head)) return false;
+  const std::string begin = fmt::format("{},", last);
+  bool is_whole = false;
+  for (std::string row; std::getline(file, row);) {
+    is_whole = !file.eof() && row.starts_with(begin);
+    take(row);
+  }
+  return is_whole;
 }
 
 void SweepFile::write(std::string_view rows, long long scenes) {

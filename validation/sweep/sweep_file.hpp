@@ -7,6 +7,7 @@
 #include <chrono>
 #include <cstdint>
 #include <functional>
+#include <iosfwd>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -57,8 +58,12 @@ class SweepFile {
   /// Scenes that the part held already: the next row is that of scene number scenes().
   [[nodiscard]] long long scenes() const { return scenes_; }
   [[nodiscard]] const std::string& path() const { return destination_.path; }
-  /// Whether FILE is there with this head and a row of scene `last` as its last one.
-  [[nodiscard]] bool is_complete(const std::string& head, long long last) const;
+  /// Whether FILE is there with this head and a row of scene `last` as its last one, and then calls take(rows) with all
+  /// of them, some at a time.  @throws BadInput if it is of another sweep
+  [[nodiscard]] bool is_complete(const std::string& head, long long last,
+                                 const std::function<void(std::string_view rows)>& take) const;
+  /// Whether a file that is in the place of FILE begins with this head.  @throws BadInput if it is of another sweep
+  [[nodiscard]] bool is_own(std::istream& there, const std::string& head) const;
   /// Takes the rows of so many whole scenes, or none; they are in the file after half a second or a mebibyte, or after
   /// flush().  @throws BadInput if they cannot be written.
   void write(std::string_view rows, long long scenes);

@@ -265,6 +265,13 @@ void read_scene(const SweepRequest& request, std::vector<Setting>& settings, Sce
     throw BadInput("run.require_digits: needs run.errors, without which no digit is known");
 }
 
+void choose_range(const SweepRequest& request, SweepPlan& plan) {
+  plan.range = {0, plan.points.count()};
+  if (request.scenes.empty()) return;
+  plan.range = read_scene_range(request.scenes, plan.points.count());
+  plan.words.push_back(fmt::format("here: scenes {} to {}", plan.range.first, plan.range.first + plan.range.count - 1));
+}
+
 void read_points(const SweepRequest& request, const std::vector<Setting>& settings, SweepPlan& plan) {
   std::vector<SweepAxis> axes;
   for (const Setting& setting : settings) {
@@ -276,12 +283,13 @@ void read_points(const SweepRequest& request, const std::vector<Setting>& settin
     if (request.seed) throw BadInput(fmt::format("--seed {}: is for --random N", *request.seed));
     plan.points = SweepPoints(std::move(axes));
     plan.words.push_back(fmt::format("scenes: {}", plan.points.count()));
-    return;
+    return choose_range(request, plan);
   }
   if (axes.empty()) throw BadInput(fmt::format("--random {}: needs a --set KEY=LOW:HIGH", *request.random));
   const int seed = request.seed.value_or(1);
   plan.points = SweepPoints(std::move(axes), *request.random, static_cast<std::uint64_t>(seed));
   plan.words.push_back(fmt::format("scenes: {} random ones, seed {}", *request.random, seed));
+  choose_range(request, plan);
   if (request.scatter) {
     plan.words.push_back(
         fmt::format("scatter: each attitude in its turn, turned about each axis by a normally "
@@ -506,6 +514,10 @@ SweepPlan read_sweep_plan(const SweepRequest& request) {
   std::vector<Setting> settings = read_settings(sets, drawing);
   spare(request, values, drawing, settings);
   read_scene(request, settings, values, plan);
+  if (plan.layout.model == Model::discrete && plan.scene.until_rest) {
+    plan.words.emplace_back(
+        "impacts: of infinitely many those until the sum of the others is known to run.digits or lost in rounding");
+  }
   plan.fixed_words = shell_word(request.file) + " --model " + name_of(plan.layout.model);
   for (const Setting& setting : settings) {
     plan.words.push_back(fmt::format("set: {} = {}", setting.key, setting.text));
@@ -537,7 +549,7 @@ std::vector<std::string> SweepPlan::remarks(long long cut) const {
     said.push_back(fmt::format("scene {}, the first of those that warn: {}", found->first, found->second));
   if (cut > 0 && !has_own_limit) {
     said.push_back(fmt::format("{} of {} scenes end at {} impacts, where more may follow: run.impacts is not given",
-                               cut, points.count(), scene.request.impacts));
+                               cut, range.count, scene.request.impacts));
   }
   return said;
 }

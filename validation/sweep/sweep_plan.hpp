@@ -30,6 +30,7 @@ struct SweepRequest {
   std::optional<double> scatter;  ///< [°]
   std::optional<Model> model;     ///< else the continuous one where there is a ground
   std::optional<RowKind> rows;
+  std::string scenes{};         ///< FROM:TO, which are computed; empty: all
   std::string columns;          ///< empty: no more than rows have anyway
   bool no_errors = false;       ///< as --set run.errors=false
   bool require_digits = false;  ///< as --set run.require_digits=true
@@ -63,6 +64,7 @@ struct SweepPlan {
   Scene scene;  ///< the swept keys have their first values
   RowLayout layout;
   SweepPoints points;
+  SceneRange range;            ///< of the points: the scenes that are computed
   bool packed = false;         ///< rows are not CSV but packed cells
   bool has_own_limit = false;  ///< run.impacts is given
   /// What puts the value of each axis into a scene.

@@ -239,7 +239,8 @@ PlannedRun SceneRunner::planned(std::vector<LargestShock>& shocks) {
   const std::vector<Probe>& probes = plan_.layout.probes;
   if (probes.empty()) return run_to_digits(scene_, body, observer);
   const std::vector<numeric::Vector3> places = places_from(body_properties(scene_, Model::continuous).centre, probes);
-  ContinuousShock shock = continuous_shock(scene_, body, places, {.parts = plan_.layout.parts(), .observer = observer});
+  ContinuousShock shock = continuous_shock(
+      scene_, body, places, {.parts = plan_.layout.parts(), .keeps_motion = false, .observer = observer});
   shocks = LargestShock::of(shock.rows, terms_of(run_of(shock.planned.run), true));
   return std::move(shock.planned);
 }
@@ -251,7 +252,7 @@ RowForm SceneRunner::form_of(const std::string& prefix, CellWriter& out) const {
           .prefix = prefix,
           .layout = plan_.layout,
           .errors = plan_.layout.model == Model::discrete ? both : request.error_estimates,
-          .predictions = plan_.layout.model == Model::discrete ? both : request.amplification,
+          .predictions = both,
           .reason = {}};
 }
 
@@ -269,6 +270,23 @@ bool SceneRunner::append_scene(long long index, std::string& out) {
   form.reason = failure->message;
   append_failure(form, outcome_of(failure->kind));
   return true;
+}
+
+bool RunProgress::is_due(Clock::time_point now, long long done) {
+  if (now - said_at_ < std::chrono::minutes(1) || 10 * (done - said_) < all_) return false;
+  said_at_ = now;
+  said_ = done;
+  return true;
+}
+
+void RunProgress::tick(long long done) {
+  const Clock::time_point now = Clock::now();
+  if (now - shown_at_ < std::chrono::milliseconds(200)) return;
+  shown_at_ = now;
+  const auto part = [&](long long of) { return static_cast<std::size_t>(of); };
+  const std::string left = progress_.time_left(part(done - first_), part(all_ - first_));
+  progress_.show(progress_bar(part(done), part(all_)) + left);
+  if (is_due(now, done) && !shows_progress()) say(fmt::format("{} of {} {}{}", done, all_, what_, left));
 }
 
 bool is_started_by_mpirun() {

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <atomic>
+#include <chrono>
 #include <condition_variable>
 #include <exception>
 #include <functional>
@@ -17,15 +18,11 @@
 
 #include "numeric/body/body.hpp"
 #include "validation/command/command.hpp"
+#include "validation/command/options.hpp"
 #include "validation/run/discrete_scene.hpp"
 #include "validation/sweep/sweep_plan.hpp"
 
 namespace clatter::validation {
-
-/// Scenes first, first + 1, …, first + count − 1.
-struct SceneRange {
-  long long first = 0, count = 0;
-};
 
 /// Rows of the first `scenes` scenes of a range: of all, unless the run was stopped.
 struct RangeRows {
@@ -176,6 +173,26 @@ class SceneRunner {
 [[nodiscard]] MakeCompute runners_of(const SweepPlan& plan, const SweepBody& body);
 /// Scenes handed out at a time: some milliseconds' work.
 [[nodiscard]] long long range_size(const SweepPlan& plan);
+
+/// How far a run is, on stderr: on a terminal a line that renews itself, elsewhere one for each tenth that took a
+/// minute or more, or each minute that took a tenth.
+class RunProgress {
+ public:
+  using Clock = std::chrono::steady_clock;
+  /// @param first  how many of `all` were done before it
+  RunProgress(long long first, long long all, std::string what)
+      : first_(first), all_(all), said_(first), what_(std::move(what)) {}
+
+  void tick(long long done);
+  /// Whether a line is due elsewhere; it counts as said.
+  [[nodiscard]] bool is_due(Clock::time_point now, long long done);
+
+ private:
+  long long first_, all_, said_;
+  std::string what_;
+  Clock::time_point said_at_ = Clock::now(), shown_at_ = said_at_;
+  Progress progress_;
+};
 
 /// Whether mpirun or srun started this process as one of several (variables of PMI, PMIx, OpenMPI and Slurm).
 [[nodiscard]] bool is_started_by_mpirun();

@@ -78,13 +78,24 @@ class Run : public SequenceLoop<Sequence, ErrorGrowth> {
 
  private:
   /// Errors of rows, contacts and tail may be correlated: their sizes add up, and so does the rounding of each sum.
+  /// What comes to rest for certain, at a time T between the last known state and Rest::latest, has taken m(g T − V_n)
+  /// from the ground, V_n that of the first touch, in whatever order impacts followed.
   void bound_total() {
-    double error = epsilon * static_cast<double>(result_.rows.size() + 2 * result_.contacts.size() + 1) *
-                   result_.total_normal_impulse;
+    const double total = result_.total_normal_impulse;
+    const double rounding =
+        epsilon * static_cast<double>(result_.rows.size() + 2 * result_.contacts.size() + 1) * total;
+    double error = rounding;
     const auto add = [&](const std::optional<Tail>& tail) { error += tail ? tail->normal_impulse_error : 0; };
     for (const ImpactRow& row : result_.rows) error += row.error.impulse;
     for (const SustainedContact& contact : result_.contacts) error += contact.normal_impulse_error, add(contact.tail);
     add(result_.tail);
+    if (result_.rest && end_is_certain_ && known_) {
+      const ImpactRow& first = result_.rows.front();
+      const auto until = [&](double time) { return body_.mass * (drop_.gravity * time - first.before.velocity.z()); };
+      const double off = std::fmax(until(result_.rest->latest) - total, total - until(known_->time));
+      error = std::fmin(error, off + rounding + first.error.impulse +
+                                   body_.mass * (first.error.velocity_after + drop_.gravity * known_->error.time));
+    }
     result_.total_normal_impulse_error = error;
   }
 

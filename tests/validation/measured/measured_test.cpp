@@ -4,7 +4,7 @@
 #include "analytic/space/sequence/sequence.hpp"
 #include "tests/support.hpp"
 #include "validation/measured/score.hpp"
-#include "validation/sweep/counter_random.hpp"
+#include "validation/sweep/points.hpp"
 
 using namespace clatter;
 using namespace clatter::validation;

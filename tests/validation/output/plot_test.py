@@ -291,6 +291,22 @@ class Data(InFolder):
             self.assertIn("'restitution = 0.5'", self.read("p.gnuplot"))
             self.assertIn("set xlabel 'angle [°]'", self.read("p.gnuplot"))
 
+    def test_a_sweep_over_two_keys_of_many_values_has_a_cell_for_each_scene_in_the_colour_of_its_number(self):
+        out, drawn = self.plotted("sweep", case("rod-10"), "--model", "discrete", "--set", "drop.angle_deg=5:49:4", "--set",
+                                  "impact.restitution=0.1:0.9:0.08", "--columns", "impulse_normal_1")
+        cells = [(float(row["impact.restitution"]), float(row["drop.angle_deg"]), float(row["impulse_normal_1"])) for row in records(out)]
+        seen, last = [], 0
+        for fifth in range(5):
+            corners = drawn[f"panel1_{fifth}"]
+            self.assertEqual(len(corners) % 4, 0)
+            middles = [[sum(corner[i] for corner in corners[k:k + 4]) / 4 for i in (0, 1)] for k in range(0, len(corners), 4)]
+            own = sorted(value for e, angle, value in cells if any(abs(e - x) + abs(angle - y) < 1e-9 for x, y in middles))
+            self.assertEqual(len(own), len(middles))
+            self.assertGreaterEqual(own[0], last)
+            seen, last = seen + own, own[-1]
+        self.assertEqual(len(seen), len(cells))
+        self.assertIn("set xlabel 'restitution; colour: impulse normal 1 [N·s]'", self.read("p.gnuplot"))
+
     def test_columns_of_texts_are_not_drawn(self):
         _, drawn = self.plotted("sweep", case("phone-corner"), "--set", "drop.attitude=uniform", "--random", "9", "--model", "discrete",
                                 "--columns", "hardest_corners,hardest")

@@ -32,6 +32,12 @@ class Plan(EmptyFolder):
         self.assertEqual(command[:3], ["clatter", "simulate", path])
         self.assertLessEqual(json_of(*command[1:])["accuracy"]["achieved"], 1e-4)
 
+    def test_the_plan_tells_what_simulate_takes_of_the_scene_as_it_is(self):
+        for flags in ([], ["--digits", "4"]):
+            plan, run_alone = json_of("plan", "phone-damped", *flags), json_of("simulate", "phone-damped", *flags)
+            self.assertEqual(plan["simulate_evaluations"], run_alone["cost"]["force_evaluations"])
+            self.assertGreater(plan["simulate_seconds"], 0)
+
     def test_simulate_reports_achieved_against_asked(self):
         self.assertRegex(run("simulate", "rod-10").stdout, r"asked 6 digits, achieved \d+\.\d")
         self.assertRegex(run("sequence", "--angle", "10").stdout, r"asked 6 digits, achieved 1\d\.\d")

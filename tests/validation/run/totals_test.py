@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Sums and their errors: what is printed of them, what CSV and JSON carry, and when a run falls short (exit status 3)."""
 
+import itertools
 import re
 import signal
 
@@ -92,6 +93,9 @@ class Columns(Base):
         for row in self.rows(*sweep, "--no-errors"):
             self.assertEqual((row["predictable"], row["total_normal_impulse_error"]), ("", ""))
             self.assertGreater(float(row["total_normal_impulse"]), 0)
+        for rows, key in itertools.product(("scene", "impact"), ("run.errors", "run.amplification")):
+            for row in self.rows("sweep", PHONE, "--set", "run.impacts=1", "--set", "run.digits=3", "--set", f"{key}=false", "--rows", rows):
+                self.assertEqual(row["predictable"], "", (rows, key))
 
 
 class Shortfalls(Base):

@@ -43,6 +43,22 @@ BOOST_AUTO_TEST_CASE(the_acceleration_from_the_forces_integrates_to_the_change_o
   }
 }
 
+BOOST_AUTO_TEST_CASE(rows_are_the_same_where_no_more_of_a_recording_is_held_than_a_contact) {
+  const Scene scene = case_scene("phone-damped", {{"run.impacts", "--impacts", "3"}, {"run.digits", "--digits", "4"}});
+  const clatter::numeric::Body body = scene.make_body();
+  const std::vector<Vector3> places{Vector3(0.05, 0.02, 0.009)};
+  const ContinuousShock kept = continuous_shock(scene, body, places),
+                        streamed = continuous_shock(scene, body, places, {.keeps_motion = false});
+  BOOST_TEST((!kept.motion.pieces().empty() && !kept.other.pieces().empty()));
+  BOOST_TEST((streamed.motion.pieces().empty() && streamed.other.pieces().empty()));
+  BOOST_TEST_REQUIRE(streamed.rows.size() == kept.rows.size());
+  for (std::size_t i = 0; i < kept.rows.size(); ++i) {
+    BOOST_TEST(streamed.rows[i].value.peak_size == kept.rows[i].value.peak_size);
+    BOOST_TEST(streamed.rows[i].error.peak_size == kept.rows[i].error.peak_size);
+    BOOST_TEST(streamed.rows[i].impact == kept.rows[i].impact);
+  }
+}
+
 BOOST_AUTO_TEST_CASE(at_the_centre_of_mass_the_peak_is_force_over_mass) {
   const Scene scene = case_scene("phone-elastic", {{"run.impacts", "--impacts", "2"}, {"run.digits", "--digits", "9"}});
   const ShockRun run = run_shock(scene, {{"centre", Vector3::Zero()}}, {.sensitivity = false, .count = 2});

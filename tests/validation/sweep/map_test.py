@@ -113,7 +113,7 @@ class Map(EmptyFolder):
         env, block = self.keeping_the_script(), self.write("block.toml", BLOCK)
         for arguments, colour, words in ((["--over", "drop.angle_deg=0:80", "--over", "drop.speed=1:2", "--quantity", "ratio"], "d9d9d9", "no drop, or no number"),
                                          ([block, "--over", "drop.angle_deg=10:80", "--over", "impact.restitution=0.2:1", "--quantity", "rest_face"],
-                                          "ff2da0", "left open by rounding")):
+                                          "ff2da0", "left open")):
             done = run("map", *arguments, "--size", "12x4", "--output", self.path("map.png"), env=env)
             self.assertEqual(done.returncode, 0, done.stderr)
             self.assertIn((colour, words), re.findall(r"lc rgb '#(\w{6})' title '(.*?)'", self.read("script")))

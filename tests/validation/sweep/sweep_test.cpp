@@ -16,7 +16,6 @@
 #include "validation/output/bad_input.hpp"
 #include "validation/run/scene_value.hpp"
 #include "validation/scene/keys.hpp"
-#include "validation/sweep/counter_random.hpp"
 #include "validation/sweep/points.hpp"
 #include "validation/sweep/sweep_file.hpp"
 #include "validation/sweep/sweep_run.hpp"
@@ -449,6 +448,20 @@ BOOST_AUTO_TEST_CASE(any_number_of_threads_writes_the_same_and_what_they_throw_i
   BOOST_CHECK_EXCEPTION(run_on_threads(queue, 3, fails, hooks), std::runtime_error, mentions("no"));
 }
 
+BOOST_AUTO_TEST_CASE(progress_off_a_terminal_is_at_most_a_line_a_minute_and_a_tenth) {
+  const auto said = [](int seconds_a_scene) {
+    const RunProgress::Clock::time_point begin = RunProgress::Clock::now();
+    RunProgress progress(0, 200, "scenes");
+    std::vector<int> at;
+    for (int done = 1; done <= 200; ++done)
+      if (progress.is_due(begin + std::chrono::seconds(1 + done * seconds_a_scene), done)) at.push_back(done);
+    return at;
+  };
+  BOOST_TEST((said(0).empty()));
+  BOOST_TEST(said(1) == std::vector({60, 120, 180}));
+  BOOST_TEST(said(30) == std::vector({20, 40, 60, 80, 100, 120, 140, 160, 180, 200}));
+}
+
 BOOST_AUTO_TEST_CASE(a_run_goes_on_after_the_last_rows_that_their_digest_confirms) {
   const std::string one = form.head + "0,1\n", three = one + "1,1\n2,1\n", four = three + "3,1\n3,2\n";
   const auto found = [](const Found& is, long long scenes, const std::string& text) {
@@ -487,8 +500,8 @@ BOOST_AUTO_TEST_CASE(a_part_of_another_sweep_is_refused_and_kept) {
     BOOST_CHECK_EXCEPTION(SweepFile(folder.at("x"), form, false), BadInput, mentions(why));
     BOOST_TEST(text_of(folder.at("x.part")) == text);
   };
-  refused("# other\nindex,x\n0,1\n", "its line 1 differs");
-  refused("# head\nindex,y\n0,1\n", "its line 2 differs");
+  refused("# other\nindex,x\n0,1\n", "('# other' there, '# head' here)");
+  refused("# head\nindex,y\n0,1\n", "('index,y' there, 'index,x' here)");
 }
 
 BOOST_AUTO_TEST_CASE(a_part_takes_its_name_at_the_end_belongs_to_one_run_and_is_none_without_a_row) {

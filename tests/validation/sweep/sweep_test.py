@@ -274,7 +274,7 @@ class Scenes(Folder):
                           [PHONE, "--set", "drop.angle_deg=3:89:2", *QUICK]):
             texts = {self.sweep(*arguments, "--threads", threads) for threads in ("1", "2", "3")}
             self.assertEqual(len(texts), 1, arguments)
-            self.assertEqual(self.sweep(*arguments, "--output", self.path("out.csv")), "")
+            self.assertEqual(self.sweep(*arguments, "--output", self.path("out.csv"), "--restart"), "")
             self.assertEqual({self.read("out.csv")}, texts)
             self.assertEqual(sorted(os.listdir(self.folder)), ["out.csv", "rod.toml"])
 
@@ -309,15 +309,64 @@ class Scenes(Folder):
             self.assertFalse(os.path.exists(self.path(name + ".part")))
             self.sweep(*command[1:], "--restart")
             self.assertNotEqual(os.stat(self.path(name)).st_ino, inode)
-            for other in (["--set", "drop.speed=2"], ["--set", "run.errors=false"], ["--columns", "hardest", "--rows", "scene"]):
-                self.sweep(*command[1:-4], *command[-2:], *(other if "--rows" in other else ["--rows", "impact", *other]))
+            for other, words in ((["--set", "drop.speed=2"], "drop.speed is 1 there, 2 here"), (["--set", "run.errors=false"], "run.errors is true there, false here"),
+                                 (["--set", "body.length=2"], "body.length is 1 there, 2 here"), (["--columns", "hardest", "--rows", "scene"], "one row per impact there, "),
+                                 (["--set", "drop.spin=0:1:1"], "drop.spin is 0 there, null here")):
+                other = [*command[:-4], *command[-2:], *(other if "--rows" in other else ["--rows", "impact", *other])]
+                said = self.refused(f"{name}: is there already, of another sweep (", *other)
+                self.assertIn(words, said)
+                self.assertIn("; --restart overwrites it", said)
+                self.sweep(*other[1:], "--restart")
                 self.assertNotEqual(self.bytes(name), whole, other)
-                self.sweep(*command[1:])
+                self.sweep(*command[1:], "--restart")
                 self.assertEqual(self.bytes(name), whole, other)
+            self.write(name, "no sweep, sweep: of anything\n")  # as the output of any command
+            self.sweep(*command[1:])
+            self.assertEqual(self.bytes(name), whole)
         for damaged in (self.read("out.csv")[:-1], self.read("out.csv").rsplit("\n", 9)[0] + "\n"):
             self.write("out.csv", damaged)
             self.sweep(self.scene, "--set", "drop.angle_deg=1:40:0.01", "--rows", "impact", "--output", self.path("out.csv"))
             self.assertNotEqual(self.read("out.csv"), damaged)
+
+    def test_what_falls_short_is_said_again_of_a_file_that_is_there(self):
+        arguments = ["sweep", PHONE, "--set", "run.evaluation_limit=20:60020:20000", *QUICK]
+        said = "clatter: 1 of 4 scenes fall short; 0: evaluation-limit: "
+        for name in ["out.csv"] + ["out.h5"] * bool(HDF5):
+            first, again = (run(*arguments, "--output", self.path(name)) for _ in range(2))
+            self.assertEqual((first.returncode, again.returncode), (3, 3))
+            self.assertTrue(first.stderr.startswith(said), first.stderr)
+            self.assertEqual(again.stderr.splitlines()[1:], first.stderr.splitlines())
+
+    def test_scenes_of_a_range_are_those_of_the_whole(self):
+        for arguments in (["--set", "drop.angle_deg=1:40:0.01"], ["--set", "drop.angle_deg=5,10,15,20"],
+                          ["--set", "drop.angle_deg=1:60", "--random", "3000", "--seed", "7"],
+                          ["--set", "drop.attitude=[1,0,0,0],[0.96,0,0.28,0]", "--random", "3000", "--scatter", "3"]):
+            for rows in ("scene", "impact"):
+                command = [self.scene, *arguments, "--rows", rows]
+                whole = [line for line in self.sweep(*command).splitlines() if line[0].isdigit()]
+                scenes = 1 + int(whole[-1].split(",")[0])
+                ranges = [f"0:{scenes // 3}", f"{scenes // 3 + 1}:{scenes - 1}"]
+                joined, heads = [], []
+                for one in ranges:
+                    lines = self.sweep(*command, "--scenes", one).splitlines()
+                    joined += [line for line in lines if line[0].isdigit()]
+                    heads += [line for line in lines if line.startswith("# here: ")]
+                self.assertEqual(joined, whole)
+                self.assertEqual(heads, [f"# here: scenes {one.replace(':', ' to ')}" for one in ranges])
+        for bad in ("4:3", "0:4", "-1:2", "1", "1:", ":2", "a:b", "0:1.5"):
+            self.refused("must be FROM:TO, whole numbers from 0 to 3", "sweep", self.scene, "--set", "drop.angle_deg=5,10,15,20", "--scenes", bad)
+        if HDF5:
+            import h5py  # pylint: disable=import-outside-toplevel
+            files = []
+            for name, one in (("whole.h5", "0:3899"), ("a.h5", "0:1700"), ("b.h5", "1701:3899")):
+                for _ in range(2):
+                    done = run("sweep", self.scene, "--set", "drop.angle_deg=1:39.99:0.01", "--scenes", one, "--output", self.path(name))
+                    self.assertEqual(done.returncode, 0, done.stderr)
+                self.assertIn("is complete", done.stderr)
+                with h5py.File(self.path(name)) as file:
+                    files.append([(column, file[column][:].tobytes()) for column in file if column not in ("words", "outcome", "reason")])
+            for (column, whole), (_, one), (_, other) in zip(*files, strict=True):
+                self.assertEqual(one + other, whole, column)
 
     def test_a_sweep_does_not_go_on_with_another_mesh_of_the_same_name(self):
         self.write("body.stl", box_stl(0.1))
@@ -327,9 +376,10 @@ class Scenes(Folder):
         arguments = [scene, "--set", "drop.angle_deg=1:3:1"]
         whole = self.sweep(*arguments)
         self.write("out.csv.part", whole[:-10])
-        for other in (box_stl(0.2), octahedron_stl(0.1)):  # the second has extents, mass and inertia of the first
+        for other, words in ((box_stl(0.2), "body.extents.0 is 0.1 there, 0.2 here"),
+                             (octahedron_stl(0.1), "body.mesh.triangles is 12 there, 8 here")):  # extents, mass and inertia are those of the first
             self.write("body.stl", other)
-            self.refused("is of another sweep", "sweep", *arguments, "--output", self.path("out.csv"))
+            self.refused(f"is of another sweep ({words}", "sweep", *arguments, "--output", self.path("out.csv"))
         self.write("body.stl", box_stl(0.1))
         self.sweep(*arguments, "--output", self.path("out.csv"))
         self.assertEqual(self.read("out.csv"), whole)
@@ -479,7 +529,7 @@ class RowsTogether(Folder):
                           ["phone-corner", "--model", "discrete", "--set", "drop.attitude=26", "--columns", "corners,hardest_corners,hardest_mode"],
                           [self.scene, "--set", "drop.angle_deg=0.0005:60:0.0005"]):
             rows = records(self.sweep(*arguments))
-            self.assertEqual(self.sweep(*arguments, "--output", self.path("rows.h5")), "")
+            self.assertEqual(self.sweep(*arguments, "--output", self.path("rows.h5"), "--restart"), "")
             self.assertEqual(sorted(os.listdir(self.folder)), ["rod.toml", "rows.h5"])
             with h5py.File(self.path("rows.h5")) as file:
                 self.assertEqual(json.loads(file.attrs["scene"])["world"]["gravity"], 9.81)
@@ -489,8 +539,10 @@ class RowsTogether(Folder):
                         texts = [text.decode() for text in file["words"][name][:]] + [""]
                         self.assertEqual([texts[code] for code in column], [row[name] for row in rows], name)
                     else:
-                        values = [{"true": 1.0, "false": 0.0, "": math.nan}.get(row[name]) for row in rows]
-                        values = [float(row[name]) if value is None else value for row, value in zip(rows, values)]
+                        truths = {"true": 1, "false": 0, "": -1}
+                        is_truth = column.dtype == "int8"
+                        self.assertEqual(is_truth, name == "predictable", name)
+                        values = [truths[row[name]] if is_truth else float(row[name] or "nan") for row in rows]
                         self.assertEqual(struct.pack(f"{len(values)}d", *column), struct.pack(f"{len(values)}d", *values), name)
                 for column in file.values():
                     if column.name != "/words":  # a chunk is stored whole: they hold the rows and hardly more

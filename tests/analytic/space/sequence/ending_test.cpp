@@ -86,6 +86,32 @@ BOOST_AUTO_TEST_CASE(a_slab_that_bounces_on_one_corner_is_seen_to_end_with_its_m
   for (const space::ImpactRow& row : s.rows) BOOST_TEST(row.before.position.z() > 0);
 }
 
+BOOST_AUTO_TEST_CASE(what_comes_to_rest_has_a_total_within_bounds_though_errors_decide_the_order_of_its_last_impacts) {
+  space::Drop drop;
+  drop.body = space::make_box({.mass = 0.6, .length = 0.2, .width = 0.1, .thickness = 0.03});
+  drop.velocity.z() = -2;
+  drop.gravity = 9.81;
+  drop.law.restitution = 0.5;
+  int open = 0;
+  for (int i = 0; i < 8; ++i) {
+    space::Sequence neighbours[2];
+    for (space::Sequence& s : neighbours) {
+      const double angle = 0.05 + 0.03 * i + (&s == neighbours ? 0 : 1e-12);  // their impacts part, their totals do not
+      drop.attitude = turn(0.1 * (i + 1), {1, 0, 0}) * turn(angle, {0, 1, 0});
+      s = space::impact_sequence(drop, {.impacts = 5000, .until_rest = true});
+    }
+    const auto& [one, other] = neighbours;
+    if (one.rows.back().error.predictable || !std::isfinite(one.total_normal_impulse_error)) continue;
+    ++open;
+    BOOST_TEST(std::fabs(one.total_normal_impulse - other.total_normal_impulse) <=
+               one.total_normal_impulse_error + other.total_normal_impulse_error);
+    // Momentum, at any time when it may have come to rest.
+    const double taken = drop.body.mass * (2 + drop.gravity * one.rest->latest);
+    BOOST_TEST(std::fabs(one.total_normal_impulse - taken) <= 1.000001 * one.total_normal_impulse_error);
+  }
+  BOOST_TEST(open >= 3);
+}
+
 BOOST_AUTO_TEST_CASE(the_last_hops_of_a_corner_are_all_as_certain_relative_to_their_speed) {
   // A hop returns with its own speed and e takes a share of it: the velocity of the centre of mass, which errs by more
   // than the last hops have, has no part in that.
