@@ -1,10 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""How the functions of the Python module are called: arrays, keyword arguments, Ctrl-C, what wrong arguments say; and what
-can be done with their results."""
+"""How the functions of the Python module are called: arrays, keyword arguments, Ctrl-C, wrong types; and what can be done with
+their results."""
 
 import copy
 import inspect
 import itertools
+import operator
 import pickle
 import re
 import shlex
@@ -23,10 +24,6 @@ import numpy as np
 from clatter.arguments import KEYS, swept_text
 from run_folder import ROOT, json_of, run
 from waiting import until_it_computes
-
-SCENE_CALLS = ("sequence", "explain", "gradient", "simulate", "compare", "compare_against", "plan", "tradeoff", "shock", "ground",
-               "report")
-
 
 class Series:
     """Numbers as pandas has them."""
@@ -148,11 +145,8 @@ class Results(unittest.TestCase):
         self.assertEqual(again.history, run.history)
         np.testing.assert_array_equal(again.history.force, run.history.force)
         self.assertNotEqual(run, self.results["Simulation"])
-        with self.assertRaises(ValueError):
-            again.history.force[0] = 1
-        angles = copy.deepcopy(self.results["Angles"])
-        with self.assertRaises(ValueError):
-            angles.P1[0] = 1
+        for array in (again.history.force, copy.deepcopy(self.results["Angles"]).P1):
+            self.assertFalse(array.flags.writeable)
 
     def test_results_of_other_content_differ(self):
         self.assertEqual(clatter.sequence(10), clatter.sequence(10))
@@ -176,14 +170,10 @@ class Results(unittest.TestCase):
         for impact in (clatter.sequence(10)[0], self.results["in space"][0], copy.deepcopy(clatter.sequence(10)[0])):
             with self.assertRaisesRegex(AttributeError, "impulse_normal: Impact cannot be changed"):
                 impact.impulse_normal = 1
-            with self.assertRaises(AttributeError):
-                impact.anything = 1
-            with self.assertRaises(AttributeError):
-                del impact.end
-            with self.assertRaises(TypeError):
-                impact["n"] = 2
-            with self.assertRaises(ValueError):
-                impact.velocity_after[0] = 1
+            for kind, change in ((AttributeError, lambda: setattr(impact, "anything", 1)), (AttributeError, lambda: delattr(impact, "end")),
+                                 (TypeError, lambda: operator.setitem(impact, "n", 2)),
+                                 (ValueError, lambda: operator.setitem(impact.velocity_after, 0, 1))):
+                self.assertRaises(kind, change)
 
     def test_impacts_pickle_are_equal_by_their_values_and_show_themselves(self):
         impact = clatter.sequence(10)[1]
@@ -193,7 +183,6 @@ class Results(unittest.TestCase):
         self.assertEqual(impact, clatter.sequence(10).to_dict()["impacts"][1])
         self.assertRegex(repr(impact), r"^Impact 2: end b at 0\.\d+ s, 5\.08198°, P = 1\.00284 N·s$")
         self.assertRegex(repr(self.results["in space"][0]), r"^Impact 1: end \S+ at 0 s, .*P = \S+ N·s$")
-
 
     def test_each_is_a_data_frame_with_the_columns_of_its_table_in_their_order(self):
         try:
@@ -252,15 +241,6 @@ class Columns(unittest.TestCase):
         rows = clatter.sweep("rod-10", {"drop.angle_deg": [10, 20]}, model="discrete", rows="impact")
         self.assertEqual(len(rows.column("impulse_normal_error")), len(rows))
 
-    def test_a_name_that_there_is_not_gets_those_that_there_are(self):
-        run, comparison = clatter.sequence(angle=10), clatter.compare("phone-damped", impacts=1)
-        for ask, known in ((lambda: run.column("impulsenormal"), "impulse_normal"), (lambda: run.column("error_estimate"), "start_error"),
-                           (lambda: run[0]["impuls"], "impulse_normal"), (lambda: comparison.column("impulse_normal", "continous"), "continuous"),
-                           (lambda: comparison.column("velocity_after", "discrete"), "velocity_normal"),
-                           (lambda: clatter.angles([10])["beta"], "beta_deg")):
-            with self.assertRaisesRegex(KeyError, known):
-                ask()
-
     def test_the_scene_of_a_result_gives_the_result_again(self):
         for ask in (lambda scene: clatter.sequence(scene), lambda scene: clatter.simulate(scene, impacts=1),
                     lambda scene: clatter.compare(scene, impacts=1)):
@@ -300,8 +280,6 @@ class SweepsAsTheProgram(unittest.TestCase):
         run = clatter.sequence(angle=10)
         np.testing.assert_array_equal(run["impulse_normal"], [impact.impulse_normal for impact in run])
         np.testing.assert_array_equal(run.at([0.1, 0.2])["position_z"], run.at([0.1, 0.2]).column("position_z"))
-        with self.assertRaises(KeyError):
-            run["impuls"]
         self.assertEqual(sorted(dir(clatter)), sorted(clatter.__all__))
 
     def test_commands_of_the_program_give_its_numbers(self):
@@ -393,7 +371,7 @@ class SweepsAsTheProgram(unittest.TestCase):
             clatter.explain(2.5, angle=10)
 
     def test_the_keys_of_scenes_are_keyword_arguments(self):
-        for name in SCENE_CALLS:
+        for name in ("sequence", "explain", "gradient", "simulate", "compare", "compare_against", "plan", "tradeoff", "shock", "ground", "report"):
             parameters = inspect.signature(getattr(clatter, name)).parameters
             continuous = name in ("simulate", "compare", "plan", "tradeoff", "shock", "ground", "report")
             for key in KEYS.values():
@@ -403,10 +381,8 @@ class SweepsAsTheProgram(unittest.TestCase):
                     self.assertEqual(key.argument in parameters, key.is_discrete or continuous)
             self.assertFalse([one for one in parameters.values() if one.kind is one.VAR_KEYWORD])
         parameters = inspect.signature(clatter.simulate).parameters
-        self.assertEqual(str(parameters["angle"]), "angle: float | None = None")
-        self.assertEqual(str(parameters["impacts"]), "impacts: int | None = None")
-        self.assertEqual(parameters["orientation"].annotation, int | None)
-        self.assertEqual(parameters["planar"].annotation, bool | None)
+        for name, kind in (("angle", float), ("impacts", int), ("orientation", int), ("planar", bool)):
+            self.assertEqual((parameters[name].annotation, parameters[name].default), (kind | None, None))
         self.assertIn("'surface', 'projected'", str(parameters["area"]))
 
     def test_documentation_tells_each_key_with_unit_and_range(self):
@@ -431,12 +407,10 @@ class SweepsAsTheProgram(unittest.TestCase):
         self.assertIsInstance(caught.exception, clatter.BadInput)
 
     def test_an_unknown_argument_gets_the_nearest_known_one(self):
-        self.refused("agnle: unknown argument of sequence(); did you mean angle?", clatter.sequence, agnle=10)
-        self.refused("stifness: unknown argument of simulate(); did you mean stiffness?", clatter.simulate, "rod-45", stifness=1)
-        self.refused("law: unknown argument of sequence(); did you mean restitution_law?", clatter.sequence, 10, law="poison")
-        self.refused("progess: unknown argument of angles(); did you mean progress?", clatter.angles, progess=print)
-        self.refused("qick: unknown argument of verify(); did you mean quick?", clatter.verify, qick=True)
-        self.refused("modle: unknown argument of sweep(); did you mean model?", clatter.sweep, "rod-10", {}, modle="discrete")
+        for function, wrong, right in ((clatter.sequence, "agnle", "angle"), (clatter.simulate, "stifness", "stiffness"),
+                                       (clatter.sequence, "law", "restitution_law"), (clatter.angles, "progess", "progress"),
+                                       (clatter.verify, "qick", "quick"), (clatter.sweep, "modle", "model")):
+            self.refused(f"{wrong}: unknown argument of {function.__name__}(); did you mean {right}?", function, **{wrong: 1})
 
     def test_a_wrong_type_is_told_with_the_key_the_value_and_what_is_allowed(self):
         self.refused("angle [1, 2]: must be a number, from 0 to 90 degrees", clatter.sequence, angle=[1, 2])
