@@ -98,7 +98,10 @@ SAME = [
      "sweep phone-corner --set drop.attitude=1x0x0x0 --set drop.speed=1:3:1 --model discrete".split(), ()),
     (lambda: clatter.sweep("rod-10", {"drop.angle_deg": "5:60", "drop.speed": "0.1:10:log"}, random=20, seed=4, model="discrete"),
      "sweep rod-10 --set drop.angle_deg=5:60 --set drop.speed=0.1:10:log --random 20 --seed 4 --model discrete".split(), ()),
-    (clatter.benchmark_list, ["benchmark", "list"], ()), (lambda: clatter.benchmark_show("corner"), ["benchmark", "show", "corner"], ()),
+    (lambda: clatter.shock("phone-damped", impacts=1, probe={"camera": (0.048, 0.016, 0.0095)}, sensitivity=False),
+     "shock phone-damped --impacts 1 --probe camera:0.048,0.016,0.0095 --no-sensitivity".split(), ()),
+    (lambda: clatter.ground("phone-damped", floor="concrete"), "shock --ground phone-damped --floor concrete".split(), ()),
+    (lambda: clatter.atlas("rod"), ["atlas", "rod"], ("table",)), (clatter.benchmark_list, ["benchmark", "list"], ()), (lambda: clatter.benchmark_show("corner"), ["benchmark", "show", "corner"], ()),
     (lambda: clatter.benchmark_truth("phone-damped", "stronge"), "benchmark truth phone-damped --law stronge".split(), FORMS),
 ]
 

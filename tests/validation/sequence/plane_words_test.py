@@ -7,7 +7,7 @@ import re
 import subprocess
 import sys
 
-from run_folder import PROGRAM, ROOT, EmptyFolder, json_of, run
+from run_folder import PROGRAM, ROOT, EmptyFolder, json_of, rows_of, run
 
 
 def said(*arguments):
@@ -26,20 +26,16 @@ class Words(EmptyFolder):
         run_ = json_of(*drop, "--at", "0.03,0.5,3", "--until-rest")
         flight, slide, rest = run_["states"]
         self.assertAlmostEqual(flight["position"][2], 0.05 + 0.4 * 0.03 - 9.81 / 2 * 0.03**2, delta=1e-14)
-        self.assertAlmostEqual(flight["velocity"][0], 6 - 0.5 * 1.4, delta=1e-14)
         # All impulses are m (V + g t), and friction takes half of that until the slide has stopped.
         speed = 6 - 0.5 * (1 + 9.81 * 0.5)
         self.assertAlmostEqual(slide["velocity"][0], speed, delta=1e-12)
-        self.assertTrue(slide["touches"])
-        self.assertEqual((rest["velocity"], rest["touches"]), ([0, 0, 0], True))
+        self.assertEqual((slide["touches"], rest["touches"], rest["velocity"]), (True, True, [0, 0, 0]))
         end = run_["end_motion"]
         self.assertEqual((run_["outcome"], end["kind"]), ("at-rest", "slides"))
         self.assertAlmostEqual(end["start"] + end["duration"], 0.5 + speed / (0.5 * 9.81), delta=1e-12)
-        self.assertAlmostEqual(end["distance"], end["velocity"][0] ** 2 / 9.81, delta=1e-12)
-        self.assertEqual(json_of(*drop)["outcome"], "slides-on")
-        rows = run(*drop, "--at", "0.03,0.5", "--format", "csv", "--bare", "--rows", "states").stdout.splitlines()
-        self.assertEqual((len(rows), rows[0].split(",")[:3]), (3, ["time", "impacts", "touches"]))
-        self.assertEqual(json_of(*drop, "--until", "0.1")["outcome"], "time-limit")
+        self.assertEqual([json_of(*drop, *more)["outcome"] for more in ((), ("--until", "0.1"))], ["slides-on", "time-limit"])
+        rows = rows_of(*drop, "--at", "0.03,0.5", "--rows", "states")
+        self.assertEqual((len(rows), list(rows[0])[:3]), (2, ["time", "impacts", "touches"]))
 
     def test_friction_by_the_slip_after_the_impact_turns_slip_back_where_friction_on_its_way_does_not(self):
         drop = ("--angle", "30", "--restitution", "0.5", "--friction", "0.3", "--tangential-velocity", "0.4")

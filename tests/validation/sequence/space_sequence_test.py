@@ -47,7 +47,7 @@ class Sequence(SpaceFolder):
         self.assertGreaterEqual(all_of_it["rest"]["latest"], all_of_it["tail"]["end_time"])
         self.assertGreater(all_of_it["tail"]["end_time_error"], 0)
 
-    def test_where_a_corner_stays_the_run_tells_how_the_body_turns_on_it_to_the_next_impact(self):
+    def test_where_a_corner_stays_the_run_tells_how_the_body_turns_on_it_and_until_rest_goes_on_from_there(self):
         drop = ("sequence", *CORNER, "--gravity", "9.81", "--restitution", "0")
         run = self.json_of(*drop)
         self.assertEqual(run["outcome"], "sustained-contact")
@@ -60,17 +60,13 @@ class Sequence(SpaceFolder):
         self.assertEqual(set(run["energy_losses"]), {"point", "edge", "face", "hops", "contacts"})
         self.assertAlmostEqual(run["energy_losses"]["point"], sum(r["energy_loss"] for r in run["impacts"]), delta=1e-15)
         self.assertIn("the body turns on " + row["corners"], " ".join(self.run_program(*drop).stdout.split()))
-
-    def test_until_rest_goes_on_after_a_corner_has_stayed_and_accounts_for_all_energy(self):
-        run = self.json_of("sequence", *CORNER, "--gravity", "9.81", "--restitution", "0", "--friction", "0.2", "--until-rest")
-        self.assertEqual((run["outcome"], run["shortfall"]), ("at-rest", None))
+        run = self.json_of(*drop, "--friction", "0.2", "--until-rest")  # which accounts for all energy
+        self.assertEqual((run["outcome"], run["shortfall"], run["contacts"][0]["end"]), ("at-rest", None, "impact"))
         first, contact = run["impacts"][0], run["contacts"][0]
-        self.assertEqual(contact["end"], "impact")
         then = run["impacts"][contact["after_impact"]]
         self.assertAlmostEqual(then["start"], contact["start"] + contact["duration"], delta=1e-15)
         self.assertEqual(set(then["corners"].split()), {contact["arriving"], contact["corners_at_end"]})
-        spent = sum(run["energy_losses"].values()) + run["energy_at_end"]
-        self.assertAlmostEqual(spent, first["energy_before"], delta=1e-9 * first["energy_before"])
+        self.assertAlmostEqual(sum(run["energy_losses"].values()) + run["energy_at_end"], first["energy_before"], delta=1e-9 * first["energy_before"])
 
     def test_the_outcomes_of_small_tilts_are_all_in_json_and_one_line_of_the_table(self):
         face = ("sequence", *FACE, "--attitude=" + words(TURN), "--impacts", "1")

@@ -113,12 +113,6 @@ class Input(Folder):
         meshed = json.loads(result.stdout)["impacts"][0]
         self.assertAlmostEqual(meshed["impulse_normal"] / box["impulse_normal"], 1, delta=1e-8)
 
-    def test_a_run_that_gets_nowhere_says_so_with_status_3(self):
-        result = simulate(self.scene(SCENE + "evaluation_limit = 10\n"))
-        self.assertEqual(result.returncode, 3)
-        for text in (result.stderr, result.stdout):
-            self.assertIn("evaluation-limit", text)
-
     def test_a_step_too_long_for_the_contact_knows_few_digits(self):
         for row in self.json(self.scene(), "--step", "1e300")["impacts"]:
             error = row["error_estimate"]["impulse_normal"]
