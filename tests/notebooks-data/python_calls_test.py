@@ -244,15 +244,6 @@ class Results(unittest.TestCase):
 
 
 class SweepsAsTheProgram(unittest.TestCase):
-    def test_scatter_columns_and_the_attitudes_of_a_box(self):
-        rows = clatter.sweep("phone-damped", {"drop.attitude": 26, "run.impacts": 2}, model="discrete", random=52, scatter=3,
-                             columns=["hardest", "hardest_impulse_normal"])
-        self.assertEqual(len(rows), 52)
-        self.assertTrue(np.all(rows["hardest_impulse_normal"] > 0))
-        own = clatter.sweep("phone-damped", {}, model="discrete", random=5, scatter=0)
-        turned = np.array([own[f"drop.attitude_q{i}"] for i in range(4)]).T
-        np.testing.assert_allclose(turned, [[np.cos(np.radians(5)), 0, -np.sin(np.radians(5)), 0]] * 5, atol=1e-12)
-
     def test_a_sweep_takes_the_names_that_a_sequence_takes(self):
         by_key = clatter.sweep("phone-corner", {"drop.angle_deg": [20, 30], "world.gravity": 9.81}, model="discrete")
         by_name = clatter.sweep("phone-corner", angle=np.linspace(20, 30, 2), gravity=9.81, model="discrete")
@@ -305,21 +296,15 @@ class SweepsAsTheProgram(unittest.TestCase):
 
     def test_a_summary_is_that_of_the_rows(self):
         drops = {"scene": "rod-10", "angle": np.linspace(1, 60, 60), "model": "discrete"}
-        summary, rows = clatter.sweep(**drops, summary=True), clatter.sweep(**drops)
-        for name in ("total_normal_impulse", "last_start"):
-            one, values = summary[name], np.sort(rows[name])
-            self.assertEqual((one.count, one.least, one.largest), (60, values[0], values[-1]))
-            self.assertAlmostEqual(one.p50, values[29], delta=one.p50_error + 2**-11 * values[29])
-        self.assertEqual(sum(summary.texts["outcome"].values()), 60)
+        summary, values = clatter.sweep(**drops, summary=True), clatter.sweep(**drops)["last_start"]
+        one = summary["last_start"]
+        self.assertEqual((one.count, one.least, one.largest, sum(summary.texts["outcome"].values())), (60, min(values), max(values), 60))
         self.assertEqual(run(*shlex.split(summary["last_start"].largest_command)[1:]).returncode, 0)
         with self.assertRaisesRegex(KeyError, "did you mean energy_loss"):
             summary["energy_los"]
         unnamed = clatter.sweep(clatter.case("rod-10"), angle=[5, 10], model="discrete", summary=True)
         self.assertEqual(unnamed["last_start"].largest_command or "", "")
         self.assertNotIn("clatter sweep", repr(unnamed))
-        listed = clatter.sweep("phone-damped", {"drop.attitude": 26, "run.impacts": 2}, model="discrete", summary=True)
-        self.assertEqual(len(listed.attitudes), 26)
-
     def test_figures_take_other_numbers(self):
         np.testing.assert_array_equal(clatter.figure(7, gravity_numbers=[0])["beta"], clatter.figure(7)["beta"])
         with_gravity = clatter.figure(7, gravity_numbers=[0.5])
