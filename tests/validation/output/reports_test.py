@@ -318,12 +318,11 @@ class Help(EmptyFolder):
             if name in slow or "--plot" in words and not shutil.which("gnuplot") or "run.csv" in example[1]:
                 continue
             with self.subTest(command=name):
+                os.mkdir(self.path(str(tried)))
                 if name == "benchmark":
-                    self.write(words[2], in_form(["benchmark", "truth", "rod-10"], "csv"))
-                done = self.run_program(*words)
+                    self.write(f"{tried}/{words[2]}", in_form(["benchmark", "truth", "rod-10"], "csv"))
+                done = self.run_program(*words, cwd=self.path(str(tried)))
                 self.assertEqual(done.returncode, 0, (words, done.stderr))
-                for made in os.listdir(self.folder):
-                    shutil.rmtree(self.path(made)) if os.path.isdir(self.path(made)) else os.remove(self.path(made))
                 tried += 1
         self.assertGreater(tried, 12)
 
