@@ -12,6 +12,7 @@ import zipfile
 from fractions import Fraction
 from pathlib import Path
 
+import numpy as np
 from run_folder import EmptyFolder, stl
 
 MASS = 0.2
@@ -53,7 +54,7 @@ def hollow():
 
 
 def single(x):
-    return struct.unpack("<f", struct.pack("<f", x))[0]
+    return float(np.float32(x))
 
 
 def in_32_bits(triangles):
@@ -61,27 +62,19 @@ def in_32_bits(triangles):
 
 
 def exact(triangles):
-    """Volume and the inertia of MASS about the centre, xx, yy, zz, xy, xz, yz."""
-    volume, first, second = Fraction(0), [Fraction(0)] * 3, [[Fraction(0)] * 3 for _ in range(3)]
-    for three in triangles:
-        a, b, c = ([Fraction(x) for x in corner] for corner in three)
-        part = (a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) + a[2] * (b[0] * c[1] - b[1] * c[0])) / 6
-        total = [x + y + z for x, y, z in zip(a, b, c)]
-        volume += part
-        for i in range(3):
-            first[i] += part * total[i] / 4
-            for j in range(3):
-                second[i][j] += part * (total[i] * total[j] + a[i] * a[j] + b[i] * b[j] + c[i] * c[j]) / 20
-    p = [[(second[i][j] - first[i] * first[j] / volume) / volume for j in range(3)] for i in range(3)]
-    k2 = p[1][1] + p[2][2], p[2][2] + p[0][0], p[0][0] + p[1][1], -p[0][1], -p[0][2], -p[1][2]
+    """Volume and the inertia of MASS about the centre, xx, yy, zz, xy, xz, yz, in rationals."""
+    a, b, c = np.moveaxis(np.array([[[Fraction(x) for x in corner] for corner in three] for three in triangles]), 1, 0)
+    part, total = (a * np.cross(b, c)).sum(axis=1) / 6, a + b + c
+    volume, first = part.sum(), part @ total / 4
+    second = sum((part[:, None] * x).T @ x for x in (total, a, b, c)) / 20
+    p = (second - np.outer(first, first) / volume) / volume
+    k2 = p[1, 1] + p[2, 2], p[2, 2] + p[0, 0], p[0, 0] + p[1, 1], -p[0, 1], -p[0, 2], -p[1, 2]
     return float(volume), [MASS * float(x) for x in k2]
 
 
 def shared(triangles):
     """Corners, each once, and their numbers."""
-    number = {corner: None for three in triangles for corner in three}
-    for i, corner in enumerate(number):
-        number[corner] = i
+    number = {corner: i for i, corner in enumerate(dict.fromkeys(corner for three in triangles for corner in three))}
     return list(number), [[number[corner] for corner in three] for three in triangles]
 
 
