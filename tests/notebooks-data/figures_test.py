@@ -143,7 +143,6 @@ class Drawn(unittest.TestCase):
             self.assertAlmostEqual(second / first, ratio, delta=0.01)
             self.assertEqual(second, max(row["Fn"] for row in rows_of(number)))
 
-
     def test_rods_of_figure_8_have_length_1_and_stay_above_the_ground(self):
         for axes in self.all[8].axes:
             rods = [line.get_data() for line in axes.lines  # each is drawn as one line of two ends

@@ -25,6 +25,7 @@ from clatter.arguments import KEYS, swept_text
 from run_folder import ROOT, run
 from waiting import until_it_computes
 
+
 class Series:
     """Numbers as pandas has them."""
 
@@ -229,7 +230,6 @@ class Results(unittest.TestCase):
         worst = clatter.report("phone-damped", impacts=1, probe=probe, drops=4, sensitivity=False)
         self.assertEqual(pandas.DataFrame(worst)["peak_g_camera"].max(), worst[0].peak_g_camera)
 
-
     def test_the_scene_of_a_result_gives_the_result_again(self):
         def plain(result):
             """Of equal content where numbers are."""
@@ -305,6 +305,7 @@ class SweepsAsTheProgram(unittest.TestCase):
         unnamed = clatter.sweep(clatter.case("rod-10"), angle=[5, 10], model="discrete", summary=True)
         self.assertEqual(unnamed["last_start"].largest_command or "", "")
         self.assertNotIn("clatter sweep", repr(unnamed))
+
     def test_figures_take_other_numbers(self):
         np.testing.assert_array_equal(clatter.figure(7, gravity_numbers=[0])["beta"], clatter.figure(7)["beta"])
         with_gravity = clatter.figure(7, gravity_numbers=[0.5])

@@ -3,7 +3,7 @@
 
 import math
 
-from space_folder import BOX, SpaceFolder, cross, product, rotated, turn
+from space_folder import SpaceFolder, cross, product, rotated, turn
 
 QUANTITIES = ["start", "contact_angle_deg", *(f"{name}_{axis}" for name in ("impulse", "velocity_after", "angular_velocity_after") for axis in "xyz")]
 
