@@ -5,6 +5,7 @@ import itertools
 import os
 import shutil
 import subprocess
+from pathlib import Path
 
 from run_folder import PROGRAM, ROOT, Folder, case
 
@@ -139,5 +140,4 @@ class Overwriting(Folder):
             done = subprocess.run([PROGRAM, "simulate", name, "--output", name + b".out", "--history", name + b".csv", "--format", form],
                                   capture_output=True, timeout=3000, check=False)
             self.assertEqual((done.returncode, done.stderr), (0, b""))
-            with open(name + b".out", encoding="utf-8") as file:
-                self.assertIn("continuous", file.read())
+            self.assertIn("continuous", Path(os.fsdecode(name + b".out")).read_text(encoding="utf-8"))

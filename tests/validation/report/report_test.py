@@ -60,8 +60,7 @@ class Report(EmptyFolder):
             self.assertAlmostEqual(answer["margin"] / answer["least"], 1, delta=2e-3 if "0" not in drops else 0.02)
             self.assertRegex(answer["attitude"], r"\A(face|edge|corner) \S+ down, \S+° off\Z")
             again = json_of(*shlex.split(found["commands"][0])[1:])
-            rows = [row for row in again["impacts"] if row["probe"] == answer["probe"]]
-            mine = next(row for row in rows if row["n"] == answer["impact"])
+            mine = next(row for row in again["impacts"] if (row["probe"], row["n"]) == (answer["probe"], answer["impact"]))
             is_discrete = "--restitution" in ground
             self.assertEqual(answer["delta_v"], mine["discrete_delta_v" if is_discrete else "delta_v"])
             if is_discrete:  # what an undamped part bears of a step of velocity
@@ -69,6 +68,7 @@ class Report(EmptyFolder):
             else:
                 blow = next(one for one in again["pulses"]["blows"] if (one["probe"], one["n"]) == (answer["probe"], answer["impact"]))
                 margin = min(number for name, number in blow.items() if name.startswith("margin") and number is not None)
+                self.assertEqual(answer["decided_by"] == "history", margin == blow["margin_history"])
             self.assertAlmostEqual(answer["margin"] / margin, 1, delta=1e-9)
             page = self.page(*scene, "--part", part, *drops)
             name, off = re.match(r"(.*) down, (.*)° off", answer["attitude"]).groups()
