@@ -127,9 +127,13 @@ launch() {
   launch_as "$tree/clatter" "$@"
 }
 
+launch_well() {
+  launch "$@"
+  expect "exit status" 0 "$status"
+}
+
 build_first() {
-  launch
-  expect "status of the first launch" 0 "$status"
+  launch_well
   age_tree
 }
 
@@ -158,6 +162,13 @@ wait_for() {  # COMMAND..., until it succeeds
   until "$@"; do sleep 0.02; done
 }
 
+expect_nothing_done() {
+  expect "calls" "" "$(<"$settings/calls")"
+  expect "standard error" "" "$(<"$settings/err")"
+}
+
+what_is_installed() { sed -n 's/^apt-get .*--no-install-recommends //p' "$settings/calls"; }
+
 expect_no_program() {
   expect "exit status" 3 "$status"
   expect "standard output" "" "$(<"$settings/out")"
@@ -183,8 +194,7 @@ END
 # ---- the claims ------------------------------------------------------------
 
 test_first_launch_builds_and_runs() {
-  launch
-  expect "exit status" 0 "$status"
+  launch_well
   expect_calls 1 "cmake --preset release"
   expect_calls 1 "cmake --build --preset release$"
   expect_calls 0 "apt-get"
@@ -193,8 +203,7 @@ test_first_launch_builds_and_runs() {
 }
 
 test_first_table_takes_the_program_in_the_plane() {
-  launch sequence
-  expect "exit status" 0 "$status"
+  launch_well sequence
   expect_calls 1 "cmake --build --preset release --target clatter-plane"
   expect "standard error" "clatter: building (first run, a few minutes) ..." "$(<"$settings/err")"
   age_tree
@@ -206,15 +215,13 @@ test_what_the_program_in_the_plane_leaves_takes_the_first_program() {
   launch sequence
   age_tree
   leave_in_the_plane
-  launch sequence "a b"
-  expect "exit status" 0 "$status"
+  launch_well sequence "a b"
   expect_calls 1 "cmake --build --preset release --target clatter-first"
   expect "standard error" "clatter: building (models in space, a few minutes) ..." "$(<"$settings/err")"
   expect "arguments" "<sequence> <a b>" "$(grep '^<' "$settings/out" | paste -sd ' ')"
   age_tree
   launch explain
-  expect "calls" "" "$(<"$settings/calls")"
-  expect "standard error" "" "$(<"$settings/err")"
+  expect_nothing_done
 }
 
 test_what_can_be_read_once_takes_the_first_program() {
@@ -236,8 +243,7 @@ test_other_commands_build_the_whole_program_which_then_serves_all() {
   expect "standard error" "clatter: building (the whole program, a few minutes) ..." "$(<"$settings/err")"
   age_tree
   launch sequence
-  expect "calls" "" "$(<"$settings/calls")"
-  expect "standard error" "" "$(<"$settings/err")"
+  expect_nothing_done
 }
 
 test_first_program_is_built_anew_where_a_source_is_newer_than_both() {
@@ -252,38 +258,20 @@ test_first_program_is_built_anew_where_a_source_is_newer_than_both() {
 test_nothing_is_called_when_nothing_changed() {
   build_first
   launch sequence
-  expect "calls" "" "$(<"$settings/calls")"
-  expect "standard error" "" "$(<"$settings/err")"
+  expect_nothing_done
 }
 
-test_saved_source_is_built() {
+test_saved_added_and_deleted_sources_and_changed_presets_are_built_once() {
   build_first
-  echo changed >"$tree/analytic/a.cpp"
-  launch
-  expect_calls 1 "cmake --build"
-  launch
-  expect_calls 0 "cmake"
-}
-
-test_added_source_is_built() {
-  build_first
-  touch "$tree/validation/cases/new.toml"
-  launch
-  expect_calls 1 "cmake --build"
-}
-
-test_deleted_source_is_noticed() {
-  build_first
-  rm "$tree/analytic/b.cpp"
-  launch
-  expect_calls 1 "cmake --build"
-}
-
-test_changed_presets_are_noticed() {
-  build_first
-  touch "$tree/CMakePresets.json"
-  launch
-  expect_calls 1 "cmake --build"
+  local change
+  for change in "touch analytic/a.cpp" "touch validation/cases/new.toml" "rm analytic/b.cpp" "touch CMakePresets.json"; do
+    (cd "$tree" && $change)
+    launch
+    expect_calls 1 "cmake --build"
+    launch
+    expect_calls 0 "cmake"
+    age_tree
+  done
 }
 
 test_source_saved_during_a_build_is_built_by_the_next_launch() {
@@ -304,8 +292,7 @@ test_failed_build_does_not_run_the_stale_program() {
   launch
   expect_no_program
   rm "$settings/build_fails"
-  launch
-  expect "exit status" 0 "$status"
+  launch_well
 }
 
 test_program_left_by_a_failed_build_is_not_run() {
@@ -366,8 +353,7 @@ test_moved_tree_is_configured_afresh() {
   build_first
   mv "$tree" "$tree moved"
   tree+=" moved"
-  launch
-  expect "exit status" 0 "$status"
+  launch_well
   expect_calls 1 "cmake --fresh --preset release"
   expect_calls 1 "cmake --build"
 }
@@ -415,27 +401,23 @@ test_root_installs_all_that_is_missing_at_once() {
   remove_tool cmake
   remove_tool ninja
   remove_tool g++
-  launch
-  expect "exit status" 0 "$status"
+  launch_well
   expect_calls 1 "apt-get"
   expect "what is installed" "cmake ninja-build g++ libgsl-dev libboost-dev libeigen3-dev libcli11-dev\
- nlohmann-json3-dev libfmt-dev libtomlplusplus-dev librandom123-dev libqhull-dev libassimp-dev" "$(sed -n 's/^apt-get .*--no-install-recommends //p' \
-    "$settings/calls")"
+ nlohmann-json3-dev libfmt-dev libtomlplusplus-dev librandom123-dev libqhull-dev libassimp-dev" "$(what_is_installed)"
 }
 
 test_only_what_is_missing_is_installed() {
   remove_package libfmt-dev
   launch
-  expect "what is installed" "libfmt-dev" "$(sed -n 's/^apt-get .*--no-install-recommends //p' \
-    "$settings/calls")"
+  expect "what is installed" "libfmt-dev" "$(what_is_installed)"
   expect_calls 0 "apt-get.* update"
 }
 
 test_stale_package_lists_are_renewed_once() {
   remove_package libgsl-dev
   touch "$settings/lists_are_stale"
-  launch
-  expect "exit status" 0 "$status"
+  launch_well
   expect_calls 2 "apt-get.* install .*libgsl-dev"
   expect_calls 1 "apt-get.* update"
 }
@@ -443,8 +425,7 @@ test_stale_package_lists_are_renewed_once() {
 test_interrupted_installation_is_finished() {
   remove_package libgsl-dev
   touch "$settings/interrupted"
-  launch
-  expect "exit status" 0 "$status"
+  launch_well
   expect_calls 1 "^dpkg --configure -a"
   expect_calls 0 "apt-get.* --fix-broken"
 }
@@ -452,8 +433,7 @@ test_interrupted_installation_is_finished() {
 test_interrupted_installation_gets_what_it_lacked() {
   remove_package libgsl-dev
   touch "$settings/interrupted" "$settings/lacks_dependency"
-  launch
-  expect "exit status" 0 "$status"
+  launch_well
   expect_calls 1 "apt-get.* --fix-broken install"
 }
 
@@ -472,8 +452,7 @@ test_user_installs_through_sudo() {
   become_user
   add_sudo
   remove_package libgsl-dev
-  launch
-  expect "exit status" 0 "$status"
+  launch_well
   expect_calls 1 "sudo env DEBIAN_FRONTEND=noninteractive apt-get"
   expect_calls 1 "^apt-get"
 }
@@ -491,36 +470,38 @@ test_user_without_sudo_is_told_one_line_to_run() {
     "$(grep apt-get "$settings/err")"
 }
 
-what_is_installed() { sed -n 's/^apt-get .*--no-install-recommends //p' "$settings/calls"; }
+expect_to_come() {  # PACKAGES COMMAND THAT-BRINGS-THEM ARGS...: when first asked for
+  local packages=$1 bring=$2
+  launch "${@:3}"
+  expect "what is installed" "$packages" "$(what_is_installed)"
+  $bring
+  launch "${@:3}"
+  expect "calls" "" "$(<"$settings/calls")"
+}
+
+add_gnuplot() { stub gnuplot </dev/null; }
+add_hdf5() { touch "$tree/build/release/validation/clatter-hdf5.so"; }
 
 test_gnuplot_comes_when_a_picture_is_first_asked_for() {
   build_first
   launch sequence
-  expect "calls" "" "$(<"$settings/calls")"
-  launch sequence --plot a.svg
-  expect "what is installed" "gnuplot-nox" "$(what_is_installed)"
-  stub gnuplot </dev/null
-  launch sequence --plot a.svg
-  expect "calls" "" "$(<"$settings/calls")"
+  expect_nothing_done
+  expect_to_come gnuplot-nox add_gnuplot sequence --plot a.svg
   launch verify --html=a.html
   expect "calls" "" "$(<"$settings/calls")"
 }
 
 test_gnuplot_comes_when_a_map_is_first_drawn() {
+  local map=(map --over drop.angle_deg=0:60 --over drop.speed=1:2 --output)
   build_first
-  launch map --over drop.angle_deg=0:60 --over drop.speed=1:2 --output map.npy
+  launch "${map[@]}" map.npy
   expect "calls" "" "$(<"$settings/calls")"
-  launch map --over drop.angle_deg=0:60 --over drop.speed=1:2 --output map.png
-  expect "what is installed" "gnuplot-nox" "$(what_is_installed)"
+  expect_to_come gnuplot-nox add_gnuplot "${map[@]}" map.png
 }
 
 test_hdf5_comes_when_it_is_first_asked_for() {
   build_first
-  launch sweep rod-sweep --output rows.h5
-  expect "what is installed" "libhdf5-dev" "$(what_is_installed)"
-  touch "$tree/build/release/validation/clatter-hdf5.so"
-  launch sweep rod-sweep --output rows.h5
-  expect "calls" "" "$(<"$settings/calls")"
+  expect_to_come libhdf5-dev add_hdf5 sweep rod-sweep --output rows.h5
 }
 
 test_mpi_comes_when_it_is_first_asked_for_and_its_program_is_named() {
@@ -538,8 +519,7 @@ test_mpi_comes_when_it_is_first_asked_for_and_its_program_is_named() {
 test_system_without_dpkg_just_builds() {
   rm "$bin/dpkg-query"
   : >"$settings/installed"
-  launch
-  expect "exit status" 0 "$status"
+  launch_well
   expect_calls 0 "apt-get"
 }
 

@@ -64,11 +64,8 @@ def rows_of(*arguments, **options):
 
 def stl(triangles):
     """An STL file of triangles of three corners each, counterclockwise seen from outside."""
-    text = "solid body\n"
-    for triangle in triangles:
-        corners = "".join("vertex %r %r %r\n" % tuple(corner) for corner in triangle)
-        text += "facet normal 0 0 0\nouter loop\n" + corners + "endloop\nendfacet\n"
-    return text + "endsolid body\n"
+    facets = ("".join("vertex %r %r %r\n" % tuple(corner) for corner in triangle) for triangle in triangles)
+    return "solid body\n" + "".join(f"facet normal 0 0 0\nouter loop\n{facet}endloop\nendfacet\n" for facet in facets) + "endsolid body\n"
 
 
 class EmptyFolder(unittest.TestCase):
@@ -83,13 +80,11 @@ class EmptyFolder(unittest.TestCase):
         return os.path.join(self.folder, name)
 
     def write(self, name, text):
-        with open(self.path(name), "w", encoding="utf-8") as file:
-            file.write(text)
+        Path(self.path(name)).write_text(text, encoding="utf-8")
         return self.path(name)
 
     def read(self, name):
-        with open(self.path(name), encoding="utf-8") as file:
-            return file.read()
+        return Path(self.path(name)).read_text(encoding="utf-8")
 
     def bytes(self, name):
         return Path(self.path(name)).read_bytes()

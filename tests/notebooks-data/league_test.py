@@ -45,19 +45,15 @@ class Numbers(unittest.TestCase):
         self.assertTrue(any(row["reason"] for row in answered))
         self.assertTrue(any(row["verdict"] == "fails" for row in answered))
 
-    def test_each_thing_that_goes_wrong_is_shown_by_the_runs_it_names(self):
+    def test_each_engine_has_something_that_goes_wrong_shown_by_the_runs_it_names(self):
         findings = tomllib.loads((ENGINES / "findings.toml").read_text())["finding"]
-        self.assertTrue(findings)
+        self.assertLessEqual({engine["id"] for engine in self.league.engines}, {finding["engine"] for finding in findings})
         for finding in findings:
             with self.subTest(finding=finding["says"]):
                 self.assertTrue(finding["shown"])
                 for run in finding["shown"]:
                     self.assertTrue({"above", "below"} & set(run))
                     self.league.shown(finding["engine"], run)
-
-    def test_each_engine_has_something_that_goes_wrong(self):
-        findings = tomllib.loads((ENGINES / "findings.toml").read_text())["finding"]
-        self.assertEqual({engine["id"] for engine in self.league.engines} - {finding["engine"] for finding in findings}, set())
 
     def test_a_finding_that_a_run_does_not_show_is_refused(self):
         run = {"problem": "rod-10-brisk", "settings": "tuned", "step": "1/960", "column": "law_error", "above": 0.5}

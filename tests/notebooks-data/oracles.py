@@ -74,11 +74,6 @@ def exponent_and_factor():
     return [float(mp.log(twice / once, 2)), float(factor)]
 
 
-def first_blow():
-    v, spin = rod_blow(cos(radians(30)))
-    return [v + 1, v, spin]
-
-
 def forty_five():
     """Eq. 12 solved for theta; P2/P1 from the approach speeds and the effective masses of the ends."""
     beta = pi / 4
@@ -311,21 +306,9 @@ def lower_end(hits, count, z=1.96):
 STANDARD = 9.80665
 
 
-def quarter():
-    """The rod as two rigid collisions, by conservation of energy and of angular momentum about the struck end."""
-    v, w = -1.0, 0.0  # of the centre, upward, and counter-clockwise
-    for end in (-0.5, 0.5):
-        before = (v, w)
-        # P at `end`: v + P, w + 12 P end; the end's velocity v + w end reverses.
-        push = -2 * (v + w * end) / (1 + 12 * end * end)
-        v, w = v + push, w + 12 * push * end
-        assert abs(v * v + w * w / 12 - before[0] ** 2 - before[1] ** 2 / 12) < 1e-12
-    return [(v - before[0]) + (w - before[1]) / 4]
-
-
 # Of printed numbers a tolerance is half a unit of the last digit at most, but for what is said.
 ORACLES = {
-    "1.1": (first_blow, 5e-6),
+    "1.1": (lambda: [rod_blow(cos(radians(30)))[0] + 1, *rod_blow(cos(radians(30)))], 5e-6),
     "1.2": (lambda: [degrees(math.acos(sqrt(0.5 / 3))), 6 * sqrt(0.5 / 3)], 5e-6),  # 3 cos^2 = e, Omega = 6 cos
     "1.3": (exponent_and_factor, 2e-4),  # the limit theta -> 0; at 0.1 deg the next term is some theta^2 = 3e-6
     "2.1": (forty_five, 5e-6),
@@ -373,7 +356,7 @@ ORACLES = {
     "14.1": (lambda: [150 * STANDARD / (2 * pi * 200), 150 * STANDARD / 2], 1e-5),
     # The fall whose speed, with the rebound, is the integral of the half sine.
     "14.2": (lambda: [(1500 * STANDARD * 5e-4 * 2 / pi / 1.5) ** 2 / (2 * STANDARD)], 1e-5),
-    "14.3": (quarter, 1e-9),
+    "14.3": (lambda: [1.25 * struck((0.5, 0.5), 1 / 12)[1]], 1e-9),  # P + (12 P/2)/4 a quarter off the centre, P half the second approach
     "15.1": (lambda: [math.ceil((NormalDist().inv_cdf(0.975) / 0.01) ** 2 * 5 / 36)], 1e-9),
     "15.2": (lambda: [1 / math.sqrt(3)], 1e-5),  # half of an equilateral triangle
     # The corner above its edge: the distance of both, less the height of the centre on the face.

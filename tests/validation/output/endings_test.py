@@ -19,9 +19,16 @@ def heed_hangups():
     signal.signal(signal.SIGHUP, signal.SIG_DFL)
 
 
-class Devices(Folder):
-    COMMANDS = (["sequence", "--angle", "10"], ["angles", "--format", "csv"], ["explain", "2", "--angle", "10"],
-                SWEEP)
+def limited_to(size):
+    return lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (size, size))
+
+
+class Endings(Folder):
+    COMMANDS = (["sequence", "--angle", "10"], ["angles", "--format", "csv"], ["explain", "2", "--angle", "10"], SWEEP)
+
+    def others(self):
+        """What a run has left beside its input."""
+        return sorted({*os.listdir(self.folder)} - {"body.stl", "scene.toml"})
 
     def test_devices_and_standard_output_by_its_dash_are_written_through(self):
         for command in self.COMMANDS:
@@ -31,8 +38,7 @@ class Devices(Folder):
                 done = self.run_program(*command, "--output", device)
                 self.assertEqual((done.returncode, done.stderr, done.stdout), (0, "", expected), (command, device))
             done = self.run_program(*command, "--output", "/dev/null")
-            self.assertEqual((done.returncode, done.stderr, done.stdout), (0, "", ""), command)
-            self.assertEqual(self.contents(), before)
+            self.assertEqual((done.returncode, done.stderr, done.stdout, self.contents()), (0, "", "", before), command)
             with open(self.path("out"), "w", encoding="utf-8") as out:  # what stands in an open file stays
                 out.write("before\n")
                 out.flush()
@@ -49,24 +55,21 @@ class Devices(Folder):
             done = self.run_program(*command, "--output", "fifo")
             reader.join()
             self.assertEqual((done.returncode, done.stderr, texts[0]), (0, "", self.run_program(*command).stdout))
-        self.assertEqual(sorted(os.listdir(self.folder)), ["body.stl", "fifo", "scene.toml"])
+        self.assertEqual(self.others(), ["fifo"])
 
     def test_a_full_device_is_one_line(self):
         for command in self.COMMANDS:
             self.refused("--output /dev/full: cannot be written (No space left on device)", *command, "--output", "/dev/full")
             with open("/dev/full", "w", encoding="utf-8") as full:
                 done = self.run_program(*command, stdout=full, stderr=subprocess.PIPE, capture_output=False)
-            self.assertEqual((done.returncode, done.stderr),
-                             (3, "clatter: standard output: cannot be written (No space left on device)\n"))
+            self.assertEqual((done.returncode, done.stderr), (3, "clatter: standard output: cannot be written (No space left on device)\n"))
         self.refused("--history /dev/full", "simulate", "scene.toml", "--history", "/dev/full")
 
     def test_it_is_one_line_and_leaves_nothing(self):
         for size in (0, 1, 100):
-            def limit(size=size):
-                resource.setrlimit(resource.RLIMIT_FSIZE, (size, size))
+            limit = limited_to(size)
             for option, command in (("--output", ["angles", "--format", "csv"]), ("--output", ["sequence", "--angle", "10"]),
-                                    ("--history", ["simulate", "scene.toml"]),
-                                    ("--output", SWEEP)):
+                                    ("--history", ["simulate", "scene.toml"]), ("--output", SWEEP)):
                 self.refused("File too large", *command, option, "out", preexec_fn=limit)
                 self.write("out", "x")
                 self.refused("File too large", *command, option, "out", preexec_fn=limit)
@@ -75,15 +78,12 @@ class Devices(Folder):
     def test_a_sweep_goes_on_when_there_is_room_again(self):
         command = [*SWEEP, "--set", "drop.angle_deg=0.001:60:0.001"]
         whole = self.run_program(*command).stdout
-        done = self.run_program(*command, "--output", "out",
-                                preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (2_000_000, 2_000_000)))
+        done = self.run_program(*command, "--output", "out", preexec_fn=limited_to(2_000_000))
         self.assertEqual(done.returncode, 2)
         self.assertRegex(done.stderr, r"\Aclatter: --output out: out.part cannot be written [^\n]+\n\Z")
         done = self.run_program(*command, "--output", "out")
-        self.assertEqual(done.returncode, 0)
+        self.assertEqual((done.returncode, self.read("out"), self.others()), (0, whole, ["out"]))
         self.assertRegex(done.stderr, r"\Aclatter: goes on at row \d+ of 60000\n\Z")
-        self.assertEqual(self.read("out"), whole)
-        self.assertEqual(sorted(os.listdir(self.folder)), ["body.stl", "out", "scene.toml"])
 
     def closed(self, redirection, *arguments):
         return subprocess.run(["/bin/bash", "-c", 'exec "$0" "$@" ' + redirection, PROGRAM, *arguments], cwd=self.folder, text=True,
@@ -110,13 +110,9 @@ class Devices(Folder):
             done = self.closed(">&-", *arguments)
             self.assertEqual((done.returncode, done.stderr), (3, "clatter: standard output: cannot be written (Bad file descriptor)\n"),
                              arguments)
-        done = self.closed(">&-", "simulate", "scene.toml", "--output", "out", "--history", "h")
-        self.assertEqual((done.returncode, done.stderr), (0, ""))
-        self.assertEqual(self.read("out"), self.run_program("simulate", "scene.toml").stdout)
-
-    def test_all_streams_closed_still_writes_the_file(self):
-        self.assertEqual(self.closed("<&- >&- 2>&-", "sequence", "--angle", "10", "--output", "out").returncode, 0)
-        self.assertEqual(self.read("out"), self.run_program("sequence", "--angle", "10").stdout)
+        for redirection in (">&-", "<&- >&- 2>&-"):
+            done = self.closed(redirection, "simulate", "scene.toml", "--output", "out", "--history", "h")
+            self.assertEqual((done.returncode, done.stderr, self.read("out")), (0, "", self.run_program("simulate", "scene.toml").stdout))
 
     def test_a_reader_that_leaves_early_leaves_no_litter(self):
         with subprocess.Popen([PROGRAM, *LONG_RUN, "--plot", "p.svg", "--plot-script"], cwd=self.folder, stdout=subprocess.PIPE,
@@ -124,8 +120,7 @@ class Devices(Folder):
             process.stdout.readline()
             process.stdout.close()
             self.assertEqual(process.stderr.read(), b"")
-        self.assertEqual(process.returncode, 0)
-        self.assertEqual(sorted(os.listdir(self.folder)), ["body.stl", "scene.toml"])
+        self.assertEqual((process.returncode, self.others()), (0, []))
 
     def growing(self):
         """Size of the largest file that has no name yet."""
@@ -138,8 +133,7 @@ class Devices(Folder):
                 until(self.growing, process)
                 for number in numbers:
                     process.send_signal(number)
-            self.assertEqual(process.returncode, 130, numbers)
-            self.assertEqual(sorted(os.listdir(self.folder)), ["body.stl", "scene.toml"], numbers)
+            self.assertEqual((process.returncode, self.others()), (130, []), numbers)
 
     def test_an_interrupt_ends_stdout_with_whole_rows_and_their_number(self):
         for command, head in ((LONG_RUN, "theta"), ([*SWEEP, "--set", "drop.angle_deg=0.000001:60:0.000001"], "index,")):
@@ -191,8 +185,7 @@ class Devices(Folder):
         with subprocess.Popen([PROGRAM, "sequence", "--angle", "10", "--plot", "p.svg"], cwd=self.folder, env=environment) as process:
             until(lambda: os.path.exists(self.path("drawing")), process)
             process.send_signal(signal.SIGTERM)
-        with open(self.path("wait"), "w", encoding="ascii"):
-            pass
+        self.write("wait", "")
         self.assertEqual(process.returncode, 130)
         self.assertEqual(os.listdir(self.path("tmp")), [])
         self.assertEqual([name for name in os.listdir(self.folder) if "clatter" in name], [])

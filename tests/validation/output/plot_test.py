@@ -12,8 +12,9 @@ import signal
 import struct
 import subprocess
 import xml.etree.ElementTree as ElementTree
+from pathlib import Path
 
-from run_folder import PROGRAM, ROOT, EmptyFolder, case, records, run
+from run_folder import PROGRAM, ROOT, EmptyFolder, case, json_of, records, run
 from waiting import until
 
 # A level face whose small tilts have four outcomes.
@@ -23,28 +24,21 @@ FACE = ["--body", "box", "--size", "0.1514x0.08958x0.1433", "--mass", "0.584", "
 # For each command: arguments, axis names, legends.
 COMMANDS = {
     "sequence": (["sequence", "--angle", "10", "--gravity", "9.81", "--restitution", "0.8", "--impacts", "20"],
-                 ["time since the first impact [s]", "lowest point [m]", "normal impulse [N·s]"],
-                 ["end a", "end b", "at end a", "at end b"]),
+                 ["time since the first impact [s]", "lowest point [m]", "normal impulse [N·s]"], ["end a", "end b", "at end a", "at end b"]),
     "sequence, tilts": (["sequence", *FACE], ["time since the first impact [s]", "height [m]", "small tilts"],
                         ["centre of mass", "lowest point", "corners"]),
-    "angles": (["angles", "--step", "2"],
-               ["contact angle θ of the first impact [°]", "contact angle [°]", "normal impulse [m|vₙ|]"],
+    "angles": (["angles", "--step", "2"], ["contact angle θ of the first impact [°]", "contact angle [°]", "normal impulse [m|vₙ|]"],
                ["β, second impact", "γ, third impact", "P₁", "P₂", "P₃"]),
-    "regimes": (["angles", "--regimes", "--over", "restitution"],
-                ["coefficient of restitution e", "contact angle θ of the first impact [°]"],
+    "regimes": (["angles", "--regimes", "--over", "restitution"], ["coefficient of restitution e", "contact angle θ of the first impact [°]"],
                 ["at least one", "at least two", "three impacts", "θ₂", "θ₃"]),
     "simulate": (["simulate", case("phone-damped"), "--impacts", "3"],
                  ["time since the first touch-down [s]", "height [m]", "force [N]", "energy [J]"],
-                 ["mass centre", "lowest point", "normal contact force", "translation", "rotation", "potential", "ground",
-                  "total"]),
+                 ["mass centre", "lowest point", "normal contact force", "translation", "rotation", "potential", "ground", "total"]),
     "simulate, swept": (["simulate", case("rod-friction-sweep")],
                         ["friction coefficient μ", "velocity [m/s]", "Ω [rad/s]", "impulse [N·s]", "energy [J]"],
-                        ["normal velocity after the impact, Vₙ", "angular velocity after the impact, Ω",
-                         "normal impulse, Pₙ", "energy lost"]),
-    "compare": (["compare", case("rod-10"), "--radius", "0.01"],
-                ["number of the impact", "normal impulse [N·s]", "largest deviation, relative"],
-                ["discrete", "continuous", "limit on stiff ground", "|continuous − discrete|", "predicted size",
-                 "|limit − discrete|"]),
+                        ["normal velocity after the impact, Vₙ", "angular velocity after the impact, Ω", "normal impulse, Pₙ", "energy lost"]),
+    "compare": (["compare", case("rod-10"), "--radius", "0.01"], ["number of the impact", "normal impulse [N·s]", "largest deviation, relative"],
+                ["discrete", "continuous", "limit on stiff ground", "|continuous − discrete|", "predicted size", "|limit − discrete|"]),
     "compare, swept": (["compare", case("rod-friction-sweep")],
                        ["friction coefficient μ", "normal impulse [N·s]", "largest deviation, relative"],
                        ["discrete", "continuous", "limit on stiff ground", "|continuous − discrete|"]),
@@ -68,15 +62,15 @@ def blocks(script):
 
 
 class InFolder(EmptyFolder):
-    def source(self, path):
-        with open(os.path.join(ROOT, path), encoding="utf-8") as file:
-            return file.read()
-
     def plotted(self, *arguments, status=0):
         """What a run prints, and the data that its script draws."""
         done = run(*arguments, "--plot", self.path("p.svg"), "--plot-script")
         self.assertEqual(done.returncode, status, done.stderr)
         return done.stdout, blocks(self.read("p.gnuplot"))
+
+    def plotted_data(self, *arguments, **options):
+        text, drawn = self.plotted(*arguments, "--format", "json", **options)
+        return json.loads(text), drawn
 
 
 class Pictures(InFolder):
@@ -107,8 +101,8 @@ class Pictures(InFolder):
                     self.assertTrue(500 < height < 1600 and len(picture) > 20000, height)
 
     def test_the_ring_of_tilts_gives_each_outcome_its_share_of_the_circle(self):
-        text, data = self.plotted("sequence", *FACE, "--format", "json")
-        shares = [outcome["share"] for outcome in json.loads(text)["impacts"][0]["outcomes"]]
+        told, data = self.plotted_data("sequence", *FACE)
+        shares = [outcome["share"] for outcome in told["impacts"][0]["outcomes"]]
         self.assertEqual(len(shares), 4)
         script = self.read("p.gnuplot")
         for number, share in enumerate(shares):
@@ -164,6 +158,9 @@ DRAWN = [
 ]
 
 
+UNIFORM = ("sweep", case("phone-corner"), "--set", "drop.attitude=uniform", "--model", "discrete")
+
+
 class Data(InFolder):
     def test_commands_draw_the_rows_that_they_print(self):
         for command, blocks_of in DRAWN:
@@ -175,26 +172,21 @@ class Data(InFolder):
                     self.assertEqual(drawn[block], [[float(row[x]), float(row[y])] for row in rows])
 
     def test_sequence_draws_ends_that_touch_the_ground_at_their_impacts_only(self):
-        out, drawn = self.plotted(*COMMANDS["sequence"][0], "--format", "json")
-        impacts = json.loads(out)["impacts"]
+        told, drawn = self.plotted_data(*COMMANDS["sequence"][0])
+        impacts = told["impacts"]
         for block, end in (("panel1_0", "a"), ("panel1_1", "b")):
             times = [i["start"] for i in impacts if i["end"] == end]
             down = {t for t, height in drawn[block] if abs(height) < 1e-12 and t <= impacts[-1]["start"]}
             self.assertTrue(set(times) <= down)
             self.assertTrue(all(any(abs(t - s) < 1e-12 for s in times) for t in down))
             self.assertGreater(min(height for _, height in drawn[block]), -1e-8)
-        at_start = [height for t, height in drawn["panel1_1"] if t == 0]
-        self.assertAlmostEqual(at_start[0], math.sin(math.radians(10)), delta=1e-15)
+        self.assertAlmostEqual(next(height for t, height in drawn["panel1_1"] if t == 0), math.sin(math.radians(10)), delta=1e-15)
 
     def test_flat_bouncing_is_drawn_as_parabolas_up_to_its_end(self):
-        out, drawn = self.plotted("sequence", "--angle", "0", "--gravity", "9.81", "--restitution", "0.8", "--impacts", "60",
-                                  "--format", "json")
-        result = json.loads(out)
+        result, drawn = self.plotted_data("sequence", "--angle", "0", "--gravity", "9.81", "--restitution", "0.8", "--impacts", "60")
         first, second = result["impacts"][:2]
-        flight = [(t, height) for t, height in drawn["panel1_0"] if 0 <= t <= second["start"]]
-        self.assertGreaterEqual(len(flight), 60)
-        for t, height in flight:
-            self.assertAlmostEqual(height, first["velocity_after"][2] * t - 9.81 / 2 * t * t, delta=1e-15)
+        flight = [abs(height - first["velocity_after"][2] * t + 9.81 / 2 * t * t) for t, height in drawn["panel1_0"] if 0 <= t <= second["start"]]
+        self.assertTrue(len(flight) >= 60 and max(flight) <= 1e-15)
         self.assertEqual({t for t, _ in drawn["panel1_2"]}, {result["tail"]["end_time"]})
         self.assertEqual(drawn["panel2_3"], [[result["tail"]["end_time"], result["tail"]["impulse_normal"]]])
 
@@ -218,60 +210,52 @@ class Data(InFolder):
         out, drawn = self.plotted("angles", "--count", "100001", "--gravity-number", "0.5", "--format", "csv")
         rows = [(float(row["theta_deg"]), row) for row in records(out)]
         for block, column in (("panel1_0", "beta_deg"), ("panel1_1", "gamma_deg")):
-            self.assertLess(len(drawn[block]), 5000)
-            self.assertGreater(len(drawn[block]), 200)
-            values = [float(row[column]) if row[column] else None for _, row in rows]
-            inside = range(1, len(values) - 1)
-            lasts = [i for i in inside if values[i] is not None and values[i + 1] is None]
+            self.assertTrue(200 < len(drawn[block]) < 5000)
+            lasts = [i for i in range(1, len(rows) - 1) if rows[i][1][column] and not rows[i + 1][1][column]]
             self.assertGreater(len(lasts), 0)
             shown = [point[0] for point in drawn[block]]
             for i in lasts:
                 self.assertTrue(any(rows[i][0] - 1e-9 <= theta < rows[i + 1][0] for theta in shown), rows[i][0])
 
     def test_regimes_draws_the_boundaries_that_it_prints(self):
-        out, drawn = self.plotted(*COMMANDS["regimes"][0], "--format", "json")
-        rows = json.loads(out)["rows"]
-        second = [[row["restitution"], row["second"]["theta_deg"]] for row in rows]
-        third = [[row["restitution"], row["third"]["theta_deg"]] for row in rows]
-        self.assertEqual((drawn["panel1_4"], drawn["panel1_6"]), (second, third))
+        told, drawn = self.plotted_data(*COMMANDS["regimes"][0])
+        for block, boundary in (("panel1_4", "second"), ("panel1_6", "third")):
+            self.assertEqual(drawn[block], [[row["restitution"], row[boundary]["theta_deg"]] for row in told["rows"]])
         # Between them the curve is that of many values, which is no straight line.
         self.assertGreater(len(drawn["panel1_3"]), 200)
         # The colours are those of the reference's figure.
         areas = re.findall(r"filledcurves fs solid noborder lc rgb '(#\w+)'", self.read("p.gnuplot"))
-        figure = re.search(r"for low, high, colour, name in (.*?):$", self.source("notebooks-data/pictures.py"), re.M | re.S)[1]
+        pictures = Path(ROOT, "notebooks-data/pictures.py").read_text(encoding="utf-8")
+        figure = re.search(r"for low, high, colour, name in (.*?):$", pictures, re.M | re.S)[1]
         self.assertEqual(areas, re.findall(r"#\w{6}", figure))
         for value, angle in drawn["panel1_3"][::40]:
-            row = json.loads(run("angles", "--regimes", "--over", "restitution", "--from", repr(value), "--to", repr(value), "--count", "1",
-                                         "--format", "json").stdout)["rows"][0]
+            row = json_of("angles", "--regimes", "--over", "restitution", "--from", repr(value), "--to", repr(value), "--count", "1")["rows"][0]
             self.assertAlmostEqual(angle, row["second"]["theta_deg"], 9)
         self.assertEqual([point[0] for point in drawn["panel1_1"]], [point[0] for point in drawn["panel1_3"]])
 
     def test_gravity_numbers_over_decades_get_a_logarithmic_axis(self):
-        self.plotted("angles", "--regimes")
-        self.assertRegex(self.read("p.gnuplot"), r"(?m)^set logscale x")
-        self.assertIn("0 lies off this axis", self.read("p.gnuplot"))
-        self.plotted("angles", "--regimes", "--from", "0", "--to", "1", "--step", "0.25")
-        self.assertNotRegex(self.read("p.gnuplot"), r"(?m)^set logscale")
-        self.plotted("angles", "--regimes", "--over", "restitution", "--from", "0.5", "--to", "1", "--count", "5", "--log")
-        self.assertRegex(self.read("p.gnuplot"), r"(?m)^set logscale x")
+        for more, is_logarithmic, leaves_out_0 in (("", True, True), ("--from 0 --to 1 --step 0.25", False, False),
+                                                   ("--over restitution --from 0.5 --to 1 --count 5 --log", True, False)):
+            self.plotted("angles", "--regimes", *more.split())
+            script = self.read("p.gnuplot")
+            self.assertEqual(("\nset logscale x" in script, "0 lies off this axis" in script), (is_logarithmic, leaves_out_0), more)
 
     def test_simulate_draws_the_history_that_it_writes_beside_it(self):
-        out, drawn = self.plotted(*COMMANDS["simulate"][0], "--history", self.path("h.csv"), "--format", "json")
-        peaks = [[i["start"] + i["peak_time"], i["peak_force"]] for i in json.loads(out)["impacts"]]
+        told, drawn = self.plotted_data(*COMMANDS["simulate"][0], "--history", self.path("h.csv"))
+        peaks = [[i["start"] + i["peak_time"], i["peak_force"]] for i in told["impacts"]]
         for time, force in peaks:
             self.assertTrue(any(abs(t - time) <= 1e-15 and f == force for t, f in drawn["panel2_0"]), (time, force))
-        history = [row for row in records(self.read("h.csv")) if float(row["t"]) >= 0]
-        for block, column in (("panel1_0", "z"), ("panel2_0", "fz"), ("panel3_0", "energy_translation"),
-                              ("panel3_1", "energy_rotation"), ("panel3_2", "energy_potential"),
-                              ("panel3_3", "energy_ground"), ("panel3_4", "energy_total")):
+        energies = ("translation", "rotation", "potential", "ground", "total")
+        history = [row for row in self.records("h.csv") if float(row["t"]) >= 0]
+        for block, column in (("panel1_0", "z"), ("panel2_0", "fz"), *((f"panel3_{k}", f"energy_{name}") for k, name in enumerate(energies))):
             self.assertEqual(drawn[block], [[float(row["t"]), float(row[column])] for row in history])
         self.assertLess(abs(drawn["panel1_1"][0][1]), 1e-12)  # it touches
         for (_, centre), (_, lowest) in zip(drawn["panel1_0"], drawn["panel1_1"]):
             self.assertTrue(0.0095 <= centre - lowest <= 0.0576, (centre, lowest))  # between half thickness and radius
 
     def test_blows_that_look_like_one_spike_have_a_panel_of_their_own(self):
-        out, drawn = self.plotted(*COMMANDS["simulate"][0], "--format", "json")
-        first, second = json.loads(out)["impacts"][:2]
+        told, drawn = self.plotted_data(*COMMANDS["simulate"][0])
+        first, second = told["impacts"][:2]
         self.assertIn("normal contact force of impacts 1 to 2", self.read("p.gnuplot"))
         times = [time for time, _ in drawn["panel4_0"]]
         self.assertLess(times[0], first["start"] + first["peak_time"])
@@ -308,14 +292,12 @@ class Data(InFolder):
         self.assertIn("set xlabel 'restitution; colour: impulse normal 1 [N·s]'", self.read("p.gnuplot"))
 
     def test_columns_of_texts_are_not_drawn(self):
-        _, drawn = self.plotted("sweep", case("phone-corner"), "--set", "drop.attitude=uniform", "--random", "9", "--model", "discrete",
-                                "--columns", "hardest_corners,hardest")
+        _, drawn = self.plotted(*UNIFORM, "--random", "9", "--columns", "hardest_corners,hardest")
         self.assertEqual(sum(bar[2] for bar in drawn["panel2_0"][::2]), 9)
         self.assertNotIn("panel3_0", drawn)
 
     def test_each_of_few_whole_numbers_has_its_colour_on_the_map_of_attitudes(self):
-        out, drawn = self.plotted("sweep", case("phone-corner"), "--set", "drop.attitude=uniform", "--random", "60", "--model", "discrete",
-                                  "--set", "run.impacts=20", "--columns", "hardest")
+        out, drawn = self.plotted(*UNIFORM, "--random", "60", "--set", "run.impacts=20", "--columns", "hardest")
         counts = collections.Counter(int(row["hardest"]) for row in records(out))
         self.assertGreater(len(counts), 2)
         self.assertEqual([len(drawn[f"panel1_{i + 1}"]) for i in range(len(counts))], [counts[n] for n in sorted(counts)])
@@ -327,8 +309,7 @@ class Data(InFolder):
         self.assertIn("no number to draw here", self.read("p.svg"))
 
     def test_random_drops_stand_in_a_histogram_and_on_an_equal_area_map_where_they_point_down(self):
-        out, drawn = self.plotted("sweep", case("phone-corner"), "--set", "drop.attitude=uniform", "--random", "50", "--model", "discrete",
-                                  "--columns", "impulse_normal_1")
+        out, drawn = self.plotted(*UNIFORM, "--random", "50", "--columns", "impulse_normal_1")
         values = [float(row["impulse_normal_1"]) for row in records(out) if row["impulse_normal_1"]]
         bars = drawn["panel2_0"]
         self.assertEqual((bars[0][0], round(bars[-1][0], 12)), (min(values), round(max(values), 12)))
@@ -353,10 +334,9 @@ class Data(InFolder):
             self.assertEqual(nearest[3], rank // 10)
 
     def test_a_long_history_is_thinned_and_keeps_its_peaks(self):
-        out, drawn = self.plotted("simulate", case("rod-10"), "--method", "tvd-rk3", "--step", "2e-7", "--history",
-                                  self.path("h.csv"), "--format", "json")
-        history = [(float(row["t"]), float(row["fz"])) for row in records(self.read("h.csv"))]
-        peaks = [(i["start"] + i["peak_time"], i["peak_force"]) for i in json.loads(out)["impacts"]]
+        told, drawn = self.plotted_data("simulate", case("rod-10"), "--method", "tvd-rk3", "--step", "2e-7", "--history", self.path("h.csv"))
+        history = [(float(row["t"]), float(row["fz"])) for row in self.records("h.csv")]
+        peaks = [(i["start"] + i["peak_time"], i["peak_force"]) for i in told["impacts"]]
         shown = [tuple(point) for point in drawn["panel2_0"]]
         self.assertGreater(len(history), 10_000)
         self.assertLess(len(shown), 5000)
@@ -365,10 +345,9 @@ class Data(InFolder):
         self.assertEqual((shown[0], shown[-1]), (history[0], history[-1]))
 
     def test_compare_draws_deviations_of_the_size_of_those_that_it_prints(self):
-        out, drawn = self.plotted(*COMMANDS["compare"][0], "--format", "json")
-        impacts = json.loads(out)["impacts"]
+        told, drawn = self.plotted_data(*COMMANDS["compare"][0])
         # Scales of the numbers: time and speed at large (1 m/s falls, nothing is faster but an end), mass 1 kg, 1 radian.
-        for k, (n, deviation), (_, miss) in zip(impacts, drawn["panel2_0"], drawn["panel2_2"]):
+        for k, (n, deviation), (_, miss) in zip(told["impacts"], drawn["panel2_0"], drawn["panel2_2"]):
             self.assertEqual(k["n"], n)
             impulse = abs(k["numbers"]["impulse_normal"]["deviation"])
             self.assertGreaterEqual(deviation, impulse / 2)
@@ -376,16 +355,14 @@ class Data(InFolder):
             self.assertLess(miss, 1e-6)
 
     def test_tradeoff_draws_the_points_that_it_prints(self):
-        out, drawn = self.plotted(*COMMANDS["tradeoff"][0], "--format", "json")
-        points = [p for p in json.loads(out)["points"] if not p["failure"] and not p["mesh"] and p["error"] > 0]
-        expected = sorted((1e3 * p["seconds"], p["error"]) for p in points)
+        told, drawn = self.plotted_data(*COMMANDS["tradeoff"][0])
+        expected = sorted((1e3 * p["seconds"], p["error"]) for p in told["points"] if not p["failure"] and not p["mesh"] and p["error"] > 0)
         self.assertGreater(len(expected), 80)
         self.assertEqual(sorted(tuple(point) for rows in drawn.values() for point in rows), expected)
 
     def test_plan_draws_the_models_that_it_weighed_and_what_is_asked(self):
-        out, drawn = self.plotted(*COMMANDS["plan"][0], "--format", "json")
-        levels = [level for level in json.loads(out)["rungs"] if level["error"] and level["seconds"]]
-        expected = [(1e3 * level["seconds"], level["error"]) for level in levels]
+        told, drawn = self.plotted_data(*COMMANDS["plan"][0])
+        expected = [(1e3 * level["seconds"], level["error"]) for level in told["rungs"] if level["error"] and level["seconds"]]
         self.assertGreater(len(expected), 2)
         points = [tuple(rows[0]) for rows in drawn.values() if len(rows) == 1]
         self.assertEqual(sorted(points), sorted(expected))
@@ -398,9 +375,7 @@ class Data(InFolder):
         rows = [line for line in truth.splitlines() if line[0].isdigit()]
         second = rows[1].split(",")
         second[7] = repr(float(second[7]) * (1 + 1e-5))  # Omega
-        with open(self.path("of_a_code.csv"), "w", encoding="utf-8") as file:
-            file.write(truth.replace(rows[1], ",".join(second)))
-        _, drawn = self.plotted("benchmark", "score", self.path("of_a_code.csv"))
+        _, drawn = self.plotted("benchmark", "score", self.write("of_a_code.csv", truth.replace(rows[1], ",".join(second))))
         largest = max(abs(float(row.split(",")[7])) for row in rows)
         self.assertEqual([n for n, _ in drawn["panel1_0"]], [1, 2, 3])
         self.assertGreaterEqual(drawn["panel1_0"][1][1], 1e-5 * abs(float(rows[1].split(",")[7])) / largest * (1 - 1e-9))
@@ -422,8 +397,8 @@ class Data(InFolder):
             self.refused("install the package gnuplot-nox", *arguments, "--plot", picture, env={**os.environ, "PATH": self.path("empty")})
 
     def test_a_sequence_in_space_draws_its_impulses_corner_by_corner_above_nothing_below_the_floor(self):
-        out, drawn = self.plotted("sequence", "phone-corner", "--impacts", "6", "--format", "json")
-        impacts = json.loads(out)["impacts"]
+        told, drawn = self.plotted_data("sequence", "phone-corner", "--impacts", "6")
+        impacts = told["impacts"]
         sticks = sorted((t, impulse) for name, rows in drawn.items() if name.startswith("panel2") for t, impulse in rows)
         self.assertEqual(sticks, sorted((i["start"], i["impulse_normal"]) for i in impacts))
         centre, lowest = drawn["panel1_0"], drawn["panel1_1"]
@@ -446,8 +421,8 @@ class Data(InFolder):
         self.assertTrue(all(len(title) <= 112 for title in titles), titles)
 
     def limited(self, name, evaluations):
-        with open(case(name), encoding="utf-8") as file:
-            return self.write("scene.toml", file.read().replace("[run]", f"[run]\nevaluation_limit = {evaluations}"))
+        text = Path(case(name)).read_text(encoding="utf-8")
+        return self.write("scene.toml", text.replace("[run]", f"[run]\nevaluation_limit = {evaluations}"))
 
     def test_an_interrupted_run_writes_none(self):
         with open(self.path("rows.csv"), "wb") as rows:
@@ -467,9 +442,7 @@ class Data(InFolder):
         self.assertEqual(os.listdir(self.folder), ["scene.toml"])
 
     def test_a_run_that_ends_early_draws_its_rows(self):
-        out, drawn = self.plotted("simulate", self.limited("phone-damped", 3000), "--method", "rk8pd", "--tolerance", "1e-8", "--format",
-                                  "json", status=3)
-        result = json.loads(out)
+        result, drawn = self.plotted_data("simulate", self.limited("phone-damped", 3000), "--method", "rk8pd", "--tolerance", "1e-8", status=3)
         self.assertEqual(result["outcome"], "evaluation-limit")
         self.assertGreater(len(result["impacts"]), 0)
         for impact in result["impacts"]:  # the contact in which the run ended is drawn, too, but is no row

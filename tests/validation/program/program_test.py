@@ -10,6 +10,7 @@ import shutil
 import subprocess
 import unittest
 from decimal import Decimal
+from pathlib import Path
 
 from run_folder import PROGRAM, ROOT, EmptyFolder, commands, json_of, printed, records, rows_of, run
 
@@ -31,7 +32,8 @@ REFUSED = {
     "plan --tradeoff --tradeoff rod-45": "--tradeoff: unknown for plan --tradeoff", "plan --tradeoff=x rod-45": "--tradeoff: unknown for plan;",
     "help keys scene": "'scene': unexpected argument for help keys", "sequence --angle 10 --format jsn": "did you mean json",
     "sequence --angle 10 --restitution-law strong": "did you mean stronge", "angles 10": "unexpected",
-    "sequence 10 --angle 10": "rod-10", "sequence --angle 10 -x": "-x", "sequence --angle 10 --step 1": "--step", "sequence": "--angle",
+    "sequence 10 --angle 10": "rod-10", "sequence --angle 10 -x": "-x", "sequence --angle 10 --step 1": "--step", "sequence": "--angle: required",
+    "simulate --stiffness 1e9": "--angle: required", "simulate --angle 10": "--stiffness: required", "sequence --angle 10 --body box": "--size: required",
     "sequence --angle 10 --impulse-ratio 0.1 --friction 0.1": "--friction", "sequence --angle 10 --speed 1 --height 1 --gravity 9.81": "not both",
     "sequence --angle 10 --body box --size 1x2": "--size", "sequence --angle 10 --body box --size 1x1x1 --radius 0.1": "--radius",
     "sequence --angle 10 --size 1x1x1": "--size", "sequence --angle 10 --height 1 --gravity 0": "--height",
@@ -65,21 +67,14 @@ class BadInput(EmptyFolder):
         self.refused("jamming", "sequence", "--angle", "63.4", "--impulse-ratio", "1.5", status=4)
 
     def test_rows_before_an_impact_that_jams_are_printed_with_status_4(self):
-        jammed = 0
-        for angle in range(5, 90, 5):
-            for ratio in ("-1.5", "1.5", "2.5", "-2.5"):
-                scene = ["--angle", str(angle), f"--impulse-ratio={ratio}", "--gravity", "9.81", "--restitution", "0.7"]
-                done = run("sequence", *scene, "--format", "json")
-                if done.returncode != 4 or not done.stdout:
-                    continue
-                data = json.loads(done.stdout)
-                jammed += 1
-                self.assertEqual(data["outcome"], "outside-model")
-                self.assertGreaterEqual(len(data["impacts"]), 1)
-                self.assertRegex(done.stderr.splitlines()[-1], "^clatter: outside-model: jamming")
-                for command in (["explain", str(len(data["impacts"]) + 1)], ["gradient"]):
-                    self.assertEqual(run(*command, *scene).returncode, 4)
-        self.assertGreater(jammed, 0)
+        for angle, ratio, rows in ((30, 2.5, 4), (50, 1.5, 3), (75, -2.5, 5), (85, 2.5, 1)):
+            scene = ["--angle", str(angle), f"--impulse-ratio={ratio}", "--gravity", "9.81", "--restitution", "0.7"]
+            done = run("sequence", *scene, "--format", "json")
+            data = json.loads(done.stdout)
+            self.assertEqual((done.returncode, data["outcome"], len(data["impacts"])), (4, "outside-model", rows))
+            self.assertRegex(done.stderr.splitlines()[-1], "^clatter: outside-model: jamming")
+            for command in (["explain", str(rows + 1)], ["gradient"]):
+                self.assertEqual(run(*command, *scene).returncode, 4)
 
     def test_a_run_that_could_not_be_computed_ends_every_command_with_status_3(self):
         lost = self.write("lost.toml", LOST)
@@ -150,9 +145,7 @@ class Output(unittest.TestCase):
     def test_the_errors_of_angles_cover_those_against_30_digit_references_and_are_small(self):
         compared = 0
         for name in ("rod_sequence_no_gravity.csv", "rod_sequence_gravity.csv"):
-            with open(os.path.join(ROOT, "validation", "oracles", "reference", name), encoding="utf-8") as file:
-                references = records(file.read())
-            for exact in references:
+            for exact in records(Path(ROOT, "validation/oracles/reference", name).read_text(encoding="utf-8")):
                 arguments = ["angles", "--from", exact["theta_deg"], "--count", "1", "--gravity-number", exact["G"]]
                 data, record = json_of(*arguments)["rows"][0], rows_of(*arguments)[0]
                 for key in ("beta_deg", "gamma_deg", "P1", "P2", "P3", "V1", "Omega1", "V2", "Omega2", "V3", "Omega3", "T1", "T2"):
@@ -164,15 +157,6 @@ class Output(unittest.TestCase):
                     self.assertLess(error, 1e-6, (exact["theta_deg"], exact["G"], key))
                     compared += 1
         self.assertGreater(compared, 500)
-
-    def test_steps_give_clean_decimals_and_both_ends(self):
-        angles = [row["theta_deg"] for row in rows_of("angles", "--step", "0.1")]
-        self.assertEqual((len(angles), angles[3], angles[-1]), (901, "0.3", "90"))
-
-    def test_the_printed_gravity_term_is_shown_beside_the_corrected_one(self):
-        row = json_of("angles", "--as-printed", "--gravity", "9.81", "--from", "20", "--to", "20")["rows"][0]
-        for name, angle, delta in (("beta_deg", 3.1820, 5e-5), ("beta_printed_deg", 25.99, 5e-3), ("beta_printed_negative_g_deg", 5.97, 5e-3)):
-            self.assertAlmostEqual(row[name], angle, delta=delta)
 
 
 class Manners(EmptyFolder):
@@ -205,16 +189,15 @@ class Manners(EmptyFolder):
     def test_completion_scripts_parse_and_know_commands_keys_and_files(self):
         scripts = {shell: printed("completion", shell) for shell in ("bash", "zsh", "fish")}
         for shell, script in scripts.items():
-            for word in ("sequence", "plot-script", "attitude", "velocity", "centre", "inertia"):
-                self.assertIn(word, script, shell)
+            known = set(re.findall(r"[\w-]*\w", script.replace("--", " ")))
+            self.assertLessEqual({"sequence", "plot-script", "attitude", "velocity", "centre", "inertia"}, known)
             if shutil.which(shell):
                 check = subprocess.run([shell, "-n"], input=script, capture_output=True, text=True)
                 self.assertEqual((check.returncode, check.stderr), (0, ""), shell)
-        self.assertRegex(scripts["bash"], r"(?m)^ +\S*--plot\S*\) COMPREPLY=\(\$\(compgen -f ")
-        self.assertRegex(scripts["zsh"], r"'--plot\[[^\]]*\]:file:_files'")
-        self.assertRegex(scripts["fish"], r"-l plot -r -F ")
-        self.assertRegex(scripts["bash"], r"(?m)^ +verify\) list=\".*--extremes .*--seconds ")
-        self.assertRegex(scripts["fish"], r"__fish_seen_subcommand_from plan' -l tradeoff ")
+        for shell, words in (("bash", r"(?m)^ +\S*--plot\S*\) COMPREPLY=\(\$\(compgen -f "), ("bash", r"(?m)^ +verify\) list=\".*--extremes .*--seconds "),
+                             ("zsh", r"'--plot\[[^\]]*\]:file:_files'"), ("fish", r"-l plot -r -F "),
+                             ("fish", r"__fish_seen_subcommand_from plan' -l tradeoff ")):
+            self.assertRegex(scripts[shell], words)
 
     def test_there_is_a_manual_page_for_each_command_and_all_render_without_warnings(self):
         if not (shutil.which("groff") and shutil.which("help2man")):

@@ -6,17 +6,8 @@ import math
 from run_folder import EmptyFolder, printed, rows_of
 
 BOX = ["--body", "box", "--size", "0.3x0.2x0.1", "--angle", "10", "--restitution", "0.6", "--friction", "0.3"]
-SCENE = """[drop]
-angle_deg = 10
-[world]
-incline_deg = 20
-[body]
-shape = "box"
-size = [0.3, 0.2, 0.1]
-[impact]
-restitution = 0.6
-friction = 0.3
-"""
+SCENE = ("[drop]\nangle_deg = 10\n[world]\nincline_deg = 20\n[body]\nshape = 'box'\nsize = [0.3, 0.2, 0.1]\n"
+         "[impact]\nrestitution = 0.6\nfriction = 0.3\n")
 
 
 class Incline(EmptyFolder):
@@ -28,13 +19,12 @@ class Incline(EmptyFolder):
             self.assertIn(f"slopes 20° down to the {side}", " ".join(printed("sequence", *BOX, "--incline", str(degrees), status=(0, 3)).split()))
 
     def test_the_simulator_tends_to_the_discrete_model_as_the_ground_gets_stiff(self):
-        ground = ["--sliding-friction", "0.3", "--planar", "--impacts", "1"]
-        flags = [flag for flag in BOX if flag not in ("--restitution", "0.6", "--friction", "0.3")]
-        discrete = self.json_of("sequence", *flags, "--friction", "0.3", "--incline", "20", "--impacts", "1")["impacts"][0]
-        errors = []
-        for stiffness in ("1e9", "1e11", "1e13"):
-            found = self.json_of("simulate", *flags, *ground, "--stiffness", stiffness, "--incline", "20")["impacts"][0]
-            errors.append(math.dist(found["velocity_after"], discrete["velocity_after"]))
+        def velocity(*words):
+            return self.json_of(words[0], *BOX[:6], "--incline", "20", "--impacts", "1", *words[1:])["impacts"][0]["velocity_after"]
+
+        discrete = velocity("sequence", "--friction", "0.3")
+        errors = [math.dist(velocity("simulate", "--sliding-friction", "0.3", "--planar", "--stiffness", stiffness), discrete)
+                  for stiffness in ("1e9", "1e11", "1e13")]
         self.assertLess(errors[1], errors[0] / 2)
         self.assertLess(errors[2], errors[1] / 2)
 

@@ -5,36 +5,23 @@ import re
 
 from run_folder import EmptyFolder, json_of, printed, rows_of
 
-SCENE = """
-[drop]
-speed = 1
-{drop}
-[world]
-gravity = 9.81
-[body]
-shape = "rod"
-radius = 0.01
-mesh = {{ sectors = 4, rings = 1, layers = 1 }}
-[ground]
-stiffness = 1e9
-{ground}
-[run]
-impacts = 2
-digits = 4
-[sweep]
-{sweep}
-"""
+SCENE = ("[drop]\nspeed = 1\n{drop}\n[world]\ngravity = 9.81\n[body]\nshape = 'rod'\nradius = 0.01\nmesh = {{ sectors = 4, rings = 1, layers = 1 }}\n"
+         "[ground]\nstiffness = 1e9\n{ground}\n[run]\nimpacts = 2\ndigits = 4\n[sweep]\n{sweep}\n")
 
 
-class WithScenes(EmptyFolder):
+class Sweeps(EmptyFolder):
     def scene(self, sweep, drop="", ground=""):
         return self.write("scene.toml", SCENE.format(sweep=sweep, drop=drop, ground=ground))
 
     def swept(self, *scene, **parts):
         return json_of("simulate", self.scene(*scene, **parts))
 
+    def columns(self, *arguments):
+        """Names and cells of a table of simulate, line by line."""
+        lines = [[cell.strip() for cell in line.split("|")[1:-1]] for line in printed("simulate", *arguments, "--format", "markdown").splitlines()
+                 if line.startswith("|")]
+        return [name.split(" [")[0].strip() for name in lines[0]], lines[2:]
 
-class Sweeps(WithScenes):
     def test_a_list_is_swept_value_by_value_in_its_order(self):
         data = self.swept("angle_deg = [30, 5, 10.5]")
         self.assertEqual([one["angle_deg"] for one in data["runs"]], [30, 5, 10.5])
@@ -72,28 +59,19 @@ class Sweeps(WithScenes):
 
     def test_the_table_of_a_sweep_shows_every_impact_of_every_value(self):
         path = self.scene("angle_deg = [5, 10, 70]")
-        rows, table = rows_of("simulate", path), printed("simulate", path, "--format", "markdown")
-        shown = [[cell.strip() for cell in line.split("|")[1:-1]] for line in table.splitlines() if line.startswith("| ")][1:]
+        rows, (names, shown) = rows_of("simulate", path), self.columns(path)
         self.assertGreater(len(rows), 3)
         self.assertEqual([row[1] for row in shown], [row["n"] for row in rows])
-        values = [float(row[0]) for row in shown if row[0]]
-        self.assertEqual(values, [5, 10, 70])  # once each
-        names = [cell.split(" [")[0].strip() for cell in next(line for line in table.splitlines() if line.startswith("|")).split("|")[1:-1]]
-        place = names.index("Pₙ")
+        self.assertEqual([float(row[0]) for row in shown if row[0]], [5, 10, 70])  # once each
         for row, cells in zip(rows, shown):
-            self.assertAlmostEqual(float(cells[place]) / float(row["impulse_normal"]), 1, delta=1e-2)
+            self.assertAlmostEqual(float(cells[names.index("Pₙ")]) / float(row["impulse_normal"]), 1, delta=1e-2)
 
     def test_tables_of_simulate_show_how_long_each_contact_takes(self):
         for ground in ("", "sliding_friction = 0.3\nstatic_friction = 0.3"):
-            durations = [impact["duration"] for impact in json_of("simulate", self.scene("angle_deg = [1]", ground=ground), "--angle", "20")["impacts"]]
-            table = printed("simulate", self.path("scene.toml"), "--angle", "20", "--format", "markdown")
-            lines = [line.split("|")[1:-1] for line in table.splitlines() if line.startswith("|")]
-            place = [cell.strip() for cell in lines[0]].index("contact [s]")
-            shown = [float(line[place]) for line in lines[2:]]
-            self.assertEqual(len(shown), len(durations))
-            for one, exact in zip(shown, durations):
-                self.assertGreater(one, 0)
-                self.assertAlmostEqual(one / exact, 1, delta=0.01)
+            drop = (self.scene("angle_deg = [1]", ground=ground), "--angle", "20")
+            names, shown = self.columns(*drop)
+            for cells, impact in zip(shown, json_of("simulate", *drop)["impacts"], strict=True):
+                self.assertAlmostEqual(float(cells[names.index("contact")]) / impact["duration"], 1, delta=0.01)
 
     def test_the_picture_of_a_sweep_has_a_curve_for_each_impact(self):
         printed("simulate", self.scene("angle_deg = [5, 10, 15]"), "--plot", self.path("sweep.svg"), "--plot-script")

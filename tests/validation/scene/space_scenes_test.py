@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Keys of a drop in space: attitude and velocities, in either model, and the language that has them."""
 
-
 from space_folder import BOX, CENTRE, INERTIA, SIZE, SpaceFolder, product, rotated, turn, words
 
 
@@ -18,13 +17,13 @@ class Drop(SpaceFolder):
         self.assertIsNone(by_attitude["scene"]["drop"]["angle_deg"])
         self.assertEqual(by_attitude["scene"]["drop"]["attitude"], [-x for x in q])
 
-    def test_a_velocity_equal_to_speed_and_tangential_velocity_gives_the_same_impacts_to_the_bit(self):
+    def test_vectors_in_place_of_speed_tangential_velocity_and_spin_give_the_same_impacts_to_the_bit(self):
         for command in (["simulate", *self.RUN], ["sequence", "--impacts", "3"]):
             by_parts = self.json_of(*command, "--angle", "20", "--speed", "1.25", "--tangential-velocity", "0.5", "--spin", "2")
-            whole = self.json_of(*command, "--angle", "20", "--velocity", "0.5,0,-1.25", "--spin", "2")
+            whole = self.json_of(*command, "--angle", "20", "--velocity", "0.5,0,-1.25", "--angular-velocity", "0,2,0")
             self.assertEqual(whole["impacts"], by_parts["impacts"])
-            self.assertEqual([whole["scene"]["drop"][key] for key in ("speed", "tangential_velocity", "velocity")],
-                             [None, None, [0.5, 0, -1.25]])
+            self.assertEqual([whole["scene"]["drop"][key] for key in ("speed", "tangential_velocity", "spin", "velocity", "angular_velocity")],
+                             [None, None, None, [0.5, 0, -1.25], [0, 2, 0]])
 
     def test_a_pure_inclination_is_planar_whatever_its_quadrant(self):
         for angle in (25, -25, 90, 155, -120):
@@ -39,23 +38,15 @@ class Drop(SpaceFolder):
             self.assertAlmostEqual(first["contact_angle_deg"], min(abs(angle), 180 - abs(angle)), delta=1e-12)
 
     def test_a_scene_turned_about_the_vertical_gives_the_same_rows_turned(self):
-        q, v, turned = product(turn(2, -35), turn(1, 25)), (0.3, 0.2, -1.5), turn(3, 73)
-        body = ["--centre", words(CENTRE), "--inertia", words(INERTIA), "--static-friction", "0.2"]
-        straight = self.json_of("simulate", "--attitude", words(q), "--velocity", words(v), *body, *self.RUN)
-        other = self.json_of("simulate", "--attitude", words(product(turned, q)), "--velocity", words(rotated(turned, v)), *body,
-                             *self.RUN)
-        self.same_rows(other, straight, self.grown, lambda name, b: rotated(turned, b) if len(b) == 3 else b)
+        q, v, w, turned = product(turn(2, -35), turn(1, 25)), (0.3, 0.2, -1.5), (3, -2, 5), turn(3, 73)
+        lopsided = ["--centre", words(CENTRE), "--inertia", words(INERTIA), "--static-friction", "0.2"]
+        for motion, body in (({"--velocity": v}, lopsided), ({"--angular-velocity": w}, lopsided[:2])):
+            straight, other = (self.json_of("simulate", "--attitude", words(attitude), *body, *self.RUN,
+                                            *(word for name, value in motion.items() for word in (name, words(along(value)))))
+                               for attitude, along in ((q, tuple), (product(turned, q), lambda value: rotated(turned, value))))
+            self.same_rows(other, straight, self.grown, lambda name, b: rotated(turned, b) if len(b) == 3 else b)
 
-    def test_an_angular_velocity_has_world_components_and_takes_the_place_of_the_spin(self):
-        for command in (["simulate", *self.RUN], ["sequence", "--impacts", "3"]):
-            spun = self.json_of(*command, "--angle", "20", "--spin", "2")
-            whole = self.json_of(*command, "--angle", "20", "--angular-velocity", "0,2,0")
-            self.assertEqual(whole["impacts"], spun["impacts"])
-            self.assertEqual([whole["scene"]["drop"][key] for key in ("spin", "angular_velocity")], [None, [0, 2, 0]])
-        q, w, turned = product(turn(2, -35), turn(1, 25)), (3, -2, 5), turn(3, 73)
-        runs = [self.json_of("simulate", "--attitude", words(a), "--angular-velocity", words(b), "--centre", words(CENTRE), *self.RUN)
-                for a, b in ((q, w), (product(turned, q), rotated(turned, w)))]
-        self.same_rows(runs[1], runs[0], self.grown, lambda name, b: rotated(turned, b) if len(b) == 3 else b)
+    def test_an_explanation_has_the_angular_velocity_of_the_world(self):
         steps = self.json_of("explain", "1", "--angle", "20", "--angular-velocity", "0.1,2,0")["steps"]
         self.assertEqual([e["value"] for step in steps for e in step["equations"] if e["name"] == "ω"], [[0.1, 2, 0]])
 
@@ -68,10 +59,10 @@ class Drop(SpaceFolder):
         self.refused("left out where the body is no box", "simulate", "--orientation", "1", "--stiffness", "1e9")
         self.refused("give one of them, not both", "simulate", *BOX, "--orientation", "1", "--angle", "10")
         self.write("file.toml", "[drop]\nattitude = [1, 0, 0, 0]\nvelocity = [0, 0, -1]\n[ground]\nstiffness = 1e8\n")
-        drop = self.json_of("simulate", "file.toml", "--angle", "10", "--speed", "2", "--impacts", "1", "--digits", "3")["scene"]["drop"]
-        self.assertEqual((drop["angle_deg"], drop["attitude"], drop["speed"], drop["velocity"]), (10, None, 2, None))
-        drop = self.json_of("simulate", "rod-at-1ms", "--attitude=1,0,0,0", "--velocity=0,0,-3", "--impacts", "1", "--digits", "3")["scene"]["drop"]
-        self.assertEqual((drop["angle_deg"], drop["attitude"], drop["speed"], drop["velocity"]), (None, [1, 0, 0, 0], None, [0, 0, -3]))
+        for given, told in ((("file.toml", "--angle", "10", "--speed", "2"), (10, None, 2, None)),
+                            (("rod-at-1ms", "--attitude=1,0,0,0", "--velocity=0,0,-3"), (None, [1, 0, 0, 0], None, [0, 0, -3]))):
+            drop = self.json_of("simulate", *given, "--impacts", "1", "--digits", "3")["scene"]["drop"]
+            self.assertEqual((drop["angle_deg"], drop["attitude"], drop["speed"], drop["velocity"]), told)
         self.write("both.toml", "[drop]\nangle_deg = 1\nattitude = [1, 0, 0, 0]\n[ground]\nstiffness = 1e8\n")
         self.refused("both.toml:3:12: drop.attitude", "simulate", "both.toml")
 
