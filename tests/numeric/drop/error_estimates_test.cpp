@@ -127,8 +127,8 @@ BOOST_AUTO_TEST_CASE(error_bars_cover_where_slip_all_but_ends_and_where_a_stuck_
       {{0.3630246612905481, 0.35955313946746215, 0.6382444569842466, -0.5758286622970923}, {0, 0, 0}, 0.3}};
   for (const Case& drop : cases) {
     World world;
-    world.ground = with_friction({.modulus = 2.31e9, .dissipation = 0.3616, .area = AreaMeasure::projected},
-                                 drop.friction);
+    world.ground =
+        with_friction({.modulus = 2.31e9, .dissipation = 0.3616, .area = AreaMeasure::projected}, drop.friction);
     MotionState start{.attitude = drop.attitude.normalized(), .velocity = {0, 0, -3.961817764612603}};
     start.angular_velocity = start.attitude.conjugate() * drop.angular_velocity;
     start.centre.z() -= lowest_height(body, start);
