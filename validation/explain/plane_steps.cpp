@@ -122,11 +122,11 @@ class PlanarImpact {
                             last_->error.contact_angle * degrees);
     const bool falls = given_.gravity.value(0, 0) > 0;
     const Quantity k_name = number("K", 0, ""), gamma_name = number("Γ", 0, "");
-    const auto left = [&](const Quantity& k, const Quantity& gamma) {
+    const auto left = [&](const Quantity& k, const Quantity& gamma, const Quantity& turned) {
       const Expression sum = function("sin", theta) + k * phi;
-      return (falls ? sum - gamma * square(phi) : sum) - function("sin", phi - theta);
+      return (falls ? sum - gamma * square(phi) : sum) - function("sin", turned - theta);
     };
-    writer_.law(left(k_name, gamma_name), 0);
+    writer_.law(left(k_name, gamma_name, phi), 0);
     Words words{" The law below is Eq. 12 of the paper for the angle ",
                 phi,
                 " that the rod turns, with the contact "
@@ -143,14 +143,19 @@ class PlanarImpact {
     const Quantity gamma = falls ? writer_.computed("Γ", "", given_.gravity / (*length_ * square(w0_))) : gamma_name;
     certified_bracket();
     phi = writer_.found(phi, {fmt::format("the root, found numerically by {} evaluations", row_.flight.evaluations)});
-    const Expression f = left(k, gamma);
-    const double turned = phi.value(0, 0),
-                 terms = 2 + std::fabs(k.value(0, 0)) * turned + gamma.value(0, 0) * turned * turned;
-    writer_.computed("f", "", f, {"left side of Eq. 12 at the root"}, terms);
+    const double angle = phi.value(0, 0),
+                 terms = 2 + std::fabs(k.value(0, 0)) * angle + gamma.value(0, 0) * angle * angle;
+    const Quantity turned = in_degrees(angle);
+    writer_.computed("f", "", left(k, gamma, turned), {"left side of Eq. 12 at the root"}, terms);
     time_ = writer_.found(number("T", arrival.time, "s"), phi / rate, {"time of flight"});
     writer_.found(number(contact_angle_name(n_), row_.contact_angle * degrees, "°", row_.error.contact_angle * degrees),
-                  absolute(phi - theta), {"contact angle now"});
-    inclination();
+                  absolute(turned - theta), {"contact angle now"});
+    inclination(turned);
+  }
+
+  /// The angle turned [rad], as what is added to angles and subtracted from them.
+  Quantity in_degrees(double angle) {
+    return writer_.found(number("φ_deg", angle * degrees, "°"), {"the same in degrees"});
   }
 
   void certified_bracket() {
@@ -161,10 +166,13 @@ class PlanarImpact {
     writer_.found(number("φ_high", rate * arrival.bracket_high, "rad"), {"its right end"});
   }
 
-  void inclination() {
-    alpha_ =
-        writer_.found(number("α", row_.flight.arrival.inclination * degrees, "°", row_.error.inclination * degrees),
-                      alpha0_ - w0_ * time_, {"inclination at the touch; the angle turned is in rad"});
+  void inclination(const std::optional<Quantity>& turned) {
+    const Quantity alpha =
+        number("α", row_.flight.arrival.inclination * degrees, "°", row_.error.inclination * degrees);
+    const Expression formula = !turned                      ? Expression(alpha0_)
+                               : row_.departure.angular > 0 ? alpha0_ - *turned
+                                                            : alpha0_ + *turned;
+    alpha_ = writer_.found(alpha, formula, {"inclination at the touch"});
   }
 
   /// The height of the vertex that arrives.
@@ -191,16 +199,18 @@ class PlanarImpact {
                       {fmt::format("time of flight, the first root of the height, found numerically by {} evaluations",
                                    row_.flight.evaluations)});
     Expression height = h0 + v0 * time_;
+    std::optional<Quantity> turned;
     if (falls) height = height - given_.gravity * square(time_) / 2;
     if (turns) {
       const Quantity phi = writer_.computed("φ", "rad", absolute(w0_) * time_, {"angle turned"});
+      turned = in_degrees(phi.value(0, 0));
       const Expression sideways = (phi - function("sin", phi)) * dt;
       height = height - dn * (1 - function("cos", phi));
       height = h.sine * dt.value(0, 0) < 0 ? height - sideways : height + sideways;
     }
     writer_.computed("h", "m", height, {"height of the vertex at the root"},
                      row_.flight.arrival.time > 0 ? h.at(row_.flight.arrival.time).scale : reach_);
-    inclination();
+    inclination(turned);
   }
 
   /// Gives the place of a vertex in the body, once.
@@ -222,7 +232,10 @@ class PlanarImpact {
   }
 
   void point_impact() {
-    writer_.open("The contact", {"What an impulse at the contact does to the velocity there."});
+    writer_.open(
+        "The contact",
+        {"An impulse P_n at the contact changes the velocity of the centre of mass by P_n/m and turns the body "
+         "by −P_n d_t/(m k²), so that the velocity of the contact changes by u′ − u = A P_n/m."});
     const Quantity a = writer_.computed("A", "", 1 + square(dt_) / k2_);
     Quantity b = a;
     u_ = writer_.found(number("u", -row_.impact.approach_speed, "m/s", row_.error.approach_speed), vn_ - w_ * dt_,

@@ -201,6 +201,7 @@ std::optional<AllAttitudes> all_attitudes(const ReportInput& input, const Scene&
       if (!std::isfinite(row[*ranking].number)) continue;
       SweptDrop drop{.point = static_cast<long long>(row.front().number), .value = row[*ranking].number};
       plan.points.at(drop.point, values);
+      std::copy_n(values.begin(), 4, drop.parameters.begin());
       drop.down = down_of(Eigen::Quaterniond(values[0], values[1], values[2], values[3]));
       drop.attitude = static_cast<int>(plan.points.attitude_of(drop.point));
       drop.curve_depth = number(curve);
@@ -253,18 +254,24 @@ std::string ranked_words(const Column& ranking) {
 }
 
 std::vector<Column> attitude_columns() {
-  return {word_column("attitude", "down", "part of the box that points down"),
-          {"off_deg", "off", "°", "how far its worst drop is off that"},
-          {"impact", "impact", "", "whose blow is the worst of that drop"},
-          {"peak_g", "peak", "g", "largest specific force at the probe in that blow"},
-          {"delta_v", "|ΔV|", "m/s", "change of the probe's velocity in it"},
-          {"margin", "margin", "", "of the part in it: at 1 and below it fails"},
-          {"depth_mm", "depth", "mm", "of the body's deepest point in it"},
-          {"depth_percent", "of pad", "%", "the same in parts of the pad's thickness"},
-          {"worst", "worst", "", "what the drops are ranked by, of that drop"},
-          {"mildest", "mildest", "", "the same of the mildest of its drops"},
-          {"largest_peak_g", "any peak", "g", "largest specific force at the probe in any blow of any of them"},
-          {"drops", "drops", "", "of this attitude"}};
+  return {
+      word_column("attitude", "down", "part of the box that points down"),
+      {"off_deg", "off", "°", "how far its worst drop is off that"},
+      {"impact", "impact", "", "whose blow is the worst of that drop"},
+      {"peak_g", "peak", "g", "largest specific force at the probe in that blow"},
+      {"delta_v", "|ΔV|", "m/s", "change of the probe's velocity in it"},
+      {"margin", "margin", "", "of the part in it: at 1 and below it fails"},
+      word_column("decided_by", "by", "what decides the margin: change of velocity, peak, or the humps of its history"),
+      {"depth_mm", "depth", "mm", "of the body's deepest point in it"},
+      {"depth_percent", "of pad", "%", "the same in parts of the pad's thickness"},
+      {"worst", "worst", "", "what the drops are ranked by, of that drop"},
+      {"mildest", "mildest", "", "the same of the mildest of its drops"},
+      {"largest_peak_g", "any peak", "g", "largest specific force at the probe in any blow of any of them"},
+      {"drops", "drops", "", "of this attitude"},
+      {"attitude_q0", "q0", "", "Euler parameters of its worst drop at the touch-down, for --attitude", false},
+      {"attitude_q1", "q1", "", "the same", false},
+      {"attitude_q2", "q2", "", "the same", false},
+      {"attitude_q3", "q3", "", "the same", false}};
 }
 
 Grid attitudes_grid(const AllAttitudes& all) {
@@ -286,14 +293,15 @@ Grid attitudes_grid(const AllAttitudes& all) {
       column.meaning =
           ranked_words(all.column) + (column.name == "worst" ? " of that drop" : " of the mildest of them");
     }
-    column.shown = column.name == "peak_g"           ? has_peaks
-                   : column.name == "delta_v"        ? has_velocity
-                   : column.name == "margin"         ? has_margin
-                   : column.name == "depth_mm"       ? has_depth
-                   : column.name == "depth_percent"  ? has_share
-                   : column.name == "worst"          ? !is_of_blow
-                   : column.name == "largest_peak_g" ? has_peaks && !all.is_ranked_by_peak()
-                                                     : true;
+    column.shown = column.name == "peak_g"                                  ? has_peaks
+                   : column.name == "delta_v"                               ? has_velocity
+                   : column.name == "margin" || column.name == "decided_by" ? has_margin
+                   : column.name.starts_with("attitude_q")                  ? false
+                   : column.name == "depth_mm"                              ? has_depth
+                   : column.name == "depth_percent"                         ? has_share
+                   : column.name == "worst"                                 ? !is_of_blow
+                   : column.name == "largest_peak_g"                        ? has_peaks && !all.is_ranked_by_peak()
+                                                                            : true;
   }
   std::vector<std::size_t> order(all.worst_of.size());
   std::iota(order.begin(), order.end(), 0U);
@@ -328,10 +336,11 @@ Grid attitudes_grid(const AllAttitudes& all) {
          cell(blow && has_peaks, blow ? three_digits(blow->peak_g) : 0),
          cell(blow && has_velocity, blow ? blow->velocity : 0),
          cell(blow && blow->margin, blow && blow->margin ? blow->margin->value : 0),
+         blow && blow->margin ? Cell(deciding_name(blow->margin->by)) : Cell(),
          cell(is_deep, is_deep ? 1e3 * *blow->depth : 0),
          cell(is_deep && has_share, is_deep && has_share ? 100 * *blow->depth / *pad : 0), Cell(worst.value, 3),
-         Cell(mildest, 3), cell(std::isfinite(largest_peak), three_digits(largest_peak)),
-         Cell(static_cast<int>(drops))});
+         Cell(mildest, 3), cell(std::isfinite(largest_peak), three_digits(largest_peak)), Cell(static_cast<int>(drops)),
+         Cell(worst.parameters[0]), Cell(worst.parameters[1]), Cell(worst.parameters[2]), Cell(worst.parameters[3])});
   }
   return grid;
 }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <optional>
 #include <string>
@@ -28,7 +29,8 @@ namespace clatter::validation {
 /// One of the drops in all attitudes.
 struct SweptDrop {
   long long point = 0;
-  int attitude = 0;  ///< of a box, by number, from 0
+  int attitude = 0;                    ///< of a box, by number, from 0
+  std::array<double, 4> parameters{};  ///< Euler's
   Vector3 down = Vector3::Zero();
   double value = 0;         ///< that it is ranked by
   double beyond_value = 0;  ///< the same with the impacts that the ranking leaves out, or NaN

@@ -135,6 +135,18 @@ std::vector<std::string> notes_of_all(const AllAttitudes& all, const Answer& ans
         all.is_least_worst() ? "least margin" : "largest", in_unit(all, beyond->beyond_value),
         name_of_drop(all.scene, beyond->attitude, beyond->down), beyond->beyond_impact));
   }
+  // How far the worst of a sample is from that of all is told by two samples of half the size.
+  double of_rest = std::nan("");
+  for (const SweptDrop& one : all.drops) {
+    if (one.point % 2 == worst.point % 2) continue;
+    if (!std::isfinite(of_rest) || all.is_worse(one.value, of_rest)) of_rest = one.value;
+  }
+  if (std::isfinite(of_rest) && of_rest != worst.value) {
+    notes.push_back(
+        fmt::format("{} drops are a sample: the worst of one half has {}, of the other {}; more of them "
+                    "(--drops) can find a worse one",
+                    all.drops.size(), in_unit(all, worst.value), in_unit(all, of_rest)));
+  }
   constexpr double close = 0.02;  // of numbers to three digits whose errors were not looked for
   const auto place = std::ranges::find(all.worst_of, all.worst) - all.worst_of.begin();
   const std::optional<Blow>& swept = all.blows[static_cast<std::size_t>(place)];

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <cmath>
 
 #include "validation/output/number.hpp"
@@ -51,6 +52,10 @@ double three_digits(double value) {
 }
 
 std::string said(double value) { return shortest(three_digits(value)); }
+
+const char* deciding_name(BlowMargin::By by) {
+  return std::array{"velocity", "peak", "humps"}[static_cast<std::size_t>(by)];
+}
 
 namespace {
 
@@ -119,6 +124,10 @@ std::vector<std::string> assumed_words(const Scene& scene, Model model, const Bl
   } else {
     items.emplace_back("The ground's damping is as given, and gives the restitution");
   }
+  if (is_continuous && !ground.has_friction())
+    items.emplace_back(
+        "No friction: the body slides freely over the ground, which makes some blows milder and others "
+        "harder. --sliding-friction MU gives it");
   if (is_continuous && scene.impact.restitution && !scene.ground_restitution)
     items.push_back(discrete_restitution_words(scene));
   if (is_continuous && ground.is_half_space())

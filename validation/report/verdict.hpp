@@ -47,6 +47,9 @@ struct Blow {
 [[nodiscard]] std::optional<Blow> worst_blow(const std::vector<ShockRow>& rows, const Run& run, const Scene& scene,
                                              const Ranking& ranking);
 
+/// "velocity", "peak" or "humps".
+[[nodiscard]] const char* deciding_name(BlowMargin::By by);
+
 /// Three digits, as one says them: 39000, not 39027.
 [[nodiscard]] double three_digits(double value);
 [[nodiscard]] std::string said(double value);

@@ -43,11 +43,14 @@ for (const browser of ["chromium", "firefox"]) {
     }, { browser, at: pathToFileURL(exported).href });
   });
 
-  test(`in ${browser} an exported page shows the scene that was written into it`, () => onPage("", async (page) => {
-    const { impacts } = printed("sequence", "phone-corner");
-    await page.click("#prediction-skip");
-    await waitForCell(page, "Impulse", 0, impacts[0].impulse_normal);
-  }, { browser, at: pathToFileURL(exported).href }));
+  // An address without a body changes the rest alone.
+  for (const fragment of ["", "#hide=map"]) {
+    test(`in ${browser} an exported page shows the scene that was written into it ${fragment}`, () => onPage(fragment, async (page) => {
+      const { impacts } = printed("sequence", "phone-corner");
+      await page.click("#prediction-skip");
+      await waitForCell(page, "Impulse", 0, impacts[0].impulse_normal);
+    }, { browser, at: pathToFileURL(exported).href }));
+  }
 }
 
 test("the page saves itself with the scene that it shows", async () => {

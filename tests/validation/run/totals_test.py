@@ -77,7 +77,7 @@ class Columns(EmptyFolder):
             self.assertEqual((row["predictable"], row["total_normal_impulse_error"]), ("", ""))
             self.assertGreater(float(row["total_normal_impulse"]), 0)
         for rows, key in itertools.product(("scene", "impact"), ("run.errors", "run.amplification")):
-            for row in self.rows("sweep", PHONE, "--set", "run.impacts=1", "--set", "run.digits=3", "--set", f"{key}=false", "--rows", rows):
+            for row in rows_of("sweep", PHONE, "--set", "run.impacts=1", "--set", "run.digits=3", "--set", f"{key}=false", "--rows", rows):
                 self.assertEqual(row["predictable"], "", (rows, key))
 
 

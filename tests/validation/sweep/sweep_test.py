@@ -392,7 +392,7 @@ class Scenes(Folder):
         for arguments in ([self.scene, "--set", "drop.angle_deg=0.01:60:0.01"],
                           [PHONE, "--set", "drop.angle_deg=3:89:2", "--rows", "impact", *QUICK]):
             for count in ("2", "3"):
-                done = self.mpirun(count, PROGRAM, "sweep", *arguments, "--output", self.path("out.csv"))
+                done = self.mpirun(count, PROGRAM, "sweep", *arguments, "--output", self.path("out.csv"), "--restart")
                 self.assertEqual((done.returncode, done.stdout), (0, ""), done.stderr)
                 self.assertEqual(self.read("out.csv"), self.sweep(*arguments), count)
         bad = self.mpirun("3", PROGRAM, "sweep", self.scene, "--set", "drop.angle=1:2:1")

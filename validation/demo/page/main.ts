@@ -248,7 +248,9 @@ class Page {
     }
     this.force.setTime(time, motions.continuous?.end ?? Infinity);
     showPatch(motions.continuous, time);
-    say("caption", impact ? impactInWords(this.models.steps, impact.n) : "Falling");
+    // A sheet and a question do not tell what they ask for.
+    const tells = !this.prediction.isOpen && !document.body.classList.contains("handout");
+    say("caption", impact && tells ? impactInWords(this.models.steps, impact.n) : "Falling");
   }
 
   private choose(n: number): void {

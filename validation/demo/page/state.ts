@@ -146,10 +146,13 @@ export function stateOf(text: string): State {
   };
 }
 
-/** What the address says; else the scene that was written into the page. */
+/** What the address says; where it names no body, over the scene that was written into the page. */
 export function readAddress(): State {
-  const written = document.querySelector<HTMLMetaElement>("meta[name=clatter-scene]")?.content ?? "";
-  return stateOf(location.hash.slice(1) || written);
+  const said = new URLSearchParams(location.hash.slice(1));
+  if (said.has("body") || said.has("given")) return stateOf(said.toString());
+  const written = new URLSearchParams(document.querySelector<HTMLMetaElement>("meta[name=clatter-scene]")?.content ?? "");
+  for (const [name, value] of said) written.set(name, value);
+  return stateOf(written.toString());
 }
 
 /** @param without names that are left out, but for those that are locked */

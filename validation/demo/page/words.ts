@@ -14,13 +14,22 @@ const BODY_NOTES: Readonly<Partial<Record<BodyName, string>>> = {
   tube: "The tube has a thin wall; its lids have no mass.",
 };
 
+/** What an exercise needs of the body: its sizes in mm and its mass. */
+function sizeInWords(parameters: Parameters): string {
+  const { shape } = BODIES[parameters.body].size;
+  const { mass, length, radius, width, thickness } = parameters.body.startsWith("own") ? parameters : BODIES[parameters.body].size;
+  const sides = shape === "box" ? [length, width, thickness] : radius > 0 ? [length, 2 * radius] : [length];
+  return `${sides.map((side) => significant(1e3 * side, 4)).join(" × ")} mm, ${significant(mass, 4)} kg`;
+}
+
 /** What is dropped, in one sentence. */
-function dropInWords({ body, angle, tilt, turn, drop, height, clearance, speed, gravity, e, friction }: Parameters): string {
+function dropInWords(parameters: Parameters): string {
+  const { body, angle, tilt, turn, drop, height, clearance, speed, gravity, e, friction } = parameters;
   const leans = turn === "plane" || turn === "tilted" ? `, inclined by ${significant(seenAngle(BODIES[body].size, angle), 4)}°${turn === "tilted" ? ` and turned by ${significant(tilt, 4)}° before` : ""}` : "";
   const above = drop === "clearance" ? `with its lowest point ${significant(clearance, 4)} m` : `${significant(height, 4)} m`;
   const falls = drop === "height" || drop === "clearance" ? `, let go ${above} above the floor` : drop === "speed" ? `, comes down at ${significant(speed, 4)} m/s` : "";
   const floor = friction > 0 ? `, friction μ = ${significant(friction, 4)}` : "";
-  return `${BODIES[body].title}${leans}${falls}. Gravity ${significant(gravity, 4)} m/s², restitution e = ${significant(e, 4)}${floor}.`;
+  return `${BODIES[body].title} (${sizeInWords(parameters)})${leans}${falls}. Gravity ${significant(gravity, 4)} m/s², restitution e = ${significant(e, 4)}${floor}.`;
 }
 
 /** On what the continuous model runs, of which the discrete one knows nothing; whether nobody else chose it. */
