@@ -232,10 +232,8 @@ class PlanarImpact {
   }
 
   void point_impact() {
-    writer_.open(
-        "The contact",
-        {"An impulse P_n at the contact changes the velocity of the centre of mass by P_n/m and turns the body "
-         "by −P_n d_t/(m k²), so that the velocity of the contact changes by u′ − u = A P_n/m."});
+    writer_.open("The contact", {"An impulse at the contact changes the velocity there by A/m times the impulse: 1/m "
+                                 "of it with the centre of mass, the rest by turning the body about that."});
     const Quantity a = writer_.computed("A", "", 1 + square(dt_) / k2_);
     Quantity b = a;
     u_ = writer_.found(number("u", -row_.impact.approach_speed, "m/s", row_.error.approach_speed), vn_ - w_ * dt_,
