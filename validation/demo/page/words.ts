@@ -14,12 +14,13 @@ const BODY_NOTES: Readonly<Partial<Record<BodyName, string>>> = {
   tube: "The tube has a thin wall; its lids have no mass.",
 };
 
-/** What an exercise needs of the body: its sizes in mm and its mass. */
+/** What an exercise needs of the body: its mass and, where its title has none, its sizes in mm. */
 function sizeInWords(parameters: Parameters): string {
-  const { shape } = BODIES[parameters.body].size;
-  const { mass, length, radius, width, thickness } = parameters.body.startsWith("own") ? parameters : BODIES[parameters.body].size;
-  const sides = shape === "box" ? [length, width, thickness] : radius > 0 ? [length, 2 * radius] : [length];
-  return `${sides.map((side) => significant(1e3 * side, 4)).join(" × ")} mm, ${significant(mass, 4)} kg`;
+  const { shape, mass } = BODIES[parameters.body].size;
+  if (!parameters.body.startsWith("own")) return `${significant(mass, 4)} kg`;
+  const { length, radius, width, thickness } = parameters;
+  const sides = shape === "box" ? [length, width, thickness] : [length, 2 * radius];
+  return `${sides.map((side) => significant(1e3 * side, 4)).join(" × ")} mm, ${significant(parameters.mass, 4)} kg`;
 }
 
 /** What is dropped, in one sentence. */
