@@ -376,14 +376,12 @@ class Run {
     row.predictable = is_predictable(row.amplification);
   }
 
-  /// It never counts as falling: a contact that damps one deviation may keep another.
   void note_left_out(double in_contact) {
     const std::size_t count = result_.impacts.size();
     ImpactRecord& row = result_.impacts.back();
     if (count > 1) {
       const ImpactRecord& last = result_.impacts[count - 2];
-      const double growth = row.amplification / last.amplification;
-      row.left_out_before = last.left_out * (growth > 1 ? growth : 1);
+      row.left_out_before = grown(last.left_out, last.amplification, row.amplification);
     }
     row.left_out = row.left_out_before + in_contact;
   }

@@ -7,6 +7,8 @@
 #include <limits>
 #include <span>
 
+#include "numeric/drop/error_growth.hpp"
+
 namespace clatter::numeric {
 namespace {
 
@@ -238,8 +240,7 @@ StateErrors step_errors(const Body& body, const StateRecord& at, double approach
 
 /// Velocities that all runs leave out alike since an impact `since` [s] ago.
 StateErrors left_out_errors(const Body& body, const StateRecord& at, const ImpactRecord& impact, double since) {
-  const double growth = at.amplification / impact.amplification, turning = 1 / body.radius();
-  const double speed = impact.left_out * (growth > 1 ? growth : 1);
+  const double speed = grown(impact.left_out, impact.amplification, at.amplification), turning = 1 / body.radius();
   return {.position = speed * since,
           .angle = speed * turning * since,
           .velocity = speed,

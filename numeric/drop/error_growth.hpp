@@ -7,6 +7,13 @@
 
 namespace clatter::numeric {
 
+/// What an error of that size has grown to while the amplification went `from` one value `to` another.  It never counts
+/// as falling: a contact that damps one deviation may keep another.  Not known growths count as none.
+[[nodiscard]] inline double grown(double error, double from, double to) {
+  const double growth = to / from;
+  return error * (growth > 1 ? growth : 1);
+}
+
 /// What a neighbour's contact is run by: `same` as the contact beside it, or `rough`, which is cheap at the tolerance
 /// that its deviation needs.  Both of one system.
 struct ContactRuns {

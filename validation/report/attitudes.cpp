@@ -296,12 +296,11 @@ Grid attitudes_grid(const AllAttitudes& all) {
     column.shown = column.name == "peak_g"                                  ? has_peaks
                    : column.name == "delta_v"                               ? has_velocity
                    : column.name == "margin" || column.name == "decided_by" ? has_margin
-                   : column.name.starts_with("attitude_q")                  ? false
                    : column.name == "depth_mm"                              ? has_depth
                    : column.name == "depth_percent"                         ? has_share
                    : column.name == "worst"                                 ? !is_of_blow
                    : column.name == "largest_peak_g"                        ? has_peaks && !all.is_ranked_by_peak()
-                                                                            : true;
+                                                                            : column.shown;
   }
   std::vector<std::size_t> order(all.worst_of.size());
   std::iota(order.begin(), order.end(), 0U);
@@ -336,7 +335,7 @@ Grid attitudes_grid(const AllAttitudes& all) {
          cell(blow && has_peaks, blow ? three_digits(blow->peak_g) : 0),
          cell(blow && has_velocity, blow ? blow->velocity : 0),
          cell(blow && blow->margin, blow && blow->margin ? blow->margin->value : 0),
-         blow && blow->margin ? Cell(deciding_name(blow->margin->by)) : Cell(),
+         blow && blow->margin ? deciding_cell(blow->margin->by) : Cell(),
          cell(is_deep, is_deep ? 1e3 * *blow->depth : 0),
          cell(is_deep && has_share, is_deep && has_share ? 100 * *blow->depth / *pad : 0), Cell(worst.value, 3),
          Cell(mildest, 3), cell(std::isfinite(largest_peak), three_digits(largest_peak)), Cell(static_cast<int>(drops)),

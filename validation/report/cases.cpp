@@ -16,11 +16,6 @@ namespace {
 /// The flags whose texts may be several values of e, as those of a sweep: 0.3:0.7:0.1, or 0.3,0.5.
 constexpr const char* ranged_flags[] = {"--restitution", "--floor-restitution"};
 
-/// "change of velocity" for delta_v.
-std::string deciding_name(const std::string& name) {
-  return name == "delta_v" ? "change of velocity" : name == "history" ? "humps" : name;
-}
-
 bool differ(const std::vector<const ReportCase*>& cases, auto&& value) {
   return std::ranges::any_of(cases, [&](const ReportCase* one) { return value(*one) != value(*cases.front()); });
 }
@@ -131,8 +126,8 @@ Grid cases_grid(const std::vector<const ReportCase*>& cases) {
       row.push_back(of(name));
     row.push_back(of("depth", 1e3));
     row.push_back(pad ? of("depth", 100 / *pad) : Cell());
-    row.push_back(of("decided_by"));
-    if (!row.back().value.is_nothing()) row.back().shown = deciding_name(row.back().value.text());
+    const auto& blow = one->found.answer.blow;
+    row.push_back(blow && blow->margin ? deciding_cell(blow->margin->by) : Cell());
     row.push_back(of("failing"));
     row.push_back(of("drops"));
     grid.rows.push_back(std::move(row));

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "validation/output/bad_input.hpp"
@@ -78,7 +77,7 @@ Answer answer_of(const ShockRun& run, const Ranking& ranking) {
   if (!blow.margin) return answer;
   answer.fields["verdict"] = blow.margin->verdict();
   answer.fields["margin"] = blow.margin->value;
-  answer.fields["decided_by"] = std::array{"delta_v", "peak", "history"}[static_cast<std::size_t>(blow.margin->by)];
+  answer.fields["decided_by"] = deciding_cell(blow.margin->by).value;
   if (ranking.part->kind == FragilePart::Kind::oscillator)
     answer.fields["response_g"] = ranking.part->fragility / standard_gravity / blow.margin->value;
   return answer;

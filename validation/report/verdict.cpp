@@ -53,8 +53,9 @@ double three_digits(double value) {
 
 std::string said(double value) { return shortest(three_digits(value)); }
 
-const char* deciding_name(BlowMargin::By by) {
-  return std::array{"velocity", "peak", "humps"}[static_cast<std::size_t>(by)];
+Cell deciding_cell(BlowMargin::By by) {
+  const auto place = static_cast<std::size_t>(by);
+  return {std::array{"delta_v", "peak", "history"}[place], std::array{"change of velocity", "peak", "humps"}[place]};
 }
 
 namespace {

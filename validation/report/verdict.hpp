@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "validation/output/report.hpp"
 #include "validation/run/run.hpp"
 #include "validation/scene/scene.hpp"
 #include "validation/shock/damage_boundary.hpp"
@@ -47,8 +48,8 @@ struct Blow {
 [[nodiscard]] std::optional<Blow> worst_blow(const std::vector<ShockRow>& rows, const Run& run, const Scene& scene,
                                              const Ranking& ranking);
 
-/// "velocity", "peak" or "humps".
-[[nodiscard]] const char* deciding_name(BlowMargin::By by);
+/// "delta_v", "peak" or "history", which tables call "change of velocity", "peak" and "humps".
+[[nodiscard]] Cell deciding_cell(BlowMargin::By by);
 
 /// Three digits, as one says them: 39000, not 39027.
 [[nodiscard]] double three_digits(double value);
