@@ -155,7 +155,10 @@ std::string scene_file() {
     const std::string indent = "#   ";
     return fmt::format("{}\n{}{}", setting, indent, wrapped(meaning(key), 75, indent));
   };
-  return scene_text("# A scene: clatter simulate FILE, sequence FILE, compare FILE.", keys, line);
+  return scene_text("# A scene: clatter simulate FILE, sequence FILE, compare FILE.", keys, line) +
+         "\n# Places of the body, from its geometric centre [m], for clatter shock, report and sweep, and what a part\n"
+         "# there bears: 500 Hz and 300 g.  Any number of them.\n"
+         "# [[probe]]\n#   name = \"camera\"\n#   place = [0.2, 0, 0]\n#   part = \"500:300\"\n";
 }
 
 /// A scene that somebody wrote is worth more than the one to begin with.
@@ -163,7 +166,7 @@ void require_new(const std::string& path) {
   if (path.empty()) return;
   const Destination destination = destination_of({"--output", path});
   if (!destination.is_stream && destination.mode)
-    throw BadInput(fmt::format("--output {}: is there already; init writes new files alone", path));
+    throw BadInput(fmt::format("{}: is there already; init writes new files alone", path));
 }
 
 int run_keys(const OutputChoice& choice) {
@@ -187,10 +190,14 @@ Command keys_command() {
 Command init_command() {
   auto file = std::make_shared<std::string>();
   Command command;
-  command.add_text("--output", *file, "FILE", "write there, whole or not at all");
-  command.footer = "Example: clatter init --output scene.toml";
-  command.run = [file] {
-    const OutputChoice choice{.style = {}, .path = *file};
+  auto named = std::make_shared<std::string>();
+  command.add(
+      {.name = "FILE", .target = named.get(), .type = "FILE", .help = "to write, whole or not at all (stdout)"});
+  command.add_text("--output", *file, "FILE", "the same");
+  command.footer = "Example: clatter init scene.toml";
+  command.run = [file, named] {
+    if (!named->empty() && !file->empty()) throw BadInput(fmt::format("--output {}: {} is the file", *file, *named));
+    const OutputChoice choice{.style = {}, .path = named->empty() ? *file : *named};
     require_new(choice.path);
     check_files(choice);
     write_out(choice, scene_file());

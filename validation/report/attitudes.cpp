@@ -260,6 +260,7 @@ std::vector<Column> attitude_columns() {
       {"impact", "impact", "", "whose blow is the worst of that drop"},
       {"peak_g", "peak", "g", "largest specific force at the probe in that blow"},
       {"delta_v", "|ΔV|", "m/s", "change of the probe's velocity in it"},
+      pulse_column(),
       {"margin", "margin", "", "of the part in it: at 1 and below it fails"},
       word_column("decided_by", "by", "what decides the margin: change of velocity, peak, or the humps of its history"),
       {"depth_mm", "depth", "mm", "of the body's deepest point in it"},
@@ -294,6 +295,7 @@ Grid attitudes_grid(const AllAttitudes& all) {
           ranked_words(all.column) + (column.name == "worst" ? " of that drop" : " of the mildest of them");
     }
     column.shown = column.name == "peak_g"                                  ? has_peaks
+                   : column.name == pulse_column().name                     ? has_peaks && has_velocity
                    : column.name == "delta_v"                               ? has_velocity
                    : column.name == "margin" || column.name == "decided_by" ? has_margin
                    : column.name == "depth_mm"                              ? has_depth
@@ -328,12 +330,13 @@ Grid attitudes_grid(const AllAttitudes& all) {
       largest_peak = std::fmax(largest_peak, one.peak_g);
     }
     const auto cell = [&](bool there, double value) { return there ? Cell(value, 3) : Cell(); };
-    const bool is_deep = blow && blow->depth;
+    const bool is_deep = blow && blow->depth, has_pulse = blow && blow->peak_g > 0 && blow->velocity > 0;
     grid.rows.push_back(
         {Cell(fmt::format("{} {}", part_names[axes_of_attitude(worst.attitude)], orientation_name(worst.attitude + 1))),
          Cell(degrees_off(all.scene, worst.attitude, worst.down), 2), blow ? Cell(blow->impact) : Cell(),
          cell(blow && has_peaks, blow ? three_digits(blow->peak_g) : 0),
          cell(blow && has_velocity, blow ? blow->velocity : 0),
+         has_pulse ? Cell(1e3 * equivalent_pulse(blow->velocity, blow->peak_g * standard_gravity).duration, 3) : Cell(),
          cell(blow && blow->margin, blow && blow->margin ? blow->margin->value : 0),
          blow && blow->margin ? deciding_cell(blow->margin->by) : Cell(),
          cell(is_deep, is_deep ? 1e3 * *blow->depth : 0),

@@ -5,6 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <ranges>
+#include <string_view>
+#include <variant>
 
 #include "validation/output/bad_input.hpp"
 #include "validation/output/number.hpp"
@@ -13,16 +16,33 @@
 namespace clatter::validation {
 namespace {
 
-/// The flags whose texts may be several values of e, as those of a sweep: 0.3:0.7:0.1, or 0.3,0.5.
-constexpr const char* ranged_flags[] = {"--restitution", "--floor-restitution"};
+constexpr std::size_t most_cases = 100;
+
+/// The values of a flag that has several: 0.3:0.7:0.1 or 0.3,0.5, as in a sweep, or names, concrete,wood.  Empty: one.
+std::vector<std::string> several_values(const Key& key, const std::string& text) {
+  std::vector<std::string> values;
+  if (std::holds_alternative<NameValue>(key.value) && text.find(',') != std::string::npos) {
+    for (const auto part : std::views::split(text, ',')) values.emplace_back(part.begin(), part.end());
+  } else if (key.is_number() && text.find_first_of(":,") != std::string::npos) {
+    const SweepAxis axis = read_grid_axis(key.flag, text, key.is_whole());
+    if (axis.count > static_cast<long long>(most_cases))
+      throw BadInput(fmt::format("{} {}: more than {} values", key.flag, text, most_cases));
+    for (long long i = 0; i < axis.count; ++i) values.push_back(shortest(axis.at(i)));
+  }
+  return values;
+}
+
+bool is_restitution(const Key& key) { return std::string_view(key.name).ends_with(".restitution"); }
+bool is_floor(const Key& key) { return std::string_view(key.name) == "ground.floor"; }
 
 bool differ(const std::vector<const ReportCase*>& cases, auto&& value) {
   return std::ranges::any_of(cases, [&](const ReportCase* one) { return value(*one) != value(*cases.front()); });
 }
 
 std::vector<Column> columns_of_case() {
-  return {word_column("floor", "scene", "file whose drop it is"),
+  return {word_column("floor", "scene", "file whose drop it is, or its floor"),
           {"restitution", "e", "", "that was given, of the ground or, without one, of impacts"},
+          word_column("given", "with", "its values of other flags that have several"),
           word_column("part", "part", "what bears it, as --part takes it")};
 }
 
@@ -30,7 +50,9 @@ std::vector<Column> columns_of_case() {
 Row cells_of_case(const ReportCase& one) {
   const auto part = one.input.part();
   const auto e = one.given_restitution();
-  return {Cell(one.floor()), e ? Cell(*e, shortest(*e)) : Cell(), part ? Cell(part_text(*part)) : Cell()};
+  const std::string words = one.varied_words();
+  return {Cell(one.floor()), e ? Cell(*e, shortest(*e)) : Cell(), words.empty() ? Cell() : Cell(words),
+          part ? Cell(part_text(*part)) : Cell()};
 }
 
 void show_columns_of_case(const std::vector<const ReportCase*>& cases, Grid& grid) {
@@ -38,6 +60,7 @@ void show_columns_of_case(const std::vector<const ReportCase*>& cases, Grid& gri
     if (column.name == "floor") column.shown = differ(cases, [](const ReportCase& one) { return one.floor(); });
     if (column.name == "restitution")
       column.shown = differ(cases, [](const ReportCase& one) { return one.given_restitution(); });
+    if (column.name == "given") column.shown = differ(cases, [](const ReportCase& one) { return one.varied_words(); });
     if (column.name == "part")
       column.shown =
           differ(cases, [](const ReportCase& one) { return one.input.part() ? part_text(*one.input.part()) : ""; });
@@ -56,17 +79,13 @@ std::vector<ReportCase> cases_of(const ReportInput& given) {
     if (count > 0) inputs = std::move(more);
   };
   multiply(given.scenes.size(), [&](std::size_t i, ReportInput& input) { input.scene.source = given.scenes[i]; });
-  const char* ranged = nullptr;
-  for (const char* const flag : ranged_flags) {
-    const std::string& text = given.scene.texts.at(flag);
-    if (text.find_first_of(":,") == std::string::npos) continue;
-    if (ranged) throw BadInput(fmt::format("{} {}: {} has several values already", flag, text, ranged));
-    ranged = flag;
-    const SweepAxis axis = read_grid_axis(flag, text, false);
-    if (axis.count > 100) throw BadInput(fmt::format("{} {}: more than 100 values", flag, text));
-    multiply(static_cast<std::size_t>(axis.count), [&](std::size_t i, ReportInput& input) {
-      input.scene.texts[flag] = shortest(axis.at(static_cast<long long>(i)));
-    });
+  std::vector<const Key*> varied;
+  for (const SceneOverride& flag : overrides_of(given.scene)) {
+    const Key& key = key_named(flag.key);
+    const std::vector<std::string> values = several_values(key, flag.text);
+    if (values.empty()) continue;
+    varied.push_back(&key);
+    multiply(values.size(), [&](std::size_t i, ReportInput& input) { input.scene.texts[key.flag] = values[i]; });
   }
   std::vector<ReportInput> of_parts;
   for (const ReportInput& input : inputs) {
@@ -74,6 +93,10 @@ std::vector<ReportCase> cases_of(const ReportInput& given) {
     if (parts.empty()) of_parts.push_back(input);
     for (const FragilePart& part : parts) of_parts.emplace_back(input).parts = {part};
   }
+  if (of_parts.size() > most_cases)
+    throw BadInput(fmt::format("{} cases of scenes, values and parts: more than {}", of_parts.size(), most_cases));
+  const bool names_floor =
+      given.scenes.size() > 1 || std::ranges::any_of(varied, [](const Key* key) { return is_floor(*key); });
   std::vector<ReportCase> cases;
   for (ReportInput& input : of_parts) {
     const bool is_turned = gives_attitude(input);
@@ -82,15 +105,39 @@ std::vector<ReportCase> cases_of(const ReportInput& given) {
     require_worst_attitudes(input, scene);
     if (!input.parts.empty() && probes_of(input).empty())
       throw BadInput("--part: needs --probe NAME:X,Y,Z, or [[probe]], where the part is");
-    cases.push_back(
-        {input, ranged ? input.scene.texts.at(ranged) : "", view_of(input), is_turned, scene, given.scenes.size() > 1});
+    ReportCase& one = cases.emplace_back(ReportCase{input, {}, view_of(input), is_turned, scene, names_floor});
+    for (const Key* key : varied) one.varied.emplace_back(key, input.scene.texts.at(key->flag));
   }
   return cases;
 }
 
+std::string ReportCase::floor() const {
+  const std::string& source = input.scene.source;
+  std::string words = source.substr(0, source.size() - (source.ends_with(".toml") ? 5 : 0));
+  for (const auto& [key, value] : varied) {
+    if (is_floor(*key)) words += (words.empty() ? "" : ", ") + value;
+  }
+  return words.empty() ? "the drop" : words;
+}
+
+std::string ReportCase::varied_words() const {
+  std::string words;
+  for (const auto& [key, value] : varied) {
+    if (is_restitution(*key) || is_floor(*key)) continue;
+    std::string name = key->argument();
+    std::ranges::replace(name, '_', ' ');
+    words += fmt::format("{}{} {}", words.empty() ? "" : ", ", name, value);
+  }
+  return words;
+}
+
 std::string ReportCase::name(const std::string& of_part, const char* between) const {
   std::string words = names_floor ? floor() : "";
-  if (!restitution.empty()) words += (words.empty() ? "e = " : ", e = ") + restitution;
+  const auto add = [&](const std::string& more) { words += (words.empty() || more.empty() ? "" : ", ") + more; };
+  for (const auto& [key, value] : varied) {
+    if (is_restitution(*key)) add("e = " + value);
+  }
+  add(varied_words());
   return words + (words.empty() || of_part.empty() ? "" : between) + of_part;
 }
 
@@ -124,6 +171,7 @@ Grid cases_grid(const std::vector<const ReportCase*>& cases) {
     Row row = cells_of_case(*one);
     for (const char* name : {"verdict", "margin", "attitude", "probe", "impact", "peak_g", "delta_v"})
       row.push_back(of(name));
+    row.push_back(of("pulse_duration", 1e3));
     row.push_back(of("depth", 1e3));
     row.push_back(pad ? of("depth", 100 / *pad) : Cell());
     const auto& blow = one->found.answer.blow;
@@ -140,6 +188,8 @@ Grid cases_grid(const std::vector<const ReportCase*>& cases) {
     if (column.name == "part") column.shown = has_part;
     if (column.name == "verdict" || column.name == "margin" || column.name == "decided_by" || column.name == "failing")
       column.shown = has_part;
+    if (column.name == pulse_column().name)
+      column.shown = any([](const ReportCase& one) { return one.found.ranking.has_peaks; });
     if (column.name == "probe")
       column.shown = any([](const ReportCase& one) { return one.found.run.probes.size() > 1; });
     if (column.name == "depth_mm")
@@ -182,6 +232,7 @@ Report joined_report(const std::vector<const ReportCase*>& order) {
   const Grid cases = cases_grid(order);
   Report report = worst.report;
   report.grid = cases;
+  report.head.insert(report.head.begin(), "The worst case:");
   std::string words;
   for (const ReportCase* one : worst_cases(order)) {
     const std::optional<Blow>& blow = one->found.answer.blow;
@@ -191,6 +242,11 @@ Report joined_report(const std::vector<const ReportCase*>& order) {
                            one->found.ranking.by == Ranking::By::margin ? "least" : "with", said(blow->margin->value));
     else words += ": " + (blow ? one->found.lead : one->found.answer.words);
   }
+  if (const ReportCase& last = *order.back(); last.found.ranking.by == Ranking::By::margin &&
+                                              std::isfinite(last.value()) &&
+                                              said(last.value()) != said(order.front()->value()))
+    words += fmt::format("; from case to case the least margin goes from {} to {} ({})", said(order.front()->value()),
+                         said(last.value()), last.name());
   report.notes = {fmt::format("Worst of {} cases: {}", order.size(), words), worst.lead};
   if (const std::string fixed = fixed_words(order); !fixed.empty()) report.notes.push_back(fixed);
   report.fields["message"] = report.notes.front();
@@ -201,7 +257,8 @@ Report joined_report(const std::vector<const ReportCase*>& order) {
 std::string fixed_words(const std::vector<const ReportCase*>& cases) {
   const auto is_of_springs = [](const ReportCase* one) {
     const numeric::Ground& ground = one->given.world.ground;
-    return !one->restitution.empty() && one->given.ground_restitution && !ground.is_half_space() && !ground.is_pad();
+    return std::ranges::any_of(one->varied, [](const auto& of) { return is_restitution(*of.first); }) &&
+           one->given.ground_restitution && !ground.is_half_space() && !ground.is_pad();
   };
   if (std::ranges::none_of(cases, is_of_springs)) return "";
   return "k_G is the same at each e: where it was found from a contact time, that time is kept only at the e that was "
@@ -241,6 +298,7 @@ std::vector<Column> case_columns() {
        {"impact", "impact", "", "whose blow has it"},
        {"peak_g", "peak", "g", "largest specific force at the probe in that blow"},
        {"delta_v", "|ΔV|", "m/s", "change of the probe's velocity in it"},
+       pulse_column(),
        {"depth_mm", "depth", "mm", "of the body's deepest point in it"},
        {"depth_percent", "of pad", "%", "the same in parts of the pad's thickness"},
        word_column("decided_by", "by",

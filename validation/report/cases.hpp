@@ -1,31 +1,33 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The cases of a report on several floors, restitutions and parts, and the table that has a row for each.
+// The cases of a report on several scenes, values of flags and parts, and the table that has a row for each.
 #pragma once
 
 #include <limits>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "validation/report/findings.hpp"
+#include "validation/scene/keys.hpp"
 
 namespace clatter::validation {
 
-/// One scene with one restitution and at most one part.
+/// One scene with one value of each flag and at most one part.
 struct ReportCase {
   ReportInput input;
-  std::string restitution;  ///< empty: not ranged over
+  std::vector<std::pair<const Key*, std::string>> varied;  ///< keys of which other cases have other values, and its own
   ShockView view;
   bool is_turned = false;  ///< whether the input says how the body is turned
   Scene given{};
   bool names_floor = false;  ///< whether scenes are several
   Findings found{};
 
-  [[nodiscard]] std::string floor() const {
-    const std::string& source = input.scene.source;
-    return source.empty() ? "the drop" : source.substr(0, source.size() - (source.ends_with(".toml") ? 5 : 0));
-  }
-  /// "pad, e = 0.3, 500:300": what of it differs from other cases.
+  /// "phone", "wood" or "phone, wood": file and floor, as far as they tell it from other cases.
+  [[nodiscard]] std::string floor() const;
+  /// "sliding friction 0.3": what else flags with several values gave it, but the restitution.
+  [[nodiscard]] std::string varied_words() const;
+  /// "pad, e = 0.3, sliding friction 0.3, 500:300": what of it differs from other cases.
   [[nodiscard]] std::string name() const;
   /// "pad, e = 0.3: a part of 500 Hz that bears 300 g survives".
   [[nodiscard]] std::string heading() const;
@@ -39,6 +41,8 @@ struct ReportCase {
   [[nodiscard]] std::string name(const std::string& of_part, const char* between) const;
 };
 
+/// Every scene with every value of the flags that have several, and every part.
+/// @throws BadInput for values that are none, and for more than 100 cases
 [[nodiscard]] std::vector<ReportCase> cases_of(const ReportInput& given);
 
 /// The cases by how hard they are, the worst first: those with a margin before those ranked by a peak, and these before

@@ -57,7 +57,8 @@ constexpr const char* page_style =
     "table{font-size:7.5pt}th,td{padding:.05rem .25rem;white-space:normal}figure.plot svg{max-height:9.6cm}"
     "h2.case{break-before:page;margin-top:0}p,ul,pre,figure{margin:.25rem "
     "0}ul{padding-left:1.2rem}p,li{max-width:none;line-height:1.3}"
-    ".lines,.wide p,figcaption,pre{font-size:7.5pt;line-height:1.25}.beside figure{flex-basis:16rem}"
+    ".brief figure svg{max-height:3.4cm}.lines,.wide p,figcaption,pre{font-size:7.5pt;line-height:1.25}.beside "
+    "figure{flex-basis:16rem}"
     ".answer{font-size:13pt}}@page{margin:14mm}";
 
 /// Without the declarations that only a file of its own may have.
@@ -321,18 +322,36 @@ std::string peak_advice(const Scene& scene, Model model) {
          "peak.</p>\n";
 }
 
+std::string notes_html(const std::vector<std::string>& notes) {
+  return notes.empty() ? "" : "<div class=\"notes\">" + handout_list(notes) + "</div>\n";
+}
+
+/// The notes that all of some cases have.
+std::vector<std::string> shared_notes(const std::vector<const ReportCase*>& cases) {
+  std::vector<std::string> shared = cases.front()->found.notes;
+  std::erase_if(shared, [&](const std::string& note) {
+    return !std::ranges::all_of(cases, [&](const ReportCase* one) {
+      return std::ranges::find(one->found.notes, note) != one->found.notes.end();
+    });
+  });
+  return shared;
+}
+
 /// @param heading  of the case that the parts are of, where a page has several; empty: it has one
+/// @param shared   notes that the page has said already
 std::vector<HandoutPart> parts_of(const ReportInput& input, const Findings& found, const Attitudes& attitudes,
-                                  const ShockView& view, const std::string& heading) {
+                                  const ShockView& view, const std::string& heading,
+                                  const std::vector<std::string>& shared) {
   const Scene& scene = found.scene;
   const Model model = model_of(input);
   const auto& all = found.all;
   const numeric::Body body = scene.make_body();
   const Vector3 centre = body_properties(scene, Model::continuous).centre;
   const int impact = found.answer.blow ? found.answer.blow->impact : 1;
+  const bool is_brief = input.is_short && !heading.empty();  // one of several that are to stand on one page
   std::string pictures = fmt::format(
-      "<div class=\"beside\"><figure>{}<figcaption>The body as it touches in impact {}{}</figcaption></figure>\n",
-      body_picture(body, attitude_in(found.run, impact), found.run.probes, centre), impact,
+      "<div class=\"beside{}\"><figure>{}<figcaption>The body as it touches in impact {}{}</figcaption></figure>\n",
+      is_brief ? " brief" : "", body_picture(body, attitude_in(found.run, impact), found.run.probes, centre), impact,
       found.run.probes.empty() ? "." : "; a hollow dot lies inside or behind.");
   if (all) {
     pictures += fmt::format(
@@ -341,8 +360,10 @@ std::vector<HandoutPart> parts_of(const ReportInput& input, const Findings& foun
         attitude_map(dots_of(*all), all->worst, ranked_words(all->column), all->is_least_worst()),
         scene.is_released() ? " at the release" : "");
   }
-  std::string answer = fmt::format("<p class=\"answer\">{}.</p>\n", html_escaped(found.lead));
-  if (!found.notes.empty()) answer += "<div class=\"notes\">" + handout_list(found.notes) + "</div>\n";
+  std::vector<std::string> notes = found.notes;
+  std::erase_if(notes, [&](const std::string& note) { return std::ranges::find(shared, note) != shared.end(); });
+  std::string answer =
+      fmt::format("<p{}>{}.</p>\n", is_brief ? "" : " class=\"answer\"", html_escaped(found.lead)) + notes_html(notes);
   const KeyNames unsettled = all ? attitude_keys : KeyNames{};
   if (!heading.empty()) {
     answer += "<p class=\"lines\">";
@@ -381,19 +402,21 @@ std::string page_of(const std::vector<ReportCase>& cases, const Attitudes& attit
     for (const std::string& line :
          first.found.scene.summary(model_of(input), first.found.all ? attitude_keys : KeyNames{}))
       lines.push_back(line);
-    parts = parts_of(input, first.found, attitudes, first.view, "");
+    parts = parts_of(input, first.found, attitudes, first.view, "", {});
   } else {
     const std::vector<const ReportCase*> order = ranked(cases);
     const Report joined = joined_report(order);
     Report table;
     table.grid = cases_grid(order);
     const std::string fixed = fixed_words(order);
+    const std::vector<const ReportCase*> shown = worst_cases(order);
+    const std::vector<std::string> shared = shared_notes(shown);
     parts = {{"", fmt::format("<p class=\"answer\">{}.</p>\n", html_escaped(joined.notes.front())) +
-                      (fixed.empty() ? "" : fmt::format("<p>{}.</p>\n", html_escaped(fixed))) + handout_table(table) +
-                      legend_html(table.grid)}};
+                      (fixed.empty() ? "" : fmt::format("<p>{}.</p>\n", html_escaped(fixed))) + notes_html(shared) +
+                      handout_table(table) + legend_html(table.grid)}};
     std::set<std::string> said;  // what is said of one case is left out of the next
-    for (const ReportCase* one : worst_cases(order)) {
-      for (HandoutPart& part : parts_of(one->input, one->found, attitudes, one->view, one->heading())) {
+    for (const ReportCase* one : shown) {
+      for (HandoutPart& part : parts_of(one->input, one->found, attitudes, one->view, one->heading(), shared)) {
         if (said.insert(part.title + part.html).second) parts.push_back(std::move(part));
       }
     }

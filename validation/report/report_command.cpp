@@ -39,7 +39,8 @@ int run_report(const ReportInput& input) {
   }
   require_date(input.date);
   constexpr Format formats[]{Format::json, Format::table, Format::csv, Format::json, Format::markdown};
-  const OutputChoice choice{.style = {.format = formats[static_cast<std::size_t>(input.form)]}, .path = input.output};
+  const OutputChoice choice{.style = {.format = formats[static_cast<std::size_t>(input.form)], .bare = input.is_bare},
+                            .path = input.output};
   if (!is_page) check_files(choice);
   std::optional<Sink> sink;
   if (is_page) sink.emplace(input.output);
@@ -62,6 +63,8 @@ int run_report(const ReportInput& input) {
   } else {
     sink->write(page_of(cases, attitudes));
     sink->commit();
+    say(fmt::format("{}: {}", input.output,
+                    cases.size() == 1 ? cases.front().found.lead : joined_report(ranked(cases)).notes.front()));
   }
   return status;
 }
@@ -74,8 +77,6 @@ Command report_command() {
     Argument& scenes = *std::ranges::find(command.arguments, "SCENE", &Argument::name);
     scenes.target = &input.scenes;
     scenes.help += "; of several, floors say, a part for each";
-    for (const char* const ranged : {"--restitution", "--floor-restitution"})
-      std::ranges::find(command.arguments, ranged, &Argument::name)->help += "; several: 0.3:0.7:0.1, or 0.3,0.5";
     constexpr const char* group = "Worst attitudes";
     command.add(whole_argument("--drops", input.drops, 0, 1'000'000, "N",
                                "of a box, over its faces, edges and corners (260); 0: none", group));
@@ -103,6 +104,7 @@ Command report_command() {
     command.add(choice_argument("--format", input.form, {"html", "table", "csv", "json", "markdown"},
                                 "the page (html), its table of faces, edges and corners, or all of it as JSON",
                                 "Output"));
+    command.add_flag("--bare", input.is_bare, "CSV without comments", "Output");
     command.columns = {
         {"report", attitude_columns}, {"report-cases", case_columns}, {"report-attitudes", case_attitude_columns}};
     command.footer =
@@ -111,6 +113,8 @@ Command report_command() {
         "Example: clatter report phone-damped --impacts 2 --probe camera:0.048,0.016,0.0095 --probe "
         "crystal:-0.03,0,0 --part camera:300:500 --part crystal:1500g:0.5ms --floor-restitution 0.3:0.7:0.2 --drops 52 "
         "--format csv\n"
+        "A number of the scene takes several values, 0.3:0.7:0.1 or 0.3,0.5, a name several names, --floor "
+        "concrete,wood: each is a case, and the answer says how far the margin goes from case to case.\n"
         "The page has all in itself, asks for nothing from anywhere and prints.  Needs gnuplot.";
   });
 }

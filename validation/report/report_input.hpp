@@ -19,6 +19,7 @@ struct ReportInput : ShockInput {
   std::vector<std::string> scenes;  ///< SCENE, of which there may be several
   std::string title, date;
   bool is_short = false;  ///< the page has headlines, the table of cases and a drawing of each worst drop alone
+  bool is_bare = false;   ///< CSV without comments
   enum class RowForm { by_itself, attitude } row_form = RowForm::by_itself;
 
   /// The part of one case, which has no more than one.

@@ -46,6 +46,10 @@ std::optional<Blow> worst_blow(const std::vector<ShockRow>& rows, const Run& run
   return blow;
 }
 
+Column pulse_column() {
+  return {"pulse_ms", "pulse", "ms", "how long the half sine of this peak and change of velocity is"};
+}
+
 double three_digits(double value) {
   const double unit = value > 0 ? std::pow(10.0, std::floor(std::log10(value)) - 2) : 1;
   return unit < 1 ? std::round(value / unit) / std::round(1 / unit) : std::round(value / unit) * unit;

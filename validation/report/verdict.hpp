@@ -51,6 +51,9 @@ struct Blow {
 /// "delta_v", "peak" or "history", which tables call "change of velocity", "peak" and "humps".
 [[nodiscard]] Cell deciding_cell(BlowMargin::By by);
 
+/// How long the half sine of a blow's peak and change of velocity is, in a table of blows.
+[[nodiscard]] Column pulse_column();
+
 /// Three digits, as one says them: 39000, not 39027.
 [[nodiscard]] double three_digits(double value);
 [[nodiscard]] std::string said(double value);

@@ -20,6 +20,7 @@ class Report(EmptyFolder):
     def page(self, *arguments):
         done = self.run_program("report", *arguments, "--output", "page.html")
         self.assertEqual((done.returncode, done.stdout), (0, ""), done.stderr)
+        self.assertIn("clatter: page.html: ", done.stderr, "what was found is said where it is asked for")
         return self.read("page.html")
 
     def rows(self, command, *arguments):
@@ -75,8 +76,10 @@ class Report(EmptyFolder):
             first = re.search(f"<tr><td[^>]*>{re.escape(name)}</td>(.*?)</tr>", page.split("<h2>Attitudes")[1], re.S).group(1)
             cells = re.findall(r"<td[^>]*>(.*?)</td>", first)
             self.assertEqual(cells[1], str(answer["impact"]))
-            shown = [float(cell) for cell in cells[2:4 + (not is_discrete)]]
-            expected = [answer["delta_v"], answer["margin"]] if is_discrete else [answer["peak_g"], answer["delta_v"], answer["margin"]]
+            shown = [float(cell) for cell in cells[2:4 if is_discrete else 6]]
+            # The half sine of a peak and a change of velocity lasts pi/2 of the rectangle.
+            expected = [answer["delta_v"], answer["margin"]] if is_discrete else [
+                answer["peak_g"], answer["delta_v"], 1e3 * math.pi / 2 * answer["delta_v"] / (answer["peak_g"] * 9.80665), answer["margin"]]
             for one, other in zip(shown, expected, strict=True):
                 self.assertAlmostEqual(one / other, 1, delta=2e-2 if "0" in drops else 6e-3)
             self.assertEqual(page.count("° off: "), int(drops[1]))  # the dots of the map
@@ -186,6 +189,25 @@ class Report(EmptyFolder):
         for wrong, words in ((("--date", "2026-02-30"), "--date"), (("--date", "tomorrow"), "--date"), (("--floor-restitution", "0.7:0.3:0.1"), "0.7:0.3:0.1"),
                              (("--floor-restitution", "0.5:1.5:0.5"), "--floor-restitution"), (("--part", "1:2", "--part", "1:2g"), "given twice")):
             self.refused(words, "report", *scenes, *options, *wrong, "--format", "json")
+
+    def test_each_value_of_a_flag_is_a_case_and_the_answer_says_how_far_the_margin_goes(self):
+        scene = (*BOX, "--impacts", "1", *PROBE, *OPTIONS, "--part", "300:500")
+        several = ("--floor", "concrete,wood", "--floor-restitution", "0.4,0.6", "--gravity", "9:10:1")
+        cases = self.json_of("report", *scene, *several)["cases"]
+        self.assertEqual({(case["floor"], case["restitution"], case["given"]) for case in cases},
+                         {(floor, e, f"gravity {gravity}") for floor in ("concrete", "wood") for e in (0.4, 0.6) for gravity in (9, 10)})
+        for case in (cases[0], cases[-1]):
+            alone = self.json_of("report", *scene, "--floor", case["floor"], "--floor-restitution", str(case["restitution"]),
+                                 "--gravity", case["given"].split()[1])["answer"]
+            self.assertEqual((alone["margin"], alone["attitude"]), (case["margin"], case["attitude"]))
+        page = self.page(*scene, *several, "--short")
+        self.assertRegex(page, f"from case to case the least margin goes from {cases[0]['margin']:.3g} to {cases[-1]['margin']:.3g} ")
+        self.assertEqual(page.count("The body&#39;s surface is taken as abs") + page.count("The body's surface is taken as abs"), 1)
+        bare = self.run_program("report", *scene, *several, "--format", "csv", "--bare").stdout
+        self.assertTrue(bare.startswith("floor,restitution,given,"), bare[:80])
+        for wrong, words in ((("--floor", "concrete,wodo"), "did you mean wood"), (("--gravity", "1:2:0"), "--gravity"),
+                             (("--gravity", "1:200:1"), "more than 100"), (("--digits", "2:12:1", "--gravity", "1:10:1"), "110 cases")):
+            self.refused(words, "report", *scene, *wrong, "--format", "json")
 
     def test_a_part_belongs_to_its_probe_by_flag_and_by_file(self):
         scene = SCENE + "floor = 'concrete'\n"

@@ -102,7 +102,9 @@ class Sources(Folder):
             self.assertIn(words, self.run_program("help", "keys").stdout)
 
     def test_the_file_runs_with_either_model(self):
-        self.assertEqual(self.run_program("init", "--output", "new.toml").returncode, 0)
+        self.assertEqual(self.run_program("init", "new.toml").returncode, 0)
+        self.refused("is there already", "init", "new.toml")
+        self.refused("new.toml is the file", "init", "new.toml", "--output", "other.toml")
         for command in ("simulate", "sequence", "compare"):
             found = self.json_of(command, "new.toml", "--impacts", "1", "--digits", "3", status=(0,))
             self.assertEqual(found["scene"]["drop"]["angle_deg"], 10)
@@ -116,6 +118,12 @@ class Sources(Folder):
             said = self.run_program("simulate", "one.toml", "--impacts", "1", "--digits", "3").stderr
             self.assertNotIn("unknown", said, line)
             self.assertNotIn("error while parsing", said.lower(), line)
+
+    def test_its_probe_is_one_that_shock_takes(self):
+        scene, probe = self.run_program("init").stdout.split("# [[probe]]")
+        self.write("probe.toml", scene + "[[probe]]" + probe.replace("#   ", ""))
+        shock = self.json_of("shock", "probe.toml", "--impacts", "1", "--digits", "3", "--no-sensitivity")
+        self.assertEqual({impact["probe"] for impact in shock["impacts"]}, {"camera"})
 
     def test_each_key_has_its_line(self):
         tables = re.split(r"^\[(\w+)\]$", self.run_program("init").stdout, flags=re.MULTILINE)[1:]
