@@ -181,6 +181,11 @@ double fold_uncertainty(double theta, ImpactNumber impact, const RodParameters& 
 }
 
 RegimeBoundary describe(const Sides& sides, ImpactNumber impact, const RodParameters& parameters) {
+  if (impact == ImpactNumber::third && sides.above.impacts() < 2) {  // it is lost with the second, and as that is
+    RegimeBoundary boundary = describe(sides, ImpactNumber::second, parameters);
+    boundary.gamma = sides.below.gamma.angle;
+    return boundary;
+  }
   const ContactAngle& below = angle_of(sides.below, impact);
   const ContactAngle& above = angle_of(sides.above, impact);
   const double theta = sides.below.theta.radians;

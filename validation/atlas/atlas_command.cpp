@@ -376,12 +376,12 @@ void shorten(Report& report) {
   report.digest = std::move(digest);
 }
 
-/// "121/49" of a number that is a fraction with a denominator up to 200 to 1e-11, "½"; else empty.
+/// "121/49" of a number that is a fraction with a denominator up to 200 to 1e-11 of it, "½"; else empty.
 std::string as_fraction(double number) {
   constexpr int most_parts = 200;
   for (int parts = 1; parts <= most_parts; ++parts) {
     const double whole = std::round(number * parts);
-    if (!(std::fabs(number * parts - whole) <= 1e-11 * parts) || !(std::fabs(whole) < 1e6)) continue;
+    if (!(std::fabs(number * parts - whole) <= 1e-11 * std::fabs(whole)) || !(std::fabs(whole) < 1e6)) continue;
     if (parts == 1) return shortest(whole);
     return parts == 2 && whole == 1 ? "½" : fmt::format("{}/{}", shortest(whole), parts);
   }

@@ -408,9 +408,10 @@ Report comparison_report(const Scene& scene, const Comparison& comparison) {
   for (const ComparedImpact& impact : comparison.impacts) add_rows(comparison, impact, *report.digest);
   report.notes = reasons(comparison);
   for (const std::string& note : explanations(comparison)) report.notes.push_back(note);
-  report.notes.emplace_back(
-      "t in s, angles in °, P in N·s, V in m/s, Ω in rad/s; predicted: about how much the number should change because "
-      "contacts take time and go into the ground, this one and those before; no bound");
+  report.notes.push_back(fmt::format(
+      "t in s, angles in °, P in N·s, V in m/s, Ω in rad/s; deviation: continuous − {}; predicted: about how much the "
+      "number should change because contacts take time and go into the ground, this one and those before; no bound",
+      comparison.as_given ? "corners" : "discrete"));
   for (const std::string& words : {comparison.shortfall, corners_words(comparison), cause_words(comparison),
                                    limit_words(comparison), verdict_words(comparison)}) {
     if (!words.empty()) report.notes.push_back(words);

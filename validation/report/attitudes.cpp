@@ -56,7 +56,8 @@ SweepRequest sweep_of(const ReportInput& input, const Attitudes& attitudes, cons
 }
 
 std::string sweep_command_of(const SweepRequest& request) {
-  std::string words = "clatter sweep " + shell_word(request.file) + " --model " + name_of(*request.model);
+  std::string words = "clatter sweep" + (request.file.empty() ? "" : " " + shell_word(request.file)) + " --model " +
+                      name_of(*request.model);
   for (const std::string& set : request.sets) words += " --set " + shell_word(set);
   for (const std::string& probe : request.probes) words += " --probe " + shell_word(probe);
   for (const FragilePart& part : request.parts) words += " --part " + shell_word(part_text(part));
@@ -237,7 +238,7 @@ std::optional<AllAttitudes> all_attitudes(const ReportInput& input, const Scene&
       all.report, [&](long long index) { return plan.command_of(index); },
       [&](long long place) { return plan.attitude_name(place); });
   all.report.commands.clear();
-  if (!request.file.empty()) all.command = sweep_command_of(request);
+  all.command = sweep_command_of(request);
   return all;
 }
 

@@ -352,14 +352,6 @@ bool loses_energy(const Run& run) {
   });
 }
 
-std::vector<Column> columns_of(const PreparedScene& prepared, const Run& run) {
-  const bool friction = law_of(prepared.drop).friction != analytic::FrictionKind::none;
-  if (run.model == RunModel::plane) return sequence_columns(friction, loses_energy(run));
-  std::vector<std::string> shown = shown_quantities(RunModel::space);
-  if (friction) shown.emplace_back("mode");
-  return impact_columns(RunModel::space, shown);
-}
-
 double reach_of(const DiscreteDrop& drop) {
   return std::visit([](const auto& one) { return one.body.reach(); }, drop);
 }
@@ -368,6 +360,16 @@ double reach_of(const DiscreteDrop& drop) {
 bool is_planar(const PreparedScene& prepared) {
   const auto* const drop = std::get_if<space::Drop>(&prepared.drop);
   return drop == nullptr || (drop->body.is_flat() && reason_in_space(prepared.scene).empty());
+}
+
+std::vector<Column> columns_of(const PreparedScene& prepared, const Run& run) {
+  const bool friction = law_of(prepared.drop).friction != analytic::FrictionKind::none;
+  if (run.model == RunModel::plane) return sequence_columns(friction, loses_energy(run));
+  const bool is_outline = is_planar(prepared);  // that turns about y alone
+  std::vector<std::string> shown = shown_quantities(is_outline ? RunModel::plane : RunModel::space);
+  if (is_outline) std::ranges::replace(shown, "end", "corners");
+  if (friction) shown.emplace_back("mode");
+  return impact_columns(RunModel::space, shown);
 }
 
 /// The report without its rows, which are made one at a time; all of it must outlive this.

@@ -379,9 +379,11 @@ std::vector<FoldCurve> fold_curves(const MapPlan& plan) {
       curves[k].points.push_back(is_across ? std::array{theta, value} : std::array{value, theta});
     }
   }
-  std::erase_if(curves, [](const FoldCurve& curve) {
-    return std::ranges::none_of(curve.points,
-                                [](const auto& at) { return std::isfinite(at[0]) && std::isfinite(at[1]); });
+  std::erase_if(curves, [](const FoldCurve& curve) {  // one point, without friction say, is no curve
+    const auto is_missing = [](const auto& at) { return !(std::isfinite(at[0]) && std::isfinite(at[1])); };
+    return std::ranges::adjacent_find(curve.points, [&](const auto& one, const auto& next) {
+             return !is_missing(one) && !is_missing(next);
+           }) == curve.points.end();
   });
   return curves;
 }

@@ -261,6 +261,7 @@ MapPlan read_map_plan(const MapRequest& request) {
       .only_counts = !is_capped(request) && (name == "impacts" || name == "outcome")};
   if (plan.wanted_count)
     plan.request = {.limit = *plan.wanted_count + (plan.wants_at_least() ? 0 : 1), .only_counts = true};
+  if (!plan.sweep.scene.until_rest) plan.sweep.scene.request.impacts = plan.request.limit;  // as its head says
   check_hardest(plan);
   return plan;
 }

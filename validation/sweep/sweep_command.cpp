@@ -613,7 +613,12 @@ int run_sweep(const SweepInput& input, const SweepPlan& plan, const SweepBody& b
 }
 
 int run_command(const SweepInput& input, Ranks& ranks) {
-  SweepPlan plan = read_sweep_plan(input.request);
+  SweepRequest request = input.request;
+  if (request.file.empty()) {
+    if (request.sets.empty()) throw BadInput("SCENE, or keys by --set: required, clatter help keys has them");
+    request.text = "";
+  }
+  SweepPlan plan = read_sweep_plan(request);
   plan.packed = input.request.summary || is_hdf5(input);
   const int threads = thread_count(input.threads, ranks);
   check_output(input);
@@ -647,7 +652,7 @@ constexpr const char* sweep_footer =
 
 /// Which scenes, and what their rows hold.
 void add_request_options(Command& command, SweepRequest& request) {
-  add_scene_argument(command, request.file, true);
+  add_scene_argument(command, request.file, false);
   command.add({.name = "--set",
                .target = &request.sets,
                .type = "KEY=VALUE|A,B,...|FROM:TO:STEP|FROM:TO:log:COUNT",

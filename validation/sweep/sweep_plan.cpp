@@ -518,7 +518,8 @@ SweepPlan read_sweep_plan(const SweepRequest& request) {
     plan.words.emplace_back(
         "impacts: of infinitely many those until the sum of the others is known to run.digits or lost in rounding");
   }
-  plan.fixed_words = shell_word(request.file) + " --model " + name_of(plan.layout.model);
+  plan.fixed_words =
+      (request.file.empty() ? "" : shell_word(request.file) + " ") + "--model " + name_of(plan.layout.model);
   for (const Setting& setting : settings) {
     plan.words.push_back(fmt::format("set: {} = {}", setting.key, setting.text));
     if (!setting.axis) plan.fixed_words += " --set " + shell_word(setting.key + "=" + setting.text);
