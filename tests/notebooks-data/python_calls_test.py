@@ -228,7 +228,10 @@ class Results(unittest.TestCase):
         states = clatter.sequence(10).at([0.1, 0.2])
         self.assertEqual(list(pandas.DataFrame(states)["position_z"]), list(states["position_z"]))
         worst = clatter.report("phone-damped", impacts=1, probe=probe, drops=4, sensitivity=False)
-        self.assertEqual(pandas.DataFrame(worst)["peak_g_camera"].max(), worst[0].peak_g_camera)
+        frame = pandas.DataFrame(worst)
+        row = frame[[attitude in worst.answer.attitude for attitude in frame["attitude"]]].iloc[0]
+        drop = clatter.shock("phone-damped", impacts=1, probe=probe, sensitivity=False, attitude=[row[f"attitude_q{i}"] for i in range(4)])
+        self.assertAlmostEqual(row["delta_v"] / drop["delta_v"][0], 1, delta=1e-3, msg="each row is one drop")
 
     def test_the_scene_of_a_result_gives_the_result_again(self):
         def plain(result):
@@ -236,8 +239,9 @@ class Results(unittest.TestCase):
             return [{name: value.tolist() if hasattr(value, "tolist") else repr(value) for name, value in impact.items()} for impact in result.impacts]
 
         unnamed = {"drop": {"angle_deg": 10, "clearance": 0.5}, "world": {"gravity": 9.81}, "ground": {"stiffness": 1e9}}
+        floor = {"drop": {"angle_deg": 10}, "body": {"shape": "box", "size": [0.1, 0.05, 0.01], "mass": 0.1}, "ground": {"floor": "wood"}}
         for call, scene in itertools.product((clatter.sequence, clatter.simulate, clatter.compare),
-                                             ("phone-damped", "rod-10", "phone-corner", "every-key", "box-flat", unnamed)):
+                                             ("phone-damped", "rod-10", "phone-corner", "every-key", "box-flat", unnamed, floor)):
             few = {} if call == clatter.sequence else {"impacts": 1}
             first = call(scene, **few)
             self.assertEqual(plain(call(first.scene, **few)), plain(first))
@@ -280,11 +284,27 @@ class SweepsAsTheProgram(unittest.TestCase):
         self.assertEqual(counts.shape, (6, 8))
         middle = clatter.sequence(0.5 * 60 / 8, restitution=0.1 + 0.5 * 0.9 / 6, impacts=100)
         self.assertEqual(counts[0, 0], len(middle))
+        over = {"drop.angle_deg": (1, 60), "impact.restitution": (0.2, 0.9)}
+        np.testing.assert_array_equal(clatter.map(over=over, gravity=9.81, quantity="ratio", size=(4, 3)),
+                                      clatter.map(None, over, {"world.gravity": 9.81}, quantity="ratio", size=(4, 3)))
+        self.assertEqual(set(clatter.map(over=over, size=(4, 3), quantity="outcome").flat), {"ends"})
+        with self.assertWarnsRegex(clatter.ClatterWarning, "pixels are left open") as warned:
+            hardest = clatter.map(over=over, friction=0.3, restitution_law="stronge", clearance=1, length=0.15, until_rest=True, size=(12, 9), quantity="hardest")
+        self.assertEqual(np.isnan(hardest).sum(), int(str(warned.warning).split()[0]))
+        pair = clatter.shock("phone-damped", impacts=1, probe={"camera": place}, sensitivity=False, part=(300, 500), frequencies=(100, 900, 3))
+        self.assertEqual(pair.to_text("csv"), clatter.shock("phone-damped", impacts=1, probe={"camera": place}, sensitivity=False, part="300:500",
+                                                            frequencies="100:900:3").to_text("csv"))
         for refused, said in ((lambda: clatter.shock("phone-damped"), "^probe: required"),
                               (lambda: clatter.shock(scene, probe={"camera": place}, stiffness=-1), "^stiffness '-1': must be"),
                               (lambda: clatter.map(over={"drop.angle_deg": (0, 60)}), "^over: must be given twice")):
             with self.assertRaisesRegex(clatter.BadInput, said):
                 refused()
+
+    def test_sizes_in_mm_are_doubted_by_a_warning(self):
+        for call in (clatter.sequence, clatter.simulate, clatter.sweep):
+            ground = {} if call == clatter.sequence else {"stiffness": 1e9, "impacts": 1}
+            with self.assertWarnsRegex(clatter.ClatterWarning, "were mm or g meant"):
+                call(body="box", size=(150, 75, 8), mass=165, angle=10, **ground)
 
     def test_what_falls_short_in_a_command_is_a_warning_and_not_a_line(self):
         with self.assertWarnsRegex(clatter.ClatterWarning, "^evaluation-limit: ") as warned:

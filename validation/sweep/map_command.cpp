@@ -178,7 +178,7 @@ constexpr const char* map_footer =
     "computed as such. Planar drops without friction, or with an impulse ratio, take the batch: a core does millions\n"
     "in a second without gravity, thousands with it. Drops in space and with friction are run one by one.\n"
     "Up to 100 impacts are followed unless run.impacts is given, of a class of counts as many as tell it. A pixel\n"
-    "that rounding or a fold leaves open is marked and counted.\n"
+    "that rounding or a fold leaves open is marked and counted, in NPY nan; infinitely many impacts are inf there.\n"
     "With --samples N each pixel is the part of N drops that are of the class, random in what --set KEY=LOW:HIGH "
     "leaves open; CSV and\n"
     "NPY have Wilson's interval beside it. An interrupted map goes on when the same command is given again.";

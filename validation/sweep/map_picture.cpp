@@ -507,7 +507,7 @@ std::string map_array(const MapPlan& plan, const MapImage& image) {
   const bool has_counts = is_count(*plan.quantity);
   if (plan.quantity->is_class() && !has_counts) return named_array(image, shape);
   return array_head("<f8", shape) + numbers_of(image, [&](const MapPixel& pixel) {
-           return has_counts ? count_in(pixel.value) : number_in(pixel.value);
+           return pixel.is_open ? missing : has_counts ? count_in(pixel.value) : number_in(pixel.value);
          });
 }
 

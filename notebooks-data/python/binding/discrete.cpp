@@ -18,6 +18,7 @@
 #include "validation/rod/rod.hpp"
 #include "validation/run/discrete_scene.hpp"
 #include "validation/run/shortfall.hpp"
+#include "validation/scene/probes.hpp"
 #include "validation/sequence/sequence_report.hpp"
 
 namespace clatter::python {
@@ -32,7 +33,8 @@ PreparedScene read_discrete(const SceneSource& source) {
   return validation::read_discrete_scene(source.values(), validation::scene_overrides(source.changes));
 }
 
-/// (report, why it falls short, its outcome, number of impacts, warnings): what a call looks at without the report.
+/// (report, why it falls short, its outcome, number of impacts, warnings and doubts): what a call looks at without the
+/// report.
 py::tuple sequence(const std::string& name, const std::optional<std::string>& text, const NamedTexts& changes,
                    const std::string& method) {
   const auto [scene, run] = run_interruptible([source = SceneSource{name, text, changes}, method](const Watch&) {
@@ -41,8 +43,10 @@ py::tuple sequence(const std::string& name, const std::optional<std::string>& te
     return std::pair(prepared, std::make_shared<const validation::DiscreteRun>(validation::run_discrete(*prepared)));
   });
   const validation::Run& told = run->run;
+  std::vector<std::string> said = validation::doubts_of(scene->scene, validation::Model::discrete, {});
+  said.insert(said.end(), told.warnings.begin(), told.warnings.end());
   return py::make_tuple(Report{[scene = scene, run = run] { return validation::sequence_report(*scene, *run); }},
-                        shortfall(scene->scene, told), told.outcome, told.impacts.size(), told.warnings);
+                        shortfall(scene->scene, told), told.outcome, told.impacts.size(), said);
 }
 
 /// (report, warnings)

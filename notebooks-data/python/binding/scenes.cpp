@@ -16,6 +16,7 @@
 #include "validation/plan/planned_run.hpp"
 #include "validation/plan/tradeoff_report.hpp"
 #include "validation/run/history_file.hpp"
+#include "validation/scene/probes.hpp"
 #include "validation/simulate/simulation_report.hpp"
 #include "validation/sweep/rows.hpp"
 #include "validation/sweep/summary.hpp"
@@ -113,7 +114,7 @@ Report swept_report(const Scene& scene, const Watch& watch) {
   return {[scene, done] { return validation::sweep_report(scene, *done); }};
 }
 
-/// (report, history or None)
+/// (report, history or None, what is doubted of the scene)
 py::tuple simulate(const std::string& name, const std::optional<std::string>& text, const NamedTexts& changes,
                    bool with_history, const py::object& progress) {
   const auto history = with_history ? std::make_shared<Samples>() : nullptr;
@@ -122,10 +123,11 @@ py::tuple simulate(const std::string& name, const std::optional<std::string>& te
   const auto work = [source = SceneSource{name, text, changes}, recorder](const Watch& watch) {
     const Scene scene = source.read(Model::continuous);
     const bool sweeps = scene.sweep.has_value();
-    return std::pair(sweeps ? swept_report(scene, watch) : single_report(scene, watch, recorder), sweeps);
+    return std::tuple(sweeps ? swept_report(scene, watch) : single_report(scene, watch, recorder), sweeps,
+                      doubts_of(scene, Model::continuous, {}));
   };
-  const auto [report, sweeps] = run_interruptible(work, progress);
-  return py::make_tuple(report, history && !sweeps ? py::object(arrays_of(*history)) : py::none());
+  const auto [report, sweeps, doubts] = run_interruptible(work, progress);
+  return py::make_tuple(report, history && !sweeps ? py::object(arrays_of(*history)) : py::none(), doubts);
 }
 
 Report compare(const std::string& name, const std::optional<std::string>& text, const NamedTexts& changes,
@@ -243,8 +245,9 @@ py::tuple sweep(const std::string& name, const std::optional<std::string>& text,
     validation::ShortfallCount shortfalls(plan.layout, plan.packed);
     const bool is_named = !request.file.empty() && !(request.text && request.file == "scene");
     validation::Report report = swept(plan, request.summary, is_named, watch, shortfalls);
-    return std::tuple(kept(std::move(report)), shortfalls.found().first(),
-                      plan.remarks(request.summary ? 0 : shortfalls.cut()));
+    std::vector<std::string> said = doubts_of(plan.scene, plan.layout.model, plan.layout.probes);
+    for (std::string& remark : plan.remarks(request.summary ? 0 : shortfalls.cut())) said.push_back(std::move(remark));
+    return std::tuple(kept(std::move(report)), shortfalls.found().first(), said);
   };
   return py::cast(run_interruptible(work, progress));
 }

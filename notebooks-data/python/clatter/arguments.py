@@ -124,7 +124,6 @@ def texts_of(arguments: Mapping[str, Any]) -> dict[str, str]:
     return {name: text_of(name, None, value) for name, value in arguments.items() if value is not None}
 
 
-
 def swept_text(name: str, values: Any, called: str | None = None) -> str:
     """The value or the values of a key of a scene file in a sweep, as --set has them; called: the key where it is refused.
 
@@ -144,6 +143,17 @@ def swept_text(name: str, values: Any, called: str | None = None) -> str:
         return ",".join(f"[{','.join(vector)}]" for vector in vectors)
     texts = [text_of(name, key, part) for part in parts]
     return f"{texts[0]}:{texts[0]}:1" if len(texts) == 1 and is_number(parts[0]) else ",".join(texts)
+
+
+def set_texts(values: Mapping[str, Swept] | None, changes: Mapping[str, Any]) -> list[str]:
+    """KEY=VALUES for --set, of values by the keys of scene files and of arguments by their names.  @raise BadArgument: a key of both."""
+    sets = [f"{key}={swept_text(key, value)}" for key, value in (values or {}).items()]
+    for name, value in changes.items():
+        key = KEYS[name].key
+        if value is not None and key in (values or {}):
+            raise BadArgument(f"{name} {shown(value)}: {key} is given, too")
+        sets += [] if value is None else [f"{key}={swept_text(key, value, name)}"]
+    return sets
 
 
 def probe_texts(probe: str | Iterable[str] | Probes | None) -> list[str]:
@@ -186,8 +196,14 @@ def _checked_value(name: str, value: Any, annotation: str) -> Any:
     return value
 
 
+_SYMBOLS = {"e": "restitution", "mu": "friction", "g": "gravity", "m": "mass", "L": "length", "theta": "angle", "v": "speed", "h": "height",
+            "omega": "spin", "k": "stiffness"}
+
+
 def _nearest_argument(unknown: str, value: Any, names: list[str]) -> str:
     """Of those that have the name as a word the one that takes such a value, else what is spelled alike."""
+    if unknown in _SYMBOLS and _SYMBOLS[unknown] in names:
+        return _SYMBOLS[unknown]
     longer = [name for name in names if unknown in name.split("_")]
     fitting = [name for name in longer if name in KEYS and difflib.get_close_matches(str(value), KEYS[name].names, 1)]
     return (fitting or difflib.get_close_matches(unknown, longer or names, 1, 0))[0]

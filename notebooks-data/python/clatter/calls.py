@@ -8,10 +8,10 @@ from collections.abc import Iterable, Mapping
 from typing import Any
 
 from clatter import _clatter
-from clatter.arguments import (KEYS, AnyKey, DiscreteKey, Path, Probes, Progress, Scene, Swept, SweptKey, checked, probe_texts, shown,
-                               swept_text, texts_of)
+from clatter.arguments import (KEYS, AnyKey, DiscreteKey, Path, Probes, Progress, Scene, Swept, SweptKey, checked, probe_texts,
+                               set_texts, texts_of)
 from clatter.arrays import numpy_for
-from clatter.errors import BadArgument, ClatterWarning, NotComputed
+from clatter.errors import ClatterWarning, NotComputed
 from clatter.evidence import listed
 from clatter.findings import Explanation, Gradient, Plan, Rows, Scored, Summary, Tradeoff
 from clatter.records import History
@@ -48,8 +48,8 @@ def sequence(scene: Scene | float | None = None, *, method: str = "auto", **chan
     of its keys.
     method: "auto" or "discrete", which are the same.
 
-    Raises BadInput; OutsideModel at the jamming limit; NotComputed.  Warns of energy that an
-    impulse ratio creates, and of a sequence that ended early because a number could not be computed.
+    Raises BadInput; OutsideModel at the jamming limit; NotComputed.  Warns of sizes that look like mm or g, of energy that
+    an impulse ratio creates, and of a sequence that ended early because a number could not be computed.
 
     >>> clatter.sequence(angle=10)[1].impulse_normal
     1.0028424649698549
@@ -109,13 +109,14 @@ def simulate(scene: Scene | float | None = None, *, history: bool = False, progr
     """
     if history:
         numpy_for("history=True")
-    report, arrays = called(_clatter.simulate, *scene_text(scene, changes), history, progress)
+    report, arrays, doubts = called(_clatter.simulate, *scene_text(scene, changes), history, progress)
     if "runs" in report.data():
+        _warn(doubts)
         return Sweep(report)
     run = Simulation(report, None if arrays is None else History(arrays))
     left_out = [f"{name}: the discrete model's alone, which simulate() leaves out" for name, value in changes.items()
                 if value is not None and (KEYS[name].key.startswith("impact.") or not KEYS[name].is_continuous)]
-    _warn([*_reservations(run.shortfall, run.outcome, len(run)), *left_out])
+    _warn([*doubts, *_reservations(run.shortfall, run.outcome, len(run)), *left_out])
     return run
 
 
@@ -192,12 +193,7 @@ def sweep(
     >>> clatter.sweep("phone-corner", orientation=range(19, 27), model="discrete")["impacts"]
     array([3., 3., 3., 3., 3., 3., 3., 3.])
     """
-    sets = [f"{key}={swept_text(key, value)}" for key, value in (values or {}).items()]
-    for name, value in changes.items():
-        key = KEYS[name].key
-        if value is not None and key in (values or {}):
-            raise BadArgument(f"{name} {shown(value)}: {key} is given, too")
-        sets += [] if value is None else [f"{key}={swept_text(key, value, name)}"]
+    sets = set_texts(values, changes)
     sets += [] if errors else ["run.errors=false"]
     sets += ["run.require_digits=true"] if require_digits else []
     names = columns if columns is None or isinstance(columns, str) else ",".join(columns)

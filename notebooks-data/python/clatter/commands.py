@@ -13,7 +13,8 @@ from pathlib import Path as FilePath
 from typing import Any
 
 from clatter import _clatter
-from clatter.arguments import KEYS, AnyKey, Path, Probes, Scene, Swept, checked, probe_texts, shown, swept_text, text_of, texts_of
+from clatter.arguments import (KEYS, AnyKey, Path, Probes, Scene, Swept, SweptKey, checked, is_number, number_text, probe_texts, set_texts,
+                               shown, text_of, texts_of)
 from clatter.arrays import Array, numpy_for
 from clatter.errors import BadArgument, BadInput, ClatterWarning, NotComputed
 from clatter.findings import Ranking, Table
@@ -79,8 +80,15 @@ def _probes(probe: str | Iterable[str] | Probes | None) -> list[str]:
     return [f"--probe={text}" for text in probe_texts(probe)]
 
 
-def _parts(part: str | Iterable[str] | None) -> list[str]:
-    return [f"--part={text}" for text in ([part] if isinstance(part, str) else part or [])]
+def _parts(part: str | Iterable[str] | Iterable[float] | None) -> list[str]:
+    parts = [part] if isinstance(part, str) else list(part or [])
+    if parts and all(is_number(number) for number in parts):  # (500, 300): Hz and g
+        parts = [":".join(number_text(number) for number in parts)]  # type: ignore[arg-type]
+    return [f"--part={text}" for text in parts]
+
+
+def _frequencies(given: str | Iterable[float] | None) -> str | None:
+    return given if given is None or isinstance(given, str) else ":".join(number_text(number) for number in given)
 
 
 def _table(report: Report | None) -> Table:
@@ -96,10 +104,10 @@ def shock(
     model: str | None = None,
     axis: str | None = None,
     quality: str | float | None = None,
-    frequencies: str | None = None,
+    frequencies: str | Iterable[float] | None = None,
     first: int | None = None,
     severity: float | None = None,
-    part: str | Iterable[str] | None = None,
+    part: str | Iterable[str] | Iterable[float] | None = None,
     sensitivity: bool = True,
     rows: str = "impact",
     rate: float | None = None,
@@ -113,13 +121,14 @@ def shock(
 
     scene and keys as for simulate().  probe: {"camera": (x, y, z)} in m from the geometric centre, or texts NAME:X,Y,Z.
     model: "discrete" or "continuous".  rows: "impact", "spectrum" or "pulse"; to_dict() has all.  rate [Hz]: rows are the
-    history.  part: "HZ:G", "G" or "G:MS", what the part at the probe bears, or several.  first: so many impacts are the first ones.
+    history.  part: (500, 300) or "500:300", Hz and g, "300g" or "40g:11ms", what the part at the probe bears, or several texts.
+    frequencies: (low, high, count) of the spectra [Hz].  first: so many impacts are the first ones.
     measured: accelerations of a logger (CSV) in place of a drop; its column and unit; against: a scene beside it.
     Raises BadInput, OutsideModel, NotComputed; warns of a run that ended early.
 
     >>> clatter.shock("phone-damped", probe={"camera": (0.048, 0.016, 0.0095)}, impacts=1)["peak"]
     """
-    options = {"model": model, "axis": axis, "quality": quality, "frequencies": frequencies, "first": first,
+    options = {"model": model, "axis": axis, "quality": quality, "frequencies": _frequencies(frequencies), "first": first,
                "severity": severity, "no_sensitivity": not sensitivity, "rows": rows, "rate": rate,
                "measured": measured and os.fspath(measured), "column": column, "unit": unit,
                "against": against and os.fspath(against)}
@@ -162,10 +171,10 @@ def report(
     model: str | None = None,
     axis: str | None = None,
     quality: str | float | None = None,
-    frequencies: str | None = None,
+    frequencies: str | Iterable[float] | None = None,
     first: int | None = None,
     severity: float | None = None,
-    part: str | Iterable[str] | None = None,
+    part: str | Iterable[str] | Iterable[float] | None = None,
     sensitivity: bool = True,
     drops: int | None = None,
     scatter: float | None = None,
@@ -178,7 +187,7 @@ def report(
     Arguments as for shock(); drops and scatter [°]: of the random attitudes; rank_by: a column of sweep()'s rows.
     Raises BadInput, OutsideModel, NotComputed; warns of a run that ended early.
     """
-    options = {"model": model, "axis": axis, "quality": quality, "frequencies": frequencies, "first": first,
+    options = {"model": model, "axis": axis, "quality": quality, "frequencies": _frequencies(frequencies), "first": first,
                "severity": severity, "no_sensitivity": not sensitivity, "drops": drops, "scatter": scatter,
                "rank_by": rank_by, "output": output and os.fspath(output), "format": None if output else "json"}
     made = _run("report", scene, changes, _probes(probe) + _parts(part) + _options(options))
@@ -209,25 +218,31 @@ def map(
     size: Iterable[float] = (80, 60),
     samples: int | None = None,
     seed: int | None = None,
+    **changes: SweptKey,
 ) -> Array:
-    """A quantity over two keys of a scene, as an array, upward and across (NaN: left open by rounding, or no drop).
+    """A quantity over two keys of a scene, as an array, upward and across; NaN where rounding leaves a number open or there is
+    none, inf for infinitely many impacts.  Texts, of quantity="outcome" and the like, are texts.
 
     over: two keys of the scene file with their ranges, {"drop.angle_deg": (0, 60), "impact.restitution": "0.1:1:log"},
-    across and upward.  values: of other keys, as for sweep(), with samples ranges, too.  quantity: "impacts", "total",
-    "loss" ..., with samples "NAME=CLASS", the share of that class; then the last axis is share, least and most (Wilson's).
+    across and upward; each number is that of the middle of its part of the range.  values: of other keys, as for sweep(), with
+    samples ranges, too, or as arguments by the names that sequence() takes.  quantity: "impacts", "total", "loss" ..., with samples
+    "NAME=CLASS", the share of that class; then the first axis is share, least and most (Wilson's).  size: across and upward; a
+    body's size is values={"body.size": ...}.  Up to 100 impacts are followed, or as many as impacts says.
     Raises BadInput; warns of pixels that could not be computed.
+
+    >>> clatter.map(over={"drop.angle_deg": (1, 60), "impact.restitution": (0.2, 0.9)}, body="rod", gravity=9.81, quantity="ratio")
     """
     numpy = numpy_for("map()")
     words = [f"--quantity={quantity}", "--size=" + "x".join(str(int(side)) for side in size)]
     for key, bounds in (over or {}).items():
         text = bounds if isinstance(bounds, str) else ":".join(text_of(key, None, bound) for bound in bounds)  # type: ignore[union-attr]
         words.append(f"--over={key}={text}")
-    words += [f"--set={key}={swept_text(key, value)}" for key, value in (values or {}).items()]
+    words += [f"--set={text}" for text in set_texts(values, changes)]
     words += _options({"samples": samples, "seed": seed})
-    with tempfile.TemporaryDirectory() as folder:
+    with tempfile.TemporaryDirectory() as folder:  # the array is a file's
         path = os.path.join(folder, "map.npy")
         _run("map", scene, {}, [*words, f"--output={path}"])
         if not os.path.exists(path):
             raise BadArgument("map: was interrupted")
         array: Array = numpy.load(path)
-    return array
+    return array.astype(str) if array.dtype.kind == "S" else array

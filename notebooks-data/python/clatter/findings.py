@@ -143,22 +143,14 @@ class Summary(Table):
 
 
 class Ranking(Table):
-    """The worst of all attitudes of a drop: a row for each attitude, the worst first; `message` says it in a sentence, to_dict()
-    has all that was found."""
-
-    _rows_in = "attitudes"
+    """The worst of all attitudes of a drop: a row for each face, edge and corner by its worst drop, as `clatter report --format csv`
+    has them; of a body without such attitudes, or with drops=0, a row for each impact.  `message` says it in a sentence, to_dict() has
+    all that was found."""
 
     @property
     def answer(self) -> Record:
         """The worst blow: probe, attitude, impact, its numbers, ranked_by, largest, drops, notes ..."""
         return Record(self._data["answer"])
-
-    @functools.cached_property
-    def _columns(self) -> dict[str, list[Any]]:
-        def worst(value: Any) -> Any:
-            return value.get("largest", value.get("least")) if isinstance(value, dict) else value
-        rows = [{name: worst(value) for name, value in one.items()} for one in self._objects()]
-        return {name: [row.get(name) for row in rows] for name in dict.fromkeys(name for row in rows for name in row)}
 
 
 _WHOLE = {"index", "impacts", "n", "hardest", "touches", *(key.key for key in KEYS.values() if key.kind == "whole")}

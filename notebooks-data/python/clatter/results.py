@@ -213,8 +213,9 @@ class Result(Generic[Row]):
 
 
 def given_again(scene: Mapping[str, Any]) -> dict[str, Any]:
-    """Without what is computed: the law of a ground, and the speed of a fall from a height."""
+    """Without what is computed: the laws of a ground, and the speed of a fall from a height."""
     kept = {name: dict(table) if isinstance(table, dict) else table for name, table in scene.items() if name != "discrete_law"}
+    kept.get("ground", {}).pop("reduced_modulus", None)  # of a floor by name
     drop = kept.get("drop", {})
     if any(drop.get(name) is not None for name in ("height", "clearance", "topple")):
         drop.pop("speed", None)
