@@ -222,6 +222,18 @@ test("in a lecture the picture is large, a class votes by hands, and the most ar
   await page.waitForFunction(() => !document.body.classList.contains("lecture"));
 }));
 
+test("a class that is divided is judged by neither answer, whoever began, and a pupils' page has no answers", () => onPage("#hide=answers", async (page) => {
+  await page.waitForSelector("#prediction:not([hidden])");
+  assert.deepEqual([await page.isVisible("#answers-print"), await page.isVisible("#exercises-print")], [false, true]);
+  await page.click("#lecture");
+  for (const guess of ["harder", "softer"]) await page.click(`button[data-guess="${guess}"]`);
+  await page.click("#prediction-skip");
+  await page.keyboard.press("ArrowRight");
+  await page.keyboard.press("ArrowRight");
+  await page.waitForFunction(() => /^The class is divided: The second blow is .* The class: Yes · 1, About the same, No · 1/.test(
+    document.getElementById("prediction-reveal").textContent));
+}));
+
 test("a lecture fits its window: question, picture, playback and the list of blows", () => onPage("", async (page) => {
   const inside = async (part) => {
     const { x, y, width, height } = await page.locator(part).boundingBox();

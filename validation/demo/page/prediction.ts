@@ -8,6 +8,7 @@ import { comparison } from "./words";
 type Guess = "harder" | "same" | "softer";
 
 const TITLES: Readonly<Record<Guess, string>> = { harder: "Yes", same: "About the same", softer: "No" };
+const GUESSES = Object.keys(TITLES) as Guess[];
 /** Blows that differ by less are "about the same". */
 const ALIKE = 0.1;
 
@@ -19,7 +20,7 @@ export class Prediction {
   private readonly buttons = [...this.card.querySelectorAll<HTMLButtonElement>("button[data-guess]")];
   /** Of a class, hand by hand; null: one reader guesses. */
   private votes: Guess[] | null = null;
-  private guess: Guess | null = null;
+  private guess: Guess | null = null;  // also of a class that is divided
   /** A guess was made, and the second blow has not been seen yet. */
   isWaiting = false;
   private impacts: readonly Impact[] = [];
@@ -38,9 +39,11 @@ export class Prediction {
       });
     }
     this.skip.addEventListener("click", () => {
-      if (this.votes) {
-        this.guess = this.votes.reduce<Guess | null>((most, guess) => (this.votesFor(guess) > this.votesFor(most) ? guess : most), null);
-        if (this.guess) this.wait(true);
+      if (this.votes?.length) {
+        const most = Math.max(...GUESSES.map((guess) => this.votesFor(guess)));
+        const first = GUESSES.filter((guess) => this.votesFor(guess) === most);
+        this.guess = first.length === 1 ? first[0]! : null;
+        this.wait(true);
       }
       this.close();
     });
@@ -64,7 +67,7 @@ export class Prediction {
     if (second ? time < second.start : !ended) return;
     this.wait(false);
     const votes = this.votes?.length ? ` The class: ${this.buttons.map(({ textContent }) => textContent).join(", ")}.` : "";
-    this.reveal.textContent = this.guess ? revealed(this.guess, this.impacts) + votes : "";
+    this.reveal.textContent = revealed(this.guess, this.impacts) + votes;
   }
 
   open(): void {
@@ -109,13 +112,13 @@ export class Prediction {
   }
 }
 
-function revealed(guess: Guess, impacts: readonly Impact[]): string {
+function revealed(guess: Guess | null, impacts: readonly Impact[]): string {
   const [first, second] = impacts;
   if (!first) return "";
   if (!second) return "There is no second blow: after the first nothing comes down again.";
   const ratio = second.impulse_normal / first.impulse_normal;
   const truth: Guess = Math.abs(ratio - 1) < ALIKE ? "same" : ratio > 1 ? "harder" : "softer";
-  const verdict = guess === truth ? "You guessed it." : "A surprise:";
+  const verdict = guess === null ? "The class is divided:" : guess === truth ? "You guessed it." : "A surprise:";
   const numbers = `${significant(second.impulse_normal, 4)} N·s after ${significant(first.impulse_normal, 4)} N·s`;
   return `${verdict} The second blow is ${comparison(ratio)}${comparison(ratio) === "about as hard" ? "" : " as the first"}: ${numbers}.`;
 }

@@ -10,7 +10,7 @@ import { numberOf, parametersOf } from "./requests";
 export const PANELS = ["story", "strip", "numbers", "profile", "table", "fan", "force", "energy", "map", "race", "measured", "explain"] as const;
 
 /** What an address may hide, and lock beside each quantity and choice of the situation. */
-const HIDDEN: readonly string[] = [...PANELS, "controls", "continuous"];
+const HIDDEN: readonly string[] = [...PANELS, "controls", "answers", "continuous"];
 const LOCKED: readonly string[] = ["scene", "file", "story", "sound", "layout", "rate", "slow", "predict"];
 
 /** Names in an address that mean nothing, in words; null if there is none. */
