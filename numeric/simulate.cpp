@@ -192,6 +192,9 @@ void check_start(const Body& body, const MotionState& start, bool starts_on_grou
   const bool finite = start.centre.allFinite() && start.attitude.coeffs().allFinite() && start.velocity.allFinite() &&
                       start.angular_velocity.allFinite();
   if (!finite) throw std::domain_error("the start: every number of the state must be finite");
+  constexpr double rounding = 1e-6;
+  const double length = start.attitude.norm();
+  detail::require(std::fabs(length - 1) <= rounding, "length of the attitude's Euler parameters", length, "1");
   if (starts_on_ground) return;
   const double low = lowest_height(body, start);
   detail::require(low >= -1e-12 * body.radius(), "height of the lowest point", low, "at least 0");

@@ -11,6 +11,7 @@ Eigen::Quaterniond attitude_of(const Drop& drop) {
 }
 
 MotionState on_ground(const Body& body, MotionState state) {
+  state.attitude.normalize();
   state.centre.setZero();
   state.centre.z() = -lowest_height(body, state);
   return state;

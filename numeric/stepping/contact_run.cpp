@@ -124,6 +124,7 @@ class StepControl {
     scales_ = scales;
     evaluation_limit_ = evaluation_limit;
     weigh_errors();
+    step_.begin(scales.speed, step_.system().body().radius());
     if (step_.error_order() > 0) {
       fixed_ = 0;
       next_ = settings.step_cap * scales.time / adaptive_first_steps;
@@ -138,6 +139,7 @@ class StepControl {
   /// @return why there is none; nothing where there is one.
   [[nodiscard]] std::optional<ContactEnding> find(const ContactInstant& now, const TouchCounter& touches,
                                                   ContactInstant& trial) {
+    step_.choose_method(now, next_);
     const int order = step_.error_order();
     const double horizon = std::max(scales_.time, now.time);
     double h = order > 0 ? std::min(next_, settings_.step_cap * largest_part * horizon) : next_;

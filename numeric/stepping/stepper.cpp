@@ -3,9 +3,13 @@
 
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_odeiv2.h>
+#include <Eigen/LU>
+#include <array>
 #include <cassert>
+#include <cmath>
 #include <new>
 #include <stdexcept>
+#include <utility>
 
 namespace clatter::numeric {
 namespace {
@@ -85,13 +89,99 @@ std::unique_ptr<Stepper> make_stepper(Method method) {
   throw std::invalid_argument("make_stepper: choose a method before asking for its stepper");
 }
 
+void FrictionStepper::begin(double speed, double radius) {
+  constexpr double part = 1e-9;
+  speed_ = part * speed;
+  radius_ = radius;
+  at_.setConstant(std::nan(""));
+}
+
+double FrictionStepper::fastest_rate(ContactSystem& system, const ContactState& y, const ContactState& rate) {
+  constexpr int first = 7;  // of the velocities in a state
+  if (at_ != y || rate_ != rate) {
+    at_ = y;
+    rate_ = rate;
+    ContactState beside = y, slope;
+    for (int k = 0; k < 6; ++k) {
+      const double change = k < 3 ? speed_ : speed_ / radius_;
+      beside[first + k] = y[first + k] + change;
+      system.derivative(beside, slope);
+      jacobian_.col(k) = (slope - rate).segment<6>(first) / (beside[first + k] - y[first + k]);
+      beside[first + k] = y[first + k];
+    }
+  }
+  Eigen::Matrix<double, 6, 1> sizes;  // so that all components are speeds
+  sizes << 1, 1, 1, radius_, radius_, radius_;
+  return (sizes.asDiagonal() * jacobian_ * sizes.cwiseInverse().asDiagonal()).norm();
+}
+
+bool FrictionStepper::step(ContactSystem& system, const ContactState& y, const ContactState& rate, double h,
+                           ContactState& next, ContactState& error) {
+  constexpr double gamma = 0.43586652150845900;
+  // Rows of α and γ, and the weights of both orders; h k_i = h f(y + Σ α_ij k_j) + h J Σ γ_ij k_j.
+  constexpr double alpha[4][3] = {
+      {0, 0, 0}, {0.87173304301691801, 0, 0}, {0.84457060015369423, -0.11299064236484185, 0}, {0, 0, 1}};
+  constexpr double coupling[4][3] = {{0, 0, 0},
+                                     {-0.87173304301691801, 0, 0},
+                                     {-0.90338057013044082, 0.054180672388095326, 0},
+                                     {0.24212380706095346, -1.2232505839045147, 0.54526025533510214}};
+  constexpr double weights[4] = {0.24212380706095346, -1.2232505839045147, 1.5452602553351020, 0.43586652150845900};
+  constexpr double second[4] = {0.37810903145819369, -0.096042292212423178, 0.5, 0.21793326075422950};
+  static_cast<void>(fastest_rate(system, y, rate));
+  const Jacobian scaled = h * jacobian_;
+  const Eigen::PartialPivLU<Jacobian> solver(Jacobian::Identity() - gamma * scaled);
+  std::array<ContactState, 4> k;
+  for (std::size_t i = 0; i < k.size(); ++i) {
+    ContactState at = y, coupled = ContactState::Zero();
+    for (std::size_t j = 0; j < i; ++j) {
+      at += alpha[i][j] * k[j];
+      coupled += coupling[i][j] * k[j];
+    }
+    if (i == 0) k[i] = rate;
+    else system.derivative(at, k[i]);
+    k[i] *= h;
+    k[i].segment<6>(7) = solver.solve(k[i].segment<6>(7) + scaled * coupled.segment<6>(7));
+  }
+  next = y;
+  error.setZero();
+  for (std::size_t i = 0; i < k.size(); ++i) {
+    next += weights[i] * k[i];
+    error += (weights[i] - second[i]) * k[i];
+  }
+  return next.allFinite() && error.allFinite();
+}
+
 ContactStep::ContactStep(ContactSystem& system, Stepper& stepper) : system_(system), stepper_(stepper) {
   submerged_.reserve(system.body().facets().corners.size());
 }
 
+void ContactStep::begin(double speed, double radius) {
+  friction_.begin(speed, radius);
+  is_stiff_ = false;
+  steps_ = 0;
+  next_look_ = first_look;
+}
+
+void ContactStep::choose_method(const ContactInstant& now, double h) {
+  // Times the fastest rate explicit steps can be about 3 long; an implicit one costs as much as two of them.
+  constexpr double held_back = 2, worth_it = 6;
+  constexpr int steps_to_lengthen = 5;
+  using Kind = FrictionPhase::Kind;
+  const Kind kind = system_.phase().kind;
+  const bool can_be_stiff = stepper_.error_order() > 0 && kind != Kind::none && kind != Kind::stick && now.time > 0;
+  ++steps_;
+  if (is_stiff_ ? steps_ < steps_to_lengthen : !can_be_stiff || steps_ < next_look_) return;
+  const double part = can_be_stiff ? h * friction_.fastest_rate(system_, now.state, now.rate) : 0;
+  const bool was_stiff = std::exchange(is_stiff_, part > (is_stiff_ ? worth_it : held_back));
+  if (was_stiff && is_stiff_) return;
+  if (was_stiff && steps_ == steps_to_lengthen) next_look_ *= 2;  // it was in vain
+  steps_ = 0;
+}
+
 bool ContactStep::take(const ContactInstant& from, double h, ContactInstant& to) {
   assert(h > 0);
-  if (!stepper_.step(system_, from.state, from.rate, h, to.state, error_)) return false;
+  Stepper& stepper = is_stiff_ ? friction_ : stepper_;
+  if (!stepper.step(system_, from.state, from.rate, h, to.state, error_)) return false;
   euler_parameters(to.state).normalize();
   to.time = from.time + h;
   submerged_.clear();
