@@ -19,20 +19,29 @@ void require_finite(double angle) {
   if (!std::isfinite(angle)) throw std::domain_error("angle = " + std::to_string(angle) + ": must be finite");
 }
 
+Angle angle_of(double radians, double degrees, double sine, double cosine) {
+  Angle angle;
+  angle.radians = radians;
+  angle.degrees = degrees;
+  angle.sine = sine;
+  angle.cosine = cosine;
+  return angle;
+}
+
 }  // namespace
 
 Angle Angle::from_degrees(double degrees) {
   require_finite(degrees);
   const double size = std::fabs(degrees);
   const double radians = radians_of(degrees);
-  if (size <= 45 || size > 90) return {radians, degrees, std::sin(radians), std::cos(radians)};
+  if (size <= 45 || size > 90) return angle_of(radians, degrees, std::sin(radians), std::cos(radians));
   const double complement = radians_of(90 - size);  // 90 − size is exact here
-  return {radians, degrees, std::copysign(std::cos(complement), degrees), std::sin(complement)};
+  return angle_of(radians, degrees, std::copysign(std::cos(complement), degrees), std::sin(complement));
 }
 
 Angle Angle::from_radians(double radians) {
   require_finite(radians);
-  return {radians, radians * degrees_per_radian, std::sin(radians), std::cos(radians)};
+  return angle_of(radians, radians * degrees_per_radian, std::sin(radians), std::cos(radians));
 }
 
 double acute_angle(double inclination) { return std::fabs(std::remainder(inclination, pi)); }

@@ -17,8 +17,8 @@ struct SequenceOptions {
   /// is cut there: 10^−digits of the remaining time.  In [1, 15].
   int digits = 6;
   /// Also follow how errors of the drop and of rounding grow: `error` and `amplification` of each row, and the errors
-  /// of tail and total.  In space this takes most of the time: a loop over many drops that needs no bounds does
-  /// without.
+  /// of tail and total.  A loop over many drops that needs no bounds does without, in space in half of the time.  With
+  /// until_rest, in space, they are followed in any case: where rows can no longer be predicted decides where it ends.
   bool amplification = true;
   /// The end is asked for and not each row: bouncing in closed form is summed up at once.  In space: goes on after
   /// corners have stayed on the ground while the body turns, and ends where the body has to settle on one face and no

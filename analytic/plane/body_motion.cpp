@@ -392,8 +392,8 @@ void BodyMotion::refine(Arrival& arrival) {
     elastic_flights_ = -1;
     return;
   }
-  const Angle start{std::fabs(initial_.radians), std::fabs(initial_.degrees), std::fabs(initial_.sine),
-                    initial_.cosine};
+  Angle start = initial_;
+  for (double* const part : {&start.radians, &start.degrees, &start.sine}) *part = std::fabs(*part);
   const double found = std::fabs(arrival.inclination);
   const double before = std::fabs(inclination_);
   offset_ = elastic_flights_ == 0 ? first_offset(start, found) : second_offset(start, offset_, found);

@@ -259,7 +259,8 @@ void add_arguments(CLI::App& part, const Command& command, Waiting& waiting) {
     CLI::Option* option = add_value(part, argument, waiting);
     if (is_of_scene(argument) && !explains_scene) option->group("");
     else if (!argument.group.empty()) option->group(argument.group);
-    if (argument.repeats) option->expected(1)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    if (argument.repeats)
+      option->expected(1)->allow_extra_args(false)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   }
 }
 

@@ -428,7 +428,8 @@ class SweepOutput {
     ShortfallCount found(plan_.layout, false);
     bool is_whole = false;
     if (!hdf5_) {
-      is_whole = file_->is_complete(csv_head(report_, style_.bare), last, [&](auto row) { found.add(row); });
+      is_whole = file_->is_complete(csv_head(report_, style_.bare), plan_.range.first, last,
+                                    [&](auto row) { found.add(row); });
       fell_short_ = found.found().words(plan_.range.count, "scenes");
     } else if (const auto head = read_hdf5_head(file_->path(), column_head())) {
       std::istringstream there(lines_of(*head));

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <charconv>
 #include <cstdio>
 #include <cstring>
 #include <fstream>
@@ -188,15 +189,20 @@ bool SweepFile::has_head(const std::string& head) {
 void SweepFile::keep_whole_rows(const SweepFileForm& form) {
   long long kept_records = 0;
   Digest digest = digest_;
+  bool is_sound = true;
   for (const Record& record : read_records(digests_)) {
     const bool grows = record.bytes > bytes_ && record.scenes > scenes_ && record.scenes <= form.scenes;
-    if (!grows || !add_bytes(part_file_, bytes_, record.bytes, digest)) break;
-    if (record.digest != record_of(record.bytes, record.scenes, digest).digest) break;
+    is_sound = grows && add_bytes(part_file_, bytes_, record.bytes, digest) &&
+               record.digest == record_of(record.bytes, record.scenes, digest).digest;
+    if (!is_sound) break;
     digest_ = digest;
     bytes_ = record.bytes;
     scenes_ = record.scenes;
     kept_records += static_cast<long long>(text_of(record).size());
   }
+  if (!is_sound)
+    say(fmt::format("{}: rows after its first {} scenes are not as they were written, and are computed anew", part_,
+                    scenes_));
   if (!truncate_to(part_file_, bytes_)) fail(part_, "cannot be written");
   if (!truncate_to(digests_file_, kept_records)) fail(digests_, "cannot be written");
 }
@@ -233,17 +239,23 @@ bool SweepFile::is_own(std::istream& there, const std::string& head) const {
   return words.empty() && there.good();
 }
 
-bool SweepFile::is_complete(const std::string& head, long long last,
-                            const std::function<void(std::string_view rows)>& take) const {
+bool SweepFile::is_complete(const std::string& head, long long first, long long last,
+                            const std::function<void(std::string_view row)>& take) const {
   std::ifstream file(destination_.path, std::ios::binary);
   if (!is_own(file, head)) return false;
-  const std::string begin = fmt::format("{},", last);
-  bool is_whole = false;
-  for (std::string row; std::getline(file, row);) {
-    is_whole = !file.eof() && row.starts_with(begin);
+  long long scene = first - 1;  // of the row before
+  bool is_whole = true;
+  for (std::string row; is_whole && std::getline(file, row);) {
+    long long here = -1;
+    std::from_chars(row.data(), row.data() + std::min(row.find(','), row.size()), here);
+    is_whole = !file.eof() && (here == scene + 1 || (here == scene && scene >= first));
+    if (!is_whole) break;
+    scene = here;
     take(row);
   }
-  return is_whole;
+  if (is_whole && scene == last) return true;
+  say(fmt::format("{} is not whole after scene {}, and is computed anew", destination_.path, scene));
+  return false;
 }
 
 void SweepFile::write(std::string_view rows, long long scenes) {

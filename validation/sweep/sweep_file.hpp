@@ -58,10 +58,10 @@ class SweepFile {
   /// Scenes that the part held already: the next row is that of scene number scenes().
   [[nodiscard]] long long scenes() const { return scenes_; }
   [[nodiscard]] const std::string& path() const { return destination_.path; }
-  /// Whether FILE is there with this head and a row of scene `last` as its last one, and then calls take(rows) with all
-  /// of them, some at a time.  @throws BadInput if it is of another sweep
-  [[nodiscard]] bool is_complete(const std::string& head, long long last,
-                                 const std::function<void(std::string_view rows)>& take) const;
+  /// Whether FILE is there with this head and rows of the scenes from `first` to `last`, one after the other, and calls
+  /// take(row) with each; says it where rows are missing.  @throws BadInput if it is of another sweep
+  [[nodiscard]] bool is_complete(const std::string& head, long long first, long long last,
+                                 const std::function<void(std::string_view row)>& take) const;
   /// Whether a file that is in the place of FILE begins with this head.  @throws BadInput if it is of another sweep
   [[nodiscard]] bool is_own(std::istream& there, const std::string& head) const;
   /// Takes the rows of so many whole scenes, or none; they are in the file after half a second or a mebibyte, or after

@@ -232,7 +232,10 @@ Body polyhedron(const std::vector<Vector3>& vertices, const MassProperties& prop
 }
 
 double touch_height(const Body& body, const Quaternion& attitude) {
-  const Vector3 up = attitude.conjugate() * Vector3::UnitZ();
+  const double length = attitude.norm();
+  require(std::isfinite(length) && length > 0, "length of the attitude's Euler parameters", length,
+          "above 0 and finite");
+  const Vector3 up = attitude.normalized().conjugate() * Vector3::UnitZ();
   double lowest = std::numeric_limits<double>::infinity();
   for (const Vector3& vertex : body.vertices) lowest = std::fmin(lowest, up.dot(vertex));
   for (const Rim& rim : body.rims)

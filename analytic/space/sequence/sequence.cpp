@@ -64,7 +64,9 @@ class Run : public SequenceLoop<Sequence, ErrorGrowth> {
   }
 
   Sequence run() {
-    if (options_.amplification) growth_.emplace(body_, state_, drop_.gravity, drop_.gravity_along);
+    // An end that is asked for is where rows can no longer be predicted, whether their errors are wanted or not.
+    if (options_.amplification || (options_.until_rest && !options_.until_face))
+      growth_.emplace(body_, state_, drop_.gravity, drop_.gravity_along);
     FirstContact flown;
     const std::vector<int> lowest = drop_.release_height ? fall(flown) : touch_down();
     follow([&] { go_on(lowest, flown); });
@@ -471,7 +473,7 @@ class Run : public SequenceLoop<Sequence, ErrorGrowth> {
 
   /// The law leaves open how the contact goes on; where it comes to rest can be known yet.
   Next end_open(const SustainedContact& contact) {
-    result_.message += "; " + contact.reason;
+    result_.message += (result_.message.empty() ? "" : "; ") + contact.reason;
     result_.rest = settles(drop_, state_, time_);
     if (result_.rest) settle();
     return Next::end;

@@ -177,7 +177,7 @@ def sweep(
     "FROM:TO:log:COUNT" or "A,B,..." ("LOW:HIGH" or "LOW:HIGH:log" with random).  The last key varies fastest, so that a column
     of two keys is .reshape(len(first), len(second)).  Of keys that are lists drop.attitude alone can vary: a row of four for
     each scene, 26 for a box's faces, edges and corners, or with random "uniform".
-    model: "discrete" or "continuous"; without it a scene with a ground takes the continuous one, which costs some hundred times
+    model: "discrete" or "continuous"; without it a scene with a ground takes the continuous one, which costs tens to hundreds of times
     as much.  rows: one per "scene" or per "impact".
     random: so many scenes with values at random, which depend on seed (1).  scatter [°]: turns attitudes at random, about
     those of values or the scene's own.  columns: more of them with rows of scenes, as "hardest_impulse_normal" or

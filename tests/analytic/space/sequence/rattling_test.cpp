@@ -151,3 +151,22 @@ BOOST_AUTO_TEST_CASE(throws_by_any_law_run_to_their_end_where_corners_come_to_st
     }
   }
 }
+
+/// Where rows can no longer be predicted decides where a sequence ends, whether bounds are wanted or not.
+BOOST_AUTO_TEST_CASE(a_drop_followed_to_rest_is_the_same_without_bounds) {
+  Drop drop;
+  drop.body = make_box({.mass = 0.5, .length = 0.2, .width = 0.1, .thickness = 0.05});
+  drop.velocity = {0, 0, -std::sqrt(2 * 9.81 * 0.5)};
+  drop.gravity = 9.81;
+  drop.law = {.restitution = 0.6, .friction = FrictionKind::coulomb, .friction_value = 0.3};
+  std::mt19937 random(5);
+  std::normal_distribution<double> normal;
+  for (int i = 0; i < (CLATTER_TEST_SLOW_BUILD ? 3 : 12); ++i) {
+    drop.attitude = Quaternion(normal(random), normal(random), normal(random), normal(random)).normalized();
+    const Sequence with = impact_sequence(drop, {.impacts = 1000, .until_rest = true});
+    const Sequence without = impact_sequence(drop, {.impacts = 1000, .amplification = false, .until_rest = true});
+    BOOST_TEST(with.rows.size() == without.rows.size());
+    BOOST_TEST(with.total_normal_impulse == without.total_normal_impulse);
+    BOOST_TEST(with.message == without.message);
+  }
+}
