@@ -22,8 +22,6 @@ std::string shortfall(const Scene& scene, const Run& run) {
   if (run.is_cut_short) return fmt::format("{}: {}", run.outcome, run.message);
   if (scene.until_rest && run.outcome == std::string_view("impact-limit"))
     return fmt::format("not at rest after {} impacts", run.impacts.size());
-  if (scene.until_rest && run.outcome == std::string_view("sustained-contact"))
-    return fmt::format("not at rest: {}", run.message);
   return scene.require_digits ? digits_shortfall(scene.accuracy.digits, run.relative_error) : "";
 }
 

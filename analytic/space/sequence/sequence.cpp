@@ -476,6 +476,7 @@ class Run : public SequenceLoop<Sequence, ErrorGrowth> {
     result_.message += (result_.message.empty() ? "" : "; ") + contact.reason;
     result_.rest = settles(drop_, state_, time_);
     if (result_.rest) settle();
+    else result_.outcome = Outcome::not_computed;  // the end that was asked for
     return Next::end;
   }
 
