@@ -89,6 +89,14 @@ std::unique_ptr<Stepper> make_stepper(Method method) {
   throw std::invalid_argument("make_stepper: choose a method before asking for its stepper");
 }
 
+namespace {
+
+/// V and ω′ of a state, V̇ and ω̇′ of its rate.
+constexpr int first_velocity = 7;
+auto velocities(auto& y) { return y.template segment<6>(first_velocity); }
+
+}  // namespace
+
 void FrictionStepper::begin(double speed, double radius) {
   constexpr double part = 1e-9;
   speed_ = part * speed;
@@ -97,17 +105,18 @@ void FrictionStepper::begin(double speed, double radius) {
 }
 
 double FrictionStepper::fastest_rate(ContactSystem& system, const ContactState& y, const ContactState& rate) {
-  constexpr int first = 7;  // of the velocities in a state
   if (at_ != y || rate_ != rate) {
     at_ = y;
     rate_ = rate;
     ContactState beside = y, slope;
     for (int k = 0; k < 6; ++k) {
       const double change = k < 3 ? speed_ : speed_ / radius_;
-      beside[first + k] = y[first + k] + change;
+      double& moved = velocities(beside)[k];
+      const double there = moved;
+      moved += change;
       system.derivative(beside, slope);
-      jacobian_.col(k) = (slope - rate).segment<6>(first) / (beside[first + k] - y[first + k]);
-      beside[first + k] = y[first + k];
+      jacobian_.col(k) = (velocities(slope) - velocities(rate)) / (moved - there);
+      moved = there;
     }
   }
   Eigen::Matrix<double, 6, 1> sizes;  // so that all components are speeds
@@ -140,7 +149,7 @@ bool FrictionStepper::step(ContactSystem& system, const ContactState& y, const C
     if (i == 0) k[i] = rate;
     else system.derivative(at, k[i]);
     k[i] *= h;
-    k[i].segment<6>(7) = solver.solve(k[i].segment<6>(7) + scaled * coupled.segment<6>(7));
+    velocities(k[i]) = solver.solve(velocities(k[i]) + scaled * velocities(coupled)).eval();
   }
   next = y;
   error.setZero();
