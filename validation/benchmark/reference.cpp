@@ -309,6 +309,12 @@ double Reference::energy(const space::State& state) const {
 
 double Reference::last_energy(const ReferenceSequence& sequence) const {
   if (end_energy) return *end_energy;
+double enough_time(const Problem& problem) {
+  double last = 0;
+  for (const std::string& law : truth_laws(problem)) last = std::fmax(last, truth_of(problem, law).back().time);
+  return problem.until.value_or(rounded_up(1.2 * last + 0.05));
+}
+
   return at_rest ? body.mass * gravity * start.position.z() : energy(sequence.after.back());
 }
 

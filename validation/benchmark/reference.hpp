@@ -66,6 +66,9 @@ struct Problem : Terms {
 [[nodiscard]] std::vector<TruthRow> truth_of(const Problem& problem, const std::string& law);
 /// The file's digits of t, Px, Py, Pz, Vx, Vy, Vz, Wx, Wy, Wz and duration by their names, row by row.
 [[nodiscard]] Value truth_digits(const Problem& problem, const std::string& law);
+/// How long after the first touch a motion must go on at least to have all that is asked for, by any law: Terms::until,
+/// otherwise a fifth beyond the last impact and 0.05 s [s].
+[[nodiscard]] double enough_time(const Problem& problem);
 /// What gave the truth, in words.
 [[nodiscard]] std::string oracle_of(const Problem& problem);
 
