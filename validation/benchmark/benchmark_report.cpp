@@ -206,6 +206,7 @@ std::vector<Column> benchmark_list_columns() {
           {"version", "version", "", "of the problem; another version has another truth"},
           word_column("class", "class", "rigid: impulses; compliant: contacts of finite time"),
           {"impacts", "impacts", "", "that are asked for"},
+          {"until", "until", "s", "how long after the first touch a motion goes on at least"},
           word_column("title", "title", "the problem in a few words")};
 }
 
@@ -222,7 +223,8 @@ Report benchmark_list_report() {
   for (const Problem& problem : benchmark_problems()) {
     const auto count = static_cast<int>(truth_of(problem, truth_laws(problem).front()).size());
     report.grid.rows.push_back({Cell(problem.id), Cell(problem.version),
-                                Cell(problem.is_compliant ? "compliant" : "rigid"), Cell(count), Cell(problem.title)});
+                                Cell(problem.is_compliant ? "compliant" : "rigid"), Cell(count),
+                                Cell(enough_time(problem)), Cell(problem.title)});
   }
   report.fields["problems"] = row_objects(report.grid);
   return report;
@@ -270,12 +272,9 @@ std::vector<std::string> slope_lines(const Problem& problem) {
 
 /// Until when an answer must go, and what it must say beside its rows.
 std::string ending_words(const Problem& problem) {
-  if (!problem.until) {
-    const double last = truth_of(problem, truth_laws(problem).front()).back().time;
-    return last > 0 ? fmt::format("; a motion must go on beyond the last impact, {} s after the first touch",
-                                  significant(last, 4))
-                    : "; a motion must go on beyond the impact at the first touch";
-  }
+  if (!problem.until)
+    return fmt::format("; a motion must go on beyond the last impact, {} s from the first touch are enough by any law",
+                       shortest(enough_time(problem)));
   const std::string until = shortest(*problem.until);
   return problem.energy_alone
              ? fmt::format("; a motion must last {} s from the first touch, a list needs \"# energy: J\" then, with {}",
@@ -304,7 +303,8 @@ void add_statement_fields(const Problem& problem, Value& fields) {
   for (const std::vector<double>& row : inertia_rows(body)) inertia.emplace_back(row);
   fields["body"] = Value::Fields{{"mass", body.mass}, {"centre", parts(body.centre)}, {"inertia", inertia}};
   fields["starts"] = starts_value(problem);
-  fields["until"] = problem.until ? Value(*problem.until) : Value();
+  fields["until"] = enough_time(problem);
+  fields["until_is_asked"] = problem.until.has_value();
   fields["at_rest"] = problem.at_rest;
   fields["stays"] = problem.at_rest || problem.end_energy;
   fields["ground_end"] = problem.ground_end ? Value(*problem.ground_end) : Value();

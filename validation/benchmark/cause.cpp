@@ -99,6 +99,12 @@ void add_delay(const Motion& motion, const Reference& reference, std::span<const
                                   three_digits(2 * delays.front()), three_digits(delays.front()), misfit_words(left))});
     return;
   }
+  // A code of steps may strike at the first row after the touch, always as late by chance.
+  const auto is_at_row = [&](const FoundImpact& impact) {
+    const double steps = (impact.time + motion.first_touch() - motion.time(impact.first_row)) / motion.step();
+    return std::fabs(steps - std::round(steps)) <= 1e-3;
+  };
+  if (delays.front() <= 1.001 * motion.step() && std::ranges::all_of(impacts, is_at_row)) return;
   causes.push_back({"delay", delays.front(), left,
                     fmt::format("each impact comes {} s late, {}", three_digits(delays.front()), misfit_words(left))});
 }
@@ -239,10 +245,11 @@ std::vector<Cause> causes_of_list(const Answer& answer, const Reference& referen
 
 /// How a code goes on in time.
 struct Stepping {
-  double step = 0;                  ///< at whose ends it strikes what is in the ground; 0: it resolves the instants [s]
-  Vector3 creep = Vector3::Zero();  ///< by which places run ahead, (3) [m/s]
-  bool gravity_first = false;       ///< whether an impact has the gravity of the step that begins with it
-  bool as_listed = false;  ///< whether points of one step are struck as the body lists them; else the lowest first
+  double step = 0;  ///< at whose ends it strikes what is in the ground; 0: it resolves the instants [s]
+  Flying flying{};
+  bool gravity_first = false;  ///< whether an impact has the gravity of the step that begins with it
+  bool as_listed = false;      ///< whether points of one step are struck as the body lists them; else the lowest first
+  bool flies_first = false;    ///< whether what touches in the first row is struck a step later
 };
 
 /// A code that starts as a run does and follows the law.
@@ -257,12 +264,12 @@ class Replay {
     const double end = motion_.time(motion_.size() - 1) - motion_.first_touch();
     for (int i = 0; i < longest && time_ <= end && impacts_.size() < most; ++i) {
       if (stepping_.step > 0) {
-        strike();
+        if (i > 0 || !stepping_.flies_first) strike();
         move(stepping_.step);
         continue;
       }
       State ahead = state_;
-      ahead.velocity += stepping_.creep;  // the flight's places
+      ahead.velocity += stepping_.flying.creep;  // the flight's places
       move(touch_time(reference_, reference_.flight(ahead)));
       if (time_ <= end) strike();
     }
@@ -271,8 +278,7 @@ class Replay {
 
  private:
   void move(double time) {
-    state_ = reference_.flight(state_).at(time);
-    state_.position += time * stepping_.creep;
+    state_ = flown(reference_, state_, time, stepping_.flying);
     time_ += time;
   }
 
@@ -337,7 +343,7 @@ std::vector<FoundImpact> replayed(const Motion& motion, const Reference& referen
 
 /// The largest distance of velocities after impacts, over the speed; unknown where the places are others.
 double replay_distance(const Reference& reference, const std::vector<FoundImpact>& replay,
-                       const std::vector<FoundImpact>& impacts) {
+                       std::span<const FoundImpact> impacts) {
   if (impacts.empty() || replay.size() < impacts.size()) return Score::unknown;
   double distance = 0;
   for (std::size_t i = 0; i < impacts.size(); ++i) {
@@ -358,15 +364,15 @@ struct Diagnosed {
   const Reference& reference;
   const ReferenceSequence& sequence;
   const Score& score;
-  std::vector<FoundImpact> impacts;    ///< of the problem
-  std::optional<Cause> first_order{};  ///< the step that makes the flight error
-  double flight_left = 0;              ///< flight error without that
+  std::vector<FoundImpact> impacts;         ///< of the problem
+  std::optional<FirstOrder> first_order{};  ///< the step that makes the flight error
+  double flight_left = 0;                   ///< flight error without that
 
   Diagnosed(const Answer& rows, const Motion& moved, const Reference& asked, const ReferenceSequence& by,
             const Score& scored)
       : answer(rows), motion(moved), reference(asked), sequence(by), score(scored), impacts(impacts_of(moved, asked)),
         first_order(first_order_step_of(moved, asked, by, impacts, scored.flight_error)),
-        flight_left(first_order ? first_order->misfit : scored.flight_error) {
+        flight_left(first_order ? first_order->cause.misfit : scored.flight_error) {
     if (asked.stays()) impacts.resize(std::min(impacts.size(), by.truth.size()));  // the rest is not asked for
   }
 
@@ -383,28 +389,30 @@ struct Diagnosed {
 
   /// How the run goes on in time, by its impacts and flights; of the orders of a step's parts the one that comes
   /// nearest to it.
-  [[nodiscard]] Stepping stepping() const {
+  [[nodiscard]] Stepping stepping(const DeclaredLaw& law) const {
     Stepping best{.step = resolves_instants(impacts) ? 0 : motion.step()};
-    if (first_order) best.creep = *first_order->value / 2 * reference.pull();
-    if (reference.is_compliant) return best;
-    double least = distance_of(best);
+    if (first_order) best.flying = first_order->flying;
+    if (reference.is_compliant || impacts.empty()) return best;
+    best.flies_first = impacts.front().time > best.step / 2;
+    double least = distance_of(best, law, impacts);
     for (Stepping other = best; const int order : {1, 2, 3}) {
       other.gravity_first = order % 2 == 1;
       other.as_listed = order > 1;
-      const double distance = distance_of(other);
+      const double distance = distance_of(other, law, impacts);
       if (distance < least) best = other, least = distance;
     }
     return best;
   }
-  /// replay_distance() of the run's impacts from those of a code.
-  [[nodiscard]] double distance_of(const Stepping& stepping) const {
-    return replay_distance(reference, replayed(motion, reference, sequence.law, stepping, impacts.size()), impacts);
+  /// replay_distance() of some of the run's impacts from those of a code.
+  [[nodiscard]] double distance_of(const Stepping& stepping, const DeclaredLaw& law,
+                                   std::span<const FoundImpact> first) const {
+    return replay_distance(reference, replayed(motion, reference, law, stepping, first.size()), first);
   }
   /// V, Ω and t of a code off the truth, as far as the run goes.
-  [[nodiscard]] double error_of(const Stepping& stepping) const {
+  [[nodiscard]] double error_of(const Stepping& stepping, const DeclaredLaw& law) const {
     const std::size_t count = std::min(score.found, score.expected);
-    const Score of = score_list(replayed(motion, reference, sequence.law, stepping, count), reference,
-                                score.law == "any" ? "" : score.law);
+    const Score of =
+        score_list(replayed(motion, reference, law, stepping, count), reference, score.law == "any" ? "" : score.law);
     for (std::size_t i = 0; i < count; ++i) {
       if (of.found != count || of.impacts[i].place != sequence.truth[i].place) return Score::unknown;
     }
@@ -454,31 +462,37 @@ void add_replayed(const Diagnosed& run, double distance, std::vector<Cause>& cau
 }
 
 /// Causes of the impacts and the flights' step of first order, that one first without which the least would be left.
-std::vector<Cause> ranked(const Diagnosed& run, const Stepping& stepping, std::vector<Cause> causes,
-                          bool has_first_order) {
-  const auto tell = [&](Cause& cause, const Stepping& without) {
-    if (run.reference.is_compliant || cause.name == "delay" || cause.name == "contact-time") return;
-    cause.error_without = run.error_of(without);
-    const double all = run.score.motion_error();
+std::vector<Cause> ranked(const Diagnosed& run, std::vector<Cause> causes, bool has_first_order) {
+  constexpr double as_the_run = 0.1;
+  const DeclaredLaw& asked = run.sequence.law;
+  const DeclaredLaw law = causes.empty() ? asked : causes.front().law.value_or(asked);  // of the run
+  const bool by_step = causes.empty() || causes.front().name == "time-step";
+  const Stepping stepping = run.stepping(law);
+  const double all = run.score.motion_error(), distance = run.distance_of(stepping, law, run.asked());
+  // What a change is worth is known where the judge's code comes to what the run does.
+  const bool is_as_the_run = distance <= as_the_run * all;
+  const bool is_known = is_as_the_run || (stepping.step == 0 && !by_step && !causes.front().law);
+  const auto tell = [&](Cause& cause, const Stepping& without, const DeclaredLaw& by) {
+    if (run.reference.is_compliant || !is_known || cause.name == "delay" || cause.name == "contact-time") return;
+    cause.error_without = run.error_of(without, by);
     if (std::isfinite(*cause.error_without) && std::isfinite(all) && has_first_order)
       cause.words += fmt::format("; without this alone V, Ω and t would be off by {} and not {}",
-                                 significant(*cause.error_without, 2), significant(all, 2));
+                                 significant(rounded_up(*cause.error_without), 2), significant(rounded_up(all), 2));
   };
   Stepping resolved = stepping, second_order = stepping;
   resolved.step = 0;
   resolved.gravity_first = false;
-  second_order.creep.setZero();
-  const bool by_step = !causes.empty() && causes.front().name == "time-step";
-  for (Cause& cause : causes) tell(cause, by_step ? resolved : stepping);
-  if (!has_first_order) return causes;
-  Cause first_order = *run.first_order;
-  first_order.value = std::fabs(*first_order.value);
-  // Without another law or body a code is not known, but what it leaves the flights may have made.
-  first_order.error_without = run.score.motion_error();
-  if (by_step) tell(first_order, second_order);
-  const bool is_first = causes.empty() || *first_order.error_without < causes.front().error_without.value_or(0);
-  causes.insert(is_first ? causes.begin() : causes.end(), first_order);
-  for (std::size_t i = 1; i < causes.size(); ++i) causes[i].is_more |= is_first || i + 1 == causes.size();
+  second_order.flying = {};
+  for (Cause& cause : causes) tell(cause, by_step ? resolved : stepping, asked);
+  if (has_first_order) {
+    Cause first_order = run.first_order->cause;
+    if (by_step || is_as_the_run) tell(first_order, second_order, law);
+    const bool is_first =
+        causes.empty() || first_order.error_without.value_or(all) < causes.front().error_without.value_or(0);
+    causes.insert(is_first ? causes.begin() : causes.end(), first_order);
+    for (std::size_t i = 1; i < causes.size(); ++i) causes[i].is_more |= is_first || i + 1 == causes.size();
+  }
+  if (!causes.empty() && is_as_the_run) causes.front().unexplained = distance;
   return causes;
 }
 
@@ -488,10 +502,10 @@ std::vector<Cause> causes_of_impacts(const Diagnosed& run, const Misses& misses)
   constexpr double same = 1e-6, alike = 0.05;
   const auto& impacts = run.impacts;
   std::vector<Cause> causes;
-  const Stepping stepping = run.stepping();
+  const Stepping stepping = run.stepping(run.sequence.law);
   const bool may_be_step =
       stepping.step > 0 && !run.reference.is_compliant && run.flight_left <= run.reference.tolerances[1];
-  const double distance = may_be_step ? run.distance_of(stepping) : Score::unknown;
+  const double distance = may_be_step ? run.distance_of(stepping, run.sequence.law, impacts) : Score::unknown;
   if (run.flight_left <= free_flight && !(distance <= same))
     causes = impact_causes_of(run.reference, run.sequence.law, impacts, run.gravity_of_step());
   if (causes.empty() && !impacts.empty() && impacts.front().points.empty() && !(distance <= same))
@@ -504,7 +518,7 @@ std::vector<Cause> causes_of_impacts(const Diagnosed& run, const Misses& misses)
   const double most = run.reference.tolerances[2];
   const bool has_first_order =
       run.first_order && (!is_alone || (run.law_left() <= most && run.score.start_error <= most));
-  return ranked(run, stepping, std::move(causes), has_first_order);
+  return ranked(run, std::move(causes), has_first_order);
 }
 
 }  // namespace

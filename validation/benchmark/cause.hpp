@@ -19,6 +19,10 @@ struct Cause {
   bool is_more = false;         ///< holds beside the cause before it, not in place of it
   /// V, Ω and t of a code that has all but this cause, off the truth; nothing where that cannot be told.
   std::optional<double> error_without{};
+  std::optional<DeclaredLaw> law{};  ///< that the impacts follow by it, if it is one of the law alone
+  /// V and Ω of a code that has all causes off the run's, over the speed, told of the first; nothing where none has
+  /// them.
+  std::optional<double> unexplained{};
 };
 
 /// A run as its file has it.
@@ -73,14 +77,21 @@ struct Fitted {
 /// or slides on the ground, and these say nothing of flight.
 [[nodiscard]] std::vector<Cause> flight_causes_of(const Motion& motion, const Reference& reference);
 
+/// How a code of first order flies, and that as a cause.
+struct FirstOrder {
+  Flying flying;
+  Cause cause;
+};
+
 /// A step of first order Δt, by whose velocities the places run ahead of free flight's or fall behind by
 ///     ±g Δt/2                                                                                        (3)
-/// after each impact anew: + of the velocities at the step's end (semi-implicit Euler), − at its begin.  Its misfit is
-/// the flight error that is left, its value ±Δt.
+/// after each impact anew: + of the velocities at the step's end (semi-implicit Euler), − at its begin; in space it may
+/// turn by Euler's method, too, or do that alone.  The cause's misfit is the flight error that is left, its value Δt.
 /// @param impacts all of the motion
-[[nodiscard]] std::optional<Cause> first_order_step_of(const Motion& motion, const Reference& reference,
-                                                       const ReferenceSequence& sequence,
-                                                       const std::vector<FoundImpact>& impacts, double flight_error);
+[[nodiscard]] std::optional<FirstOrder> first_order_step_of(const Motion& motion, const Reference& reference,
+                                                            const ReferenceSequence& sequence,
+                                                            const std::vector<FoundImpact>& impacts,
+                                                            double flight_error);
 
 // Rows of a foreign run that are right when read otherwise.
 

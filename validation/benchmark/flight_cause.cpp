@@ -239,22 +239,45 @@ std::vector<Cause> flight_causes_of(const Motion& motion, const Reference& refer
   return causes;
 }
 
-std::optional<Cause> first_order_step_of(const Motion& motion, const Reference& reference,
-                                         const ReferenceSequence& sequence, const std::vector<FoundImpact>& impacts,
-                                         double flight_error) {
-  const Vector3 creep = motion.step() / 2 * reference.pull();  // (3)
-  if (!(flight_error > reference.tolerances[1]) || !(creep.norm() > 0)) return {};
-  for (const double sign : {1.0, -1.0}) {
-    const double left = flight_error_with(sign * creep, motion, reference, sequence, impacts);
-    if (!(left <= explained * flight_error)) continue;
-    return Cause{
-        "first-order-step", sign * motion.step(), left,
-        fmt::format("the flights are a first-order step's: places fall g·step/2 = {} m/s {} than free flight, "
-                    "as by {} Euler in steps of {} s; without that they are free {}",
-                    significant(creep.norm(), 3), sign > 0 ? "faster" : "slower",
-                    sign > 0 ? "semi-implicit" : "explicit", significant(motion.step(), 3), misfit_words(left))};
+std::optional<FirstOrder> first_order_step_of(const Motion& motion, const Reference& reference,
+                                              const ReferenceSequence& sequence,
+                                              const std::vector<FoundImpact>& impacts, double flight_error) {
+  const double step = motion.step();
+  const Vector3 creep = step / 2 * reference.pull();  // (3)
+  if (!(flight_error > reference.tolerances[1])) return {};
+  std::vector<Flying> ways{{.creep = creep}, {.creep = -creep}};
+  if (!(creep.norm() > 0)) ways.clear();
+  if (!reference.is_planar) {
+    for (const double sign : {1, -1, 0}) {
+      for (const Turning turning : {Turning::by_new, Turning::by_old, Turning::by_momentum}) {
+        for (const bool is_on_sphere : {true, false})
+          ways.push_back({.creep = sign * creep, .turning = turning, .step = step, .is_on_sphere = is_on_sphere});
+      }
+    }
   }
-  return {};
+  const Flying* way = nullptr;
+  double left = explained * flight_error;
+  for (const Flying& one : ways) {
+    constexpr double last_digits = 1e-9;  // below it a free turn comes first
+    const double misfit = flight_error_with(one, motion, reference, sequence, impacts);
+    if (!(misfit <= left) || (way != nullptr && left <= last_digits)) continue;
+    way = &one, left = misfit;
+  }
+  if (way == nullptr) return {};
+  std::string words;
+  if (way->creep.norm() > 0) {
+    const bool is_ahead = way->creep.dot(creep) > 0;
+    words =
+        fmt::format("places fall g·step/2 = {} m/s {} than free flight, as by {} Euler", significant(creep.norm(), 3),
+                    is_ahead ? "faster" : "slower", is_ahead ? "semi-implicit" : "explicit");
+  }
+  if (way->turning != Turning::free)
+    words += (words.empty() ? "" : ", and ") + std::string("the body turns by Euler's method");
+  return FirstOrder{
+      *way,
+      {"first-order-step", step, left,
+       fmt::format("the flights are a first-order step's: {} in steps of {} s; without that they are free {}", words,
+                   significant(step, 3), misfit_words(left))}};
 }
 
 }  // namespace clatter::validation

@@ -96,6 +96,7 @@ class ImpactCauses {
     if (broken_.empty() || !(worst_ > reference_.tolerances[1])) return {};
     add_threshold();
     if (!causes_.empty()) return std::move(causes_);
+    if (add_cut_cone()) return std::move(causes_);
     add_law();
     add_restitution();
     add_friction();
@@ -108,6 +109,13 @@ class ImpactCauses {
   using Change = std::function<void(Reference&, DeclaredLaw&, double)>;
 
   static void other_restitution(Reference&, DeclaredLaw& law, double e) { law.law.restitution = e; }
+
+  [[nodiscard]] DeclaredLaw changed(const Change& change, double value) const {
+    Reference unused;
+    DeclaredLaw law = law_;
+    change(unused, law, value);
+    return law;
+  }
 
   /// The largest error of the impacts under another law or body.
   [[nodiscard]] double misfit(const Change& change, double value, const std::vector<std::size_t>& of) const {
@@ -124,12 +132,15 @@ class ImpactCauses {
     return by_step_ && (broken_.size() == 1 || !(misfit <= reference_.tolerances[1]));
   }
 
-  void keep(const char* name, const Fitted& fit, const std::string& words) {
+  /// @param change by which the law becomes that of the run; none where the body does
+  void keep(const char* name, const Fitted& fit, const std::string& words, const Change& change = {}) {
     // With friction one number often fits a part of an impact: it must explain all of it.
     const double most = has_friction() ? explained * explained : explained;
     if (has_friction() && takes_steps()) return;
     if (!(fit.misfit <= most * worst_) || is_of_the_step(fit.misfit)) return;
     causes_.push_back({name, fit.value, fit.misfit, words + " " + misfit_words(fit.misfit)});
+    // The law of a run is known where all impacts have it.
+    if (change && broken_.size() == impacts_.size()) causes_.back().law = changed(change, fit.value);
   }
 
   /// Whether impacts go on over several rows: with friction their whole is that of several ones, or of a contact.
@@ -224,6 +235,32 @@ class ImpactCauses {
     return least;
   }
 
+  /// A friction cone in space that is cut into a pyramid, or met with unequal steps: the one that leaves least.  No
+  /// number of them is free, so that a step which could make errors as large is no doubt.
+  bool add_cut_cone() {
+    if (reference_.is_planar || !has_friction()) return false;
+    const auto of = [](Cone cone) -> Change {
+      return [cone](Reference&, DeclaredLaw& law, double) {
+        law.is_moreau = true;
+        law.cone = cone;
+      };
+    };
+    const double cut = misfit(of(Cone::pyramid), 0, all()), unequal = misfit(of(Cone::unequal), 0, all());
+    const bool is_cut = cut < unequal;
+    const double left = is_cut ? cut : unequal;
+    if (!(left <= explained * worst_)) return false;
+    const char* what =
+        is_cut ? "friction with a bound of its own along x and along y, a pyramid in place of the cone,"
+               : "friction that is brought back to the cone after unequal steps along x and y, not against the slip,";
+    causes_.push_back({is_cut ? "friction-pyramid" : "friction-weights",
+                       {},
+                       left,
+                       fmt::format("{} explains {} {}", what, impacts_words(impacts_.size(), impacts_.size(), 0),
+                                   misfit_words(left))});
+    causes_.back().law = changed(of(is_cut ? Cone::pyramid : Cone::unequal), 0);
+    return true;
+  }
+
   /// Another of the laws that the problem has a truth for.
   void add_law() {
     for (const ReferenceSequence& other : reference_.sequences) {
@@ -236,6 +273,7 @@ class ImpactCauses {
                          left,
                          fmt::format("the law {} (judged by {}) explains {} {}", other.law.name, law_.name,
                                      impacts_words(impacts_.size(), impacts_.size(), 0), misfit_words(left))});
+      causes_.back().law = other.law;
       return;
     }
   }
@@ -249,7 +287,8 @@ class ImpactCauses {
     if (!(std::fabs(fit.value - asked) >= 0.1 * std::fmin(worst_, 1))) return;
     keep("restitution", fit,
          fmt::format("e = {} ({} is asked){} explains {}", three_digits(fit.value), shortest(asked),
-                     has_friction() && broken_.size() == 1 ? ", or another normal impulse," : "", which()));
+                     has_friction() && broken_.size() == 1 ? ", or another normal impulse," : "", which()),
+         other_restitution);
   }
 
   /// By impacts before others follow in neighbouring steps, of which some are taken for one: by two of them at least.
@@ -298,7 +337,7 @@ class ImpactCauses {
     const std::string words = fit.value <= 1e-6 ? "no friction" : fmt::format("friction {}", three_digits(fit.value));
     const std::size_t before = causes_.size();
     if (broken_.size() == impacts_.size() || !(misfit(coulomb, fit.value, all()) > explained * worst_))
-      keep("friction", fit, fmt::format("{} ({} is asked) explains {}", words, shortest(asked), which()));
+      keep("friction", fit, fmt::format("{} ({} is asked) explains {}", words, shortest(asked), which()), coulomb);
     if (causes_.size() > before || add_friction_that_pushes(asked) || !reference_.is_planar) return;
     const Change ratio = [](Reference&, DeclaredLaw& law, double value) {
       law.is_moreau = false;

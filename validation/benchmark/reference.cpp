@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <exception>
+#include <stdexcept>
 #include <utility>
 
 #include "analytic/base/errors.hpp"
@@ -183,10 +184,34 @@ std::vector<TruthRow> discrete_truth(const Reference& reference, const auto& dro
   return rows;
 }
 
+/// An impulse of Newton's restitution and one of the cones that are not round, by projected Gauss-Seidel.
+/// @throws std::domain_error where that does not converge
+Vector3 cut_impulse(const space::Contact& contact, const DeclaredLaw& law) {
+  constexpr int most = 2000;
+  const space::Matrix3& inverse = contact.inverse_inertia;
+  const Vector3& start = contact.velocity;
+  Vector3 impulse = Vector3::Zero(), last = Vector3::Ones();
+  const auto solved = [&](int i) { return impulse[i] - (start + inverse * impulse)[i] / inverse(i, i); };
+  for (int i = 0; i < most && (impulse - last).norm() > 1e-15 * impulse.norm(); ++i) {
+    last = impulse;
+    impulse.z() = std::fmax(0, solved(2) - law.law.restitution * start.z() / inverse(2, 2));
+    const double bound = law.law.friction_value * impulse.z();
+    if (law.cone == Cone::pyramid) {
+      for (const int k : {0, 1}) impulse[k] = std::clamp(solved(k), -bound, bound);
+    } else {
+      const Eigen::Vector2d wanted(solved(0), solved(1));
+      impulse.head<2>() = wanted * std::fmin(1, bound / std::fmax(wanted.norm(), 1e-300));
+    }
+  }
+  if (!((impulse - last).norm() <= 1e-12 * impulse.norm())) throw std::domain_error("no impulse within the cone");
+  return impulse;
+}
+
 /// Moreau's impulse of one contact: Newton's restitution and Coulomb's cone for the velocity at the end; a negative
 /// coefficient of friction acts along the slip.
 /// @throws NumericalError if no direction of slip satisfies it.
-State moreau_map(const Reference& reference, const analytic::ImpactLaw& law, const State& before, int point) {
+State moreau_map(const Reference& reference, const DeclaredLaw& declared, const State& before, int point) {
+  const analytic::ImpactLaw& law = declared.law;
   const Vector3 arm = reference.arm(before.attitude, point), velocity = reference.velocity(before, point);
   State after = before;
   if (!(velocity.z() < 0)) return after;
@@ -194,7 +219,9 @@ State moreau_map(const Reference& reference, const analytic::ImpactLaw& law, con
   const space::Matrix3 inverse = turned * reference.body.inertia.inverse() * turned.transpose();
   const space::Contact contact{.inverse_inertia = space::inverse_contact_inertia(reference.body.mass, inverse, arm),
                                .velocity = velocity};
-  const Vector3 impulse = space::moreau_impulse(contact, law.friction_value, law.restitution).impulse;
+  const Vector3 impulse = declared.cone != Cone::round
+                              ? cut_impulse(contact, declared)
+                              : space::moreau_impulse(contact, law.friction_value, law.restitution).impulse;
   after.velocity += impulse / reference.body.mass;
   after.angular_velocity += inverse * arm.cross(impulse);
   return after;
@@ -280,6 +307,12 @@ Value truth_digits(const Problem& problem, const std::string& law) {
     all.push_back(std::move(row));
   }
   return all;
+}
+
+double enough_time(const Problem& problem) {
+  double last = 0;
+  for (const std::string& law : truth_laws(problem)) last = std::fmax(last, truth_of(problem, law).back().time);
+  return problem.until.value_or(rounded_up(1.2 * last + 0.05));
 }
 
 std::string oracle_of(const Problem& problem) {
@@ -455,7 +488,7 @@ Reference reference_of(const Scene& scene) {
 
 State exact_map(const Reference& reference, const DeclaredLaw& law, const State& before,
                 const std::vector<int>& points) {
-  if (law.is_moreau && points.size() == 1) return moreau_map(reference, law.law, before, points.front());
+  if (law.is_moreau && points.size() == 1) return moreau_map(reference, law, before, points.front());
   if (reference.is_planar && points.size() == 2) {
     const auto arm = [&](int point) { return reference.arm(before.attitude, point); };
     if (const auto flat = flat_map(reference, law.law, before, arm(points[0]), arm(points[1]))) return *flat;

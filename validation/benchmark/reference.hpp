@@ -66,14 +66,23 @@ struct Problem : Terms {
 [[nodiscard]] std::vector<TruthRow> truth_of(const Problem& problem, const std::string& law);
 /// The file's digits of t, Px, Py, Pz, Vx, Vy, Vz, Wx, Wy, Wz and duration by their names, row by row.
 [[nodiscard]] Value truth_digits(const Problem& problem, const std::string& law);
+/// How long after the first touch a motion must go on at least to have all that is asked for, by any law: Terms::until,
+/// otherwise a fifth beyond the last impact and 0.05 s [s].
+[[nodiscard]] double enough_time(const Problem& problem);
 /// What gave the truth, in words.
 [[nodiscard]] std::string oracle_of(const Problem& problem);
+
+/// What bounds friction by Moreau's law: Coulomb's cone, a pyramid with sides along x and y, or the cone with the
+/// impulse brought back to it after steps 1/W_xx and 1/W_yy of projected Gauss-Seidel, which are not alike along x and
+/// y.
+enum class Cone { round, pyramid, unequal };
 
 /// A law of impact that a run may declare.
 struct DeclaredLaw {
   std::string name;  ///< "newton routh", …; "any" where the laws agree
   analytic::ImpactLaw law;
   bool is_moreau = false;  ///< Newton's e and Coulomb's cone at the end of the impact, instead of along it
+  Cone cone = Cone::round;
 
   [[nodiscard]] bool is_named(const std::string& other) const { return name == other || name == "any"; }
 };

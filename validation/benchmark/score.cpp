@@ -160,15 +160,21 @@ void explain(Score& score, double tolerance, double time) {
   };
   add(score.start_error,
       "the run does not start as the problem says" + (score.start_words.empty() ? "" : ": " + score.start_words));
-  for (std::size_t i = 0; i < std::min(score.impacts.size(), score.expected); ++i) {
-    const ImpactScore& one = score.impacts[i];
-    if (one.law_error <= tolerance) continue;
-    add(one.law_error, fmt::format("{} does not follow the law{}", impact_words(score, i),
-                                   std::isfinite(one.law_error) ? ""
-                                   : one.place == "?"           ? ": no point of the body explains its jump"
-                                                                : ", which has no answer there"));
-    break;
-  }
+  const auto tell_law = [&] {
+    for (std::size_t i = 0; i < std::min(score.impacts.size(), score.expected); ++i) {
+      const ImpactScore& one = score.impacts[i];
+      if (one.law_error <= tolerance) continue;
+      add(one.law_error, fmt::format("{} does not follow the law{}", impact_words(score, i),
+                                     std::isfinite(one.law_error) ? ""
+                                     : one.place == "?"           ? ": no point of the body explains its jump"
+                                                                  : ", which has no answer there"));
+      break;
+    }
+  };
+  // What a step leaves of the law is small beside what else it does, and comes last.
+  constexpr double least_part = 0.05;
+  const bool is_law_first = !(score.law_error <= least_part * score.motion_error());
+  if (is_law_first) tell_law();
   for (std::size_t i = 0; i + 1 < score.impacts.size(); ++i) {
     const ImpactScore &one = score.impacts[i], &next = score.impacts[i + 1];
     if (one.pair.empty() || one.pair != next.pair || one.first_line != next.first_line) continue;
@@ -196,6 +202,7 @@ void explain(Score& score, double tolerance, double time) {
     }
     if (score.findings.size() != before) break;
   }
+  if (!is_law_first) tell_law();
 }
 
 template <class Judge>
@@ -259,8 +266,7 @@ class Flights {
           const std::vector<FoundImpact>& impacts, bool has_ended)
       : motion_(motion), reference_(reference), sequence_(sequence), impacts_(impacts), has_ended_(has_ended) {}
 
-  /// By flights whose places run ahead by this velocity [m/s].
-  void run_ahead(const Vector3& creep) { creep_ = creep; }
+  void fly_by(const Flying& flying) { flying_ = flying; }
 
   void score(Score& score) {
     energy_ = reference_.energy(reference_.start);
@@ -300,19 +306,21 @@ class Flights {
   struct Away {
     double place = 0, by_velocity = 0;  ///< [m]
   };
-  [[nodiscard]] Away away(const space::FreeFlight& flight, std::size_t from, std::size_t row) const {
-    const double time = motion_.time(row) - motion_.time(from);
-    const State flown = flight.at(time), given = motion_.state(row);
-    return {worse((flown.position + time * creep_ - given.position).norm(),
-                  way_of_turn(reference_, flown.attitude, given.attitude)),
+  [[nodiscard]] Away away(const State& flown, std::size_t row) const {
+    const State given = motion_.state(row);
+    return {worse((flown.position - given.position).norm(), way_of_turn(reference_, flown.attitude, given.attitude)),
             speed_between(reference_, flown, given) * (motion_.time(row) - motion_.time(row - 1))};
   }
 
   void follow_rows(std::size_t from, std::size_t to, Score& score, std::size_t n) const {
     const space::FreeFlight flight = reference_.flight(motion_.state(from));
     std::vector<double> away(to - from + 1);  // of each row
+    State flown = motion_.state(from);
     for (std::size_t row = from + 1; row <= to; ++row) {
-      const Away off = this->away(flight, from, row);
+      const double time = motion_.time(row) - motion_.time(from);
+      if (flying_.turning == Turning::free) flown = flight.at(time), flown.position += time * flying_.creep;
+      else flown = validation::flown(reference_, flown, motion_.time(row) - motion_.time(row - 1), flying_);
+      const Away off = this->away(flown, row);
       away[row - from] = worse(off.place, off.by_velocity);
     }
     const auto worst = std::max_element(away.begin(), away.end());
@@ -322,8 +330,9 @@ class Flights {
     const std::size_t at = from + first;
     while (first > 0 && away[first - 1] > nearly_on * *worst) --first;
     while (last + 1 < away.size() && away[last + 1] > nearly_on * *worst) ++last;
-    const State flown = flight.at(motion_.time(at) - motion_.time(from)), given = motion_.state(at);
-    const Away off = this->away(flight, from, at);
+    flown = flight.at(motion_.time(at) - motion_.time(from));
+    const State given = motion_.state(at);
+    const Away off = this->away(flown, at);
     const std::string size = off.by_velocity > off.place ? velocity_words(reference_, flown, given)
                                                          : difference_words(reference_, flown, given);
     const bool has_end = last + 1 < away.size();
@@ -409,7 +418,7 @@ class Flights {
   const ReferenceSequence& sequence_;
   const std::vector<FoundImpact>& impacts_;
   bool has_ended_;
-  Vector3 creep_ = Vector3::Zero();
+  Flying flying_{};
   double energy_ = 1;
 };
 
@@ -557,11 +566,42 @@ Score score_motion(const Motion& motion, const Reference& reference, const std::
   });
 }
 
-double flight_error_with(const Vector3& creep, const Motion& motion, const Reference& reference,
+State flown(const Reference& reference, const State& from, double time, const Flying& by) {
+  if (by.turning == Turning::free) {
+    State to = reference.flight(from).at(time);
+    to.position += time * by.creep;
+    return to;
+  }
+  State to = from;
+  to.position += time * (from.velocity + by.creep + time / 2 * reference.pull());
+  to.velocity += time * reference.pull();
+  space::Quaternion turn = from.attitude;
+  Vector3 rate = from.angular_velocity;
+  const space::Matrix3& inertia = reference.body.inertia;
+  const Vector3 momentum = turn * (inertia * (turn.conjugate() * rate));
+  const double last_digits = 1e-6 * by.step;
+  for (double left = time; std::fabs(left) > last_digits;) {
+    const double step = std::fabs(left - by.step) <= last_digits ? left : std::fmin(left, by.step);
+    left -= step;
+    const Vector3 spin = turn.conjugate() * rate;
+    const Vector3 next = rate - step * (turn * (inertia.inverse() * spin.cross(inertia * spin)));
+    const Vector3 half = step / 2 * (by.turning == Turning::by_new ? next : rate);
+    const double size = half.norm(), along = by.is_on_sphere && size > 0 ? std::sin(size) / size : 1;
+    space::Quaternion change(by.is_on_sphere ? std::cos(size) : 1, 0, 0, 0);
+    change.vec() = along * half;
+    turn = (change * turn).normalized();
+    rate = by.turning == Turning::by_momentum ? turn * (inertia.inverse() * (turn.conjugate() * momentum)) : next;
+  }
+  to.attitude = turn;
+  to.angular_velocity = rate;
+  return to;
+}
+
+double flight_error_with(const Flying& flying, const Motion& motion, const Reference& reference,
                          const ReferenceSequence& sequence, const std::vector<FoundImpact>& impacts) {
   Score score;
   Flights flights(motion, reference, sequence, impacts, false);
-  flights.run_ahead(creep);
+  flights.fly_by(flying);
   flights.score(score);
   return score.flight_error;
 }

@@ -110,11 +110,28 @@ struct Ending {
 /// The scores of a motion.  Without a declared law (empty) the one that fits best.
 [[nodiscard]] Score score_motion(const Motion& motion, const Reference& reference, const std::string& law,
                                  const Ending& ending = {});
-/// Score::flight_error of a motion whose places run ahead of free flight's by a constant velocity, `creep` [m/s].
+/// How a code turns in steps of Δt: as free bodies do, or by Euler's method.
+enum class Turning {
+  free,
+  by_new,       ///< ω' = ω − I⁻¹(ω × Iω) Δt, and attitudes by ω'
+  by_old,       ///< the same, and attitudes by ω
+  by_momentum,  ///< attitudes by ω, and ω' from the angular momentum, which stays
+};
+
+/// How a code flies.
+struct Flying {
+  /// By which places run ahead of free flight's [m/s].
+  analytic::space::Vector3 creep = analytic::space::Vector3::Zero();
+  Turning turning = Turning::free;
+  double step = 0;           ///< of the turning [s]
+  bool is_on_sphere = true;  ///< whether Euler parameters turn by an angle, or by a way that is then made of length 1
+};
+[[nodiscard]] analytic::space::State flown(const Reference& reference, const analytic::space::State& from, double time,
+                                           const Flying& by);
+/// Score::flight_error of a motion that flies so.
 /// @param impacts all of the motion
-[[nodiscard]] double flight_error_with(const analytic::space::Vector3& creep, const Motion& motion,
-                                       const Reference& reference, const ReferenceSequence& sequence,
-                                       const std::vector<FoundImpact>& impacts);
+[[nodiscard]] double flight_error_with(const Flying& flying, const Motion& motion, const Reference& reference,
+                                       const ReferenceSequence& sequence, const std::vector<FoundImpact>& impacts);
 /// The scores of a list of impacts; no score of flight and start.  Where the problem says until when nothing more
 /// strikes, the list must say that nothing does; where it asks for an energy, its own.
 [[nodiscard]] Score score_list(const std::vector<FoundImpact>& impacts, const Reference& reference,

@@ -110,6 +110,10 @@ Value group_value(const SubmissionGroup& group) {
   value["verdict"] = verdict_name(group.verdict);
   value["order"] = group.order ? Value(group.order->value) : Value();
   value["order_error"] = group.order ? error_or_nothing(*group.order) : Value();
+  value["causes"] = Value::List{};
+  for (const auto& [name, count] : group.causes)
+    value["causes"].push_back(Value::Fields{{"cause", name}, {"files", static_cast<long long>(count)}});
+  value["unexplained"] = rounded_up(group.unexplained);
   for (const SubmissionGroup::Step& step : group.steps) {
     Value one;
     one["step"] = step.step ? Value(*step.step) : Value();
@@ -196,6 +200,22 @@ std::string group_words(const SubmissionGroup& group) {
                              significant(*shortest.step, 3), off(shortest), unknown);
 }
 
+/// "causes: time-step in 24 of 24 files, first-order-step in 20; with all of them mended V and Ω are off by 3e-5"
+std::string group_causes(const SubmissionGroup& group) {
+  std::string words = "causes";
+  for (const std::string& part : {group.head.problem, group.head.engine, group.head.settings})
+    words += (part.empty() ? "" : words == "causes" ? " in " : ", ") + part;
+  std::string separator = ": ";
+  for (const auto& [name, count] : group.causes) {
+    words += separator + fmt::format("{} in {}", name, count);
+    if (separator == ": ") words += fmt::format(" of {} files", group.files);
+    separator = ", ";
+  }
+  if (std::isfinite(group.unexplained))
+    words += "; with all of them mended V and Ω are off by " + error_words(group.unexplained) + " at most";
+  return words;
+}
+
 /// The likely cause, and how much of the error of V, Ω and t would go without it: "time-step (91 %)".
 std::string short_reason(const Submission& one) {
   if (one.causes.empty()) return "";
@@ -276,9 +296,11 @@ void add_steps(const SubmissionGroup& group, double curve, PicturePanel& panel) 
   }
   std::string name = group.head.problem;
   for (const std::string& part : {group.head.engine, group.head.settings}) name += (part.empty() ? "" : " ") + part;
+  if (group.order) name += fmt::format(": order of the mean {:.2f}", group.order->value);
+  if (group.incomplete > 0) name += fmt::format(", {} of {} files incomplete", group.incomplete, group.files);
   panel.plot.curves.push_back({.x = "step",
                                .y = "error",
-                               .legend = name + (group.order ? fmt::format(": order {:.2f}", group.order->value) : ""),
+                               .legend = name,
                                .style = FigureCurve::Style::line_points,
                                .where = {{"curve", curve}}});
 }
@@ -375,6 +397,7 @@ Report score_report(const std::string& command, const std::vector<Submission>& s
   for (const SubmissionGroup& group : group_submissions(submissions)) {
     problems.push_back(group_value(group));
     if (submissions.size() > 1) report.notes.push_back(group_words(group));
+    if (group.files > 1 && !group.causes.empty()) report.notes.push_back(group_causes(group));
   }
   report.fields["verdict"] = verdict_name(worst);
   report.fields["files"] = std::move(files);
@@ -425,12 +448,12 @@ Picture score_picture(const std::vector<Submission>& submissions) {
     panel.columns[1] = {"step", "s", "of time"};
     panel.columns[2].quantity = "the largest of V, Ω and t";
     panel.plot.x_label = "step [s]";
-    panel.plot.y_label = "largest error of V, Ω and t, relative";
+    panel.plot.y_label = "error of V, Ω and t, relative, of the worst start";
     panel.plot.y = {};
     for (std::size_t i = 0; i < groups.size(); ++i) add_steps(groups[i], static_cast<double>(i), panel);
     panel.plot.curves.push_back({.x = "step",
                                  .y = "error",
-                                 .legend = "at 1: impacts of a file wrong, missing or extra",
+                                 .legend = "at 1: impacts of a file wrong, missing, extra or cut off",
                                  .style = FigureCurve::Style::crosses,
                                  .where = {{"curve", wrong_impacts}},
                                  .colour = ink});

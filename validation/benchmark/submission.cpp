@@ -8,6 +8,7 @@
 #include <functional>
 #include <map>
 #include <numbers>
+#include <set>
 #include <sstream>
 #include <utility>
 #include <variant>
@@ -309,6 +310,21 @@ std::optional<Estimated> observed_order(const std::vector<SubmissionGroup::Step>
   return order;
 }
 
+void add_causes(const Submission& one, SubmissionGroup& group) {
+  std::set<std::string> names;  // either of two causes may have one name
+  for (const Cause& cause : one.causes) names.insert(cause.name);
+  for (const std::string& name : names) {
+    const auto found = std::ranges::find(group.causes, name, [](const auto& cause) { return cause.first; });
+    if (found == group.causes.end()) group.causes.emplace_back(name, 1);
+    else ++found->second;
+  }
+  const bool is_right = one.causes.empty() && one.verdict <= Verdict::sharp;
+  if (!is_right)
+    group.unexplained =
+        worse(group.unexplained,
+              one.causes.empty() ? Score::unknown : one.causes.front().unexplained.value_or(Score::unknown));
+}
+
 }  // namespace
 
 std::string read_law(const std::string& where, const std::string& text) {
@@ -367,6 +383,9 @@ std::vector<SubmissionGroup> group_submissions(const std::vector<Submission>& su
     SubmissionGroup& group = *found;
     group.head = head;
     group.verdict = std::max(group.verdict, one.verdict);
+    ++group.files;
+    group.incomplete += one.verdict == Verdict::incomplete || one.score.ends_early ? 1 : 0;
+    add_causes(one, group);
     auto step = std::find_if(group.steps.begin(), group.steps.end(),
                              [&](const SubmissionGroup::Step& other) { return other.step == head.step; });
     if (step == group.steps.end()) step = group.steps.insert(step, {.step = head.step});
@@ -380,6 +399,7 @@ std::vector<SubmissionGroup> group_submissions(const std::vector<Submission>& su
   std::ranges::sort(groups, {}, [](const SubmissionGroup& group) { return group.head.group(); });
   for (SubmissionGroup& group : groups) {
     std::ranges::sort(group.steps, std::greater{}, [](const auto& one) { return one.step.value_or(0); });
+    std::ranges::stable_sort(group.causes, std::greater{}, [](const auto& one) { return one.second; });
     group.order = observed_order(group.steps);
   }
   return groups;

@@ -53,6 +53,9 @@ struct SubmissionGroup {
   /// scatter of the phases.
   std::optional<Estimated> order;
   Verdict verdict = Verdict::exact;  ///< of the worst file
+  std::size_t files = 0, incomplete = 0;
+  std::vector<std::pair<std::string, std::size_t>> causes{};  ///< in how many files each was found, the most first
+  double unexplained = 0;  ///< Cause::unexplained of the worst file; infinite: not known of each
 };
 
 /// "newton routh", "poisson, routh", "moreau", … as DeclaredLaw::name.  @throws BadInput beginning with `where`

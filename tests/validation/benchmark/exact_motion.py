@@ -40,9 +40,12 @@ class Asked:
         self.start = starts[min(gap_index, len(starts) - 1)]
         self.is_planar, self.touch = "phi" in self.start, self.start["first_touch"]
 
+    def until(self):
+        """The time up to which something is asked for; none where it is over with the last impact."""
+        return self.statement["until"] if self.statement["until_is_asked"] else None
+
     def end(self):
-        until = self.statement["until"]
-        return self.touch + (until if until else 1.02 * self.truth[-1]["t"] + 0.004)
+        return self.touch + (self.until() or 1.02 * self.truth[-1]["t"] + 0.004)
 
     def columns(self):
         return ("t,x,z,phi,vx,vz,omega" if self.is_planar else "t,x,y,z,q0,q1,q2,q3,vx,vy,vz,wx,wy,wz").split(",")

@@ -163,7 +163,7 @@ def a_row_late(code, rows):
 def truncated(share):
     def edit(code, rows):
         """Ends at a share of the time until the last impact asked for, or the end asked for."""
-        if share < 0 and not code.statement["until"] or share > 0 and len(code.truth) == 1:
+        if share < 0 and not code.until() or share > 0 and len(code.truth) == 1:
             return rows  # nothing that is asked for is cut off
         last = code.touch + code.truth[-1]["t"] if share > 0 else code.end()
         return [row for row in rows if row[0] <= max(last * abs(share), rows[1][0])]
@@ -294,7 +294,7 @@ def moved(code, a, b):
     if len(a) != len(b):
         return True
     last = code.truth[-1]["t"]
-    asked = code.touch + (last if code.statement["stays"] else code.statement["until"] or 1.2 * last)
+    asked = code.touch + (last if code.statement["stays"] else code.until() or 1.2 * last)
     count = sum(row[0] < asked for row in b) + 1  # to the first row after the last impact
     a, b = np.array(a[:count]), np.array(b[:count])
     places = 2 if code.is_planar else 3

@@ -26,7 +26,7 @@ class RigidCode(Asked):
         flat = {(end if end is not None and x > 0 > z else x, 0.0, z) for x, _, z in self.body.points}
         self.points = sorted(flat if self.is_planar else self.body.points)
         self.e, self.friction = scene["impact"]["restitution"], scene["impact"].get("friction") or 0.0
-        self.state = self.state_at_start()
+        self.state, self.solved = self.state_at_start(), moreau
         self.levers, self.count, self.gone = 1.0, 0, False
         self.speed = math.hypot(*self.state.velocity) + math.hypot(*self.state.omega) * self.size
 
@@ -57,13 +57,13 @@ class RigidCode(Asked):
         return None, []
 
     def impulse(self, state, arm):
-        """Newton's e and Coulomb's cone for the velocity after the impact."""
+        """Newton's e and Coulomb's cone for the velocity after the impact, unless it is solved otherwise."""
         turn = np.array([rotated(state.attitude, axis) for axis in np.eye(3)]).T
         inverse = turn @ np.linalg.inv(self.inertia) @ turn.T
         cross = np.array([[0, -arm[2], arm[1]], [arm[2], 0, -arm[0]], [-arm[1], arm[0], 0]])
         w = np.eye(3) / self.mass - cross @ inverse @ cross
         v = np.array(state.velocity) + np.cross(state.omega, arm)
-        return inverse, moreau(w, v, self.e, self.friction)
+        return inverse, self.solved(w, v, self.e, self.friction)
 
     def strike(self, state, points):
         arms = self.arms(state)
@@ -124,7 +124,8 @@ def struck(state, velocity, omega):
     return State(state.time, state.position, state.attitude, list(velocity), tuple(omega))
 
 
-def moreau(w, v, e, friction):
+def moreau(w, v, e, friction, weights=(1.0, 1.0)):
+    """Friction against the slip, of which each component counts by its weight."""
     jump = np.array([-v[0], -v[1], -(1 + e) * v[2]])
     sticking = np.linalg.solve(w, jump)
     if math.hypot(sticking[0], sticking[1]) <= friction * sticking[2]:
@@ -135,7 +136,7 @@ def moreau(w, v, e, friction):
         force = np.array([0.0, 0.0, 1.0]) - friction * along
         impulse = -(1 + e) * v[2] / (w @ force)[2] * force
         after = v + w @ impulse
-        return impulse, along @ after, along[0] * after[1] - along[1] * after[0]
+        return impulse, along @ after, along[0] * weights[1] * after[1] - along[1] * weights[0] * after[0]
 
     if friction == 0 or abs(v[1]) + abs(w[1, 0]) + abs(w[1, 2]) == 0:
         for angle in (0.0, math.pi):
