@@ -190,7 +190,11 @@ RegimeBoundary describe(const Sides& sides, ImpactNumber impact, const RodParame
   const ContactAngle& above = angle_of(sides.above, impact);
   const double theta = sides.below.theta.radians;
   RegimeBoundary boundary{.kind = kind_of(below, above), .theta = theta, .gamma = missing, .uncertainty = missing};
-  // At a fold the angle of closest approach is the double root itself, free of its square root error.
+  // At a fold the angle of closest approach is the double root itself, free of its square root error; below it the two
+  // roots are as close as that.
+  constexpr double close = 1e-3;
+  if (boundary.kind == BoundaryKind::fold && !(std::fabs(above.closest_angle - below.angle) <= close))
+    boundary.kind = BoundaryKind::stop;
   const double angle = boundary.kind == BoundaryKind::fold ? above.closest_angle : below.angle;
   boundary.beta = impact == ImpactNumber::second ? angle : sides.above.beta.angle;
   if (impact == ImpactNumber::third) boundary.gamma = angle;

@@ -72,6 +72,7 @@ enum class BoundaryKind {
   fold,     ///< the end touches with zero speed: a double root; then none, or one much later
   upright,  ///< the contact angle reaches 90°
   order,    ///< another contact comes first from here on
+  stop,     ///< the impact before leaves the rod at rest: with e = 0 it turns away beyond
   always,   ///< the impact happens up to 90°
   never,    ///< the impact does not happen for any θ
 };

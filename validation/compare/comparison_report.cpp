@@ -145,8 +145,9 @@ std::string cause_words(const Comparison& comparison) {
   const ComparedImpact& struck = impact->n > 1 ? comparison.impacts[static_cast<std::size_t>(impact->n - 2)] : *impact;
   std::string contact = fmt::format("contact {} lasts {} ms", struck.n, significant(1e3 * struck.contact_time, 3));
   if (impact->n > 1 && struck.discrete)
-    contact += fmt::format(" of the {} ms to the next in the discrete model",
-                           significant(1e3 * ((*impact->discrete)[0] - (*struck.discrete)[0]), 3));
+    contact += fmt::format(" of the {} ms to the next in the discrete model{}",
+                           significant(1e3 * ((*impact->discrete)[0] - (*struck.discrete)[0]), 3),
+                           comparison.as_given ? " with the mesh's corners" : "");
   return fmt::format("Why they differ on this ground: the largest difference, {} of impact {}, comes most from {}; {}.",
                      quantity.heading, impact->n, words, contact);
 }

@@ -393,6 +393,15 @@ Report angles_report(const AnglesRequest& request) {
   return report;
 }
 
+/// What the axis of angles goes to [°]: 90, or, where strong gravity leaves β and γ small, somewhat more than they are.
+double highest_angle(const std::vector<std::vector<double>>& curves) {
+  double highest = 0;
+  for (const std::vector<double>& row : curves) {
+    for (const std::size_t angle : {1U, 2U}) highest = std::fmax(highest, row[angle]);
+  }
+  return highest > 0 && highest < 45 ? 1.1 * highest : 90;
+}
+
 Picture angles_picture(const AnglesRequest& request) {
   const bool alone = request.count == 1, marked = request.count <= most_with_points;
   const Range2 range = range_of(request);
@@ -401,7 +410,7 @@ Picture angles_picture(const AnglesRequest& request) {
                     third = request.as_printed ? "" : narrow_windows(request, curves, true);
   PicturePanel angles{.columns = figure_columns(request),
                       .rows = with_marks(request, curves),
-                      .plot = {.y_label = "contact angle [°]", .x = range, .y = {0, 90}}};
+                      .plot = {.y_label = "contact angle [°]", .x = range, .y = {0, highest_angle(curves)}}};
   PicturePanel impulses{.columns = angles.columns,
                         .rows = angles.rows,
                         .plot = {.x_label = "contact angle θ of the first impact [°]",

@@ -79,6 +79,7 @@ const char* kind_name(BoundaryKind kind) {
     case BoundaryKind::fold: return "fold";
     case BoundaryKind::upright: return "upright";
     case BoundaryKind::order: return "order";
+    case BoundaryKind::stop: return "stop";
     case BoundaryKind::always: return "always";
     case BoundaryKind::never: return "never";
   }
@@ -130,8 +131,9 @@ Report report_of(const std::vector<Regimes>& all, const VariedQuantity& quantity
       "two below θ₂, from there on "
       "one.",
       "fold: the end grazes the ground; upright: it arrives at 90°; order: the end that struck last strikes again "
-      "first, an impact that is not counted. Past upright a later one may come, with gravity it does: clatter "
-      "sequence.",
+      "first, an impact that is not counted; stop: with e = 0 the impact before leaves the rod at rest. Past upright a "
+      "later "
+      "one may come, with gravity it does: clatter sequence.",
       "Above a fold or upright a window of θ may follow in which the impact comes again, as clatter angles shows; "
       "where "
       "the two join, the boundary leaps from one row to the next."};

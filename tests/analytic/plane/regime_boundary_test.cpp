@@ -66,6 +66,28 @@ BOOST_AUTO_TEST_CASE(with_strong_gravity_or_without_rebound_the_second_impact_en
   BOOST_TEST(plastic.uncertainty >= 0);
 }
 
+/// b stays down after its impact, which keeps the angular momentum about b: I Ω₁ + ½ m L cos β V₁, 0 there.
+BOOST_AUTO_TEST_CASE(without_rebound_the_third_impact_ends_where_the_second_stops_the_rod) {
+  const RodParameters plastic{.restitution = 0};
+  const RegimeBoundary b = regime_boundary(ImpactNumber::third, plastic);
+  BOOST_CHECK(b.kind == BoundaryKind::stop);
+  const double c = std::cos(b.theta), first = 1 / (1 + 3 * c * c);
+  const double velocity = first - 1, spin = 6 * c * first;  // of the centre, for L = |v_n| = 1
+  BOOST_TEST(std::fabs(spin / 12 + std::cos(b.beta) / 2 * velocity) <= 1e-12);
+  BOOST_TEST(degrees(b.gamma) < 1);
+}
+
+/// Rounding decides between the two kinds where the third is lost with the second.
+BOOST_AUTO_TEST_CASE(a_third_impact_that_is_lost_with_the_second_ends_as_that_does) {
+  for (double g = 9; g <= 11; g += 0.125) {
+    const RodParameters rod{.gravity_number = g};
+    const RegimeBoundary second = regime_boundary(ImpactNumber::second, rod),
+                         third = regime_boundary(ImpactNumber::third, rod);
+    BOOST_CHECK(second.kind == BoundaryKind::order && third.kind == second.kind);
+    BOOST_TEST(third.theta == second.theta);
+  }
+}
+
 BOOST_AUTO_TEST_CASE(the_impact_happens_just_below_a_boundary_and_not_just_above) {
   for (const double g : {0.0, 0.03, 0.5, 2.0, 20.0}) {
     const RodParameters rod{.gravity_number = g};
