@@ -81,9 +81,9 @@ def _probes(probe: str | Iterable[str] | Probes | None) -> list[str]:
 
 
 def _parts(part: str | Iterable[str] | Iterable[float] | None) -> list[str]:
-    parts = [part] if isinstance(part, str) else list(part or [])
+    parts: list[Any] = [part] if isinstance(part, str) else [*(part or [])]
     if parts and all(is_number(number) for number in parts):  # (500, 300): Hz and g
-        parts = [":".join(number_text(number) for number in parts)]  # type: ignore[arg-type]
+        parts = [":".join(number_text(number) for number in parts)]
     return [f"--part={text}" for text in parts]
 
 
