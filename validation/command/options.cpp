@@ -41,22 +41,10 @@ void write_out(const OutputChoice& choice, const std::string& text) {
   sink.commit();
 }
 
-namespace {
-
-thread_local CaughtReport* catching = nullptr;
-
-}  // namespace
-
-CaughtReport::CaughtReport() { catching = this; }
-CaughtReport::~CaughtReport() { catching = nullptr; }
-
 void write_report(const OutputChoice& choice, const Report& report) {
-  if (catching) {
-    catching->report_ = report;
-    return;
-  }
+  if (Caught<Report>::open) return Caught<Report>::open->all.push_back(report);
   const std::string text = report_text(report, choice.style);
-  const bool coloured = choice.style.format == Format::table && choice.path.empty() && shows_colours();
+  const bool coloured = choice.style.format == Format::table && choice.path.empty() && is_lively(STDOUT_FILENO);
   if (!coloured) return write_out(choice, text);
   Sink sink("");
   sink.write(with_colours(printable(text, Lines::kept)));
@@ -153,7 +141,7 @@ PictureFormat format_of(const std::string& file) {
   const std::string extension = path(file).extension().string();
   if (extension == ".svg") return PictureFormat::svg;
   if (extension == ".png") return PictureFormat::png;
-  throw BadInput(fmt::format("--plot {}: the name must end in .svg or .png", file));
+  throw BadInput("--plot {}: the name must end in .svg or .png", file);
 }
 
 }  // namespace
@@ -175,8 +163,7 @@ void add_window_option(Command& command, std::optional<TimeWindow>& window, cons
 
 std::vector<RunFile> plot_files(const PlotChoice& choice) {
   if (choice.path.empty()) {
-    if (choice.script)
-      throw BadInput(fmt::format("{}: needs --plot FILE, beside which the script is kept", script_option));
+    if (choice.script) throw BadInput("{}: needs --plot FILE, beside which the script is kept", script_option);
     return {};
   }
   std::vector<RunFile> files{{"--plot", choice.path}};

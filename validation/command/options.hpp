@@ -37,23 +37,7 @@ void check_files(const OutputChoice& choice, const std::vector<RunFile>& written
 /// Writes a finished text whole, foreign characters printable.
 void write_out(const OutputChoice& choice, const std::string& text);
 
-/// While such an object lives, write_report() leaves reports of this thread to it and writes nothing.
-class CaughtReport {
- public:
-  CaughtReport();
-  ~CaughtReport();
-  CaughtReport(const CaughtReport&) = delete;
-  CaughtReport& operator=(const CaughtReport&) = delete;
-
-  /// The last one.
-  [[nodiscard]] const std::optional<Report>& report() const { return report_; }
-
- private:
-  friend void write_report(const OutputChoice& choice, const Report& report);
-  std::optional<Report> report_;
-};
-
-/// Writes the report in the form that was asked for.
+/// Writes the report in the form that was asked for, or leaves it to a Caught<Report>.
 void write_report(const OutputChoice& choice, const Report& report);
 
 // A scene file and the flags that override its keys, for the commands that take one.

@@ -13,8 +13,8 @@
 #include "validation/output/number.hpp"
 #include "validation/output/picture.hpp"
 #include "validation/run/discrete_scene.hpp"
+#include "validation/run/scene_value.hpp"
 #include "validation/run/shortfall.hpp"
-#include "validation/run/swept_column.hpp"
 #include "validation/scene/failure.hpp"
 
 namespace clatter::validation {

@@ -11,7 +11,6 @@
 #include "validation/output/number.hpp"
 #include "validation/run/discrete_scene.hpp"
 #include "validation/run/scene_value.hpp"
-#include "validation/run/swept_column.hpp"
 #include "validation/scene/body_properties.hpp"
 #include "validation/scene/facet_words.hpp"
 

@@ -60,7 +60,7 @@ Value sequence(NamedTexts texts) {
 
 Value explain(NamedTexts texts) {
   const int n = read_integer_option("impact", taken(texts, "impact"), 1, 1'000'000);
-  return explanation_fields(explain_impact(discrete_scene(texts), n));
+  return explanation_report(explain_impact(discrete_scene(texts), n)).fields;
 }
 
 Value angles(NamedTexts texts) {

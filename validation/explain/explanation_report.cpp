@@ -14,7 +14,6 @@
 #include "validation/output/bad_input.hpp"
 #include "validation/output/number.hpp"
 #include "validation/output/symbols.hpp"
-#include "validation/output/version.hpp"
 #include "validation/run/scene_value.hpp"
 #include "validation/run/shortfall.hpp"
 #include "validation/scene/body_properties.hpp"
@@ -158,12 +157,9 @@ std::string as_latex(const Explanation& explanation, const std::vector<std::stri
 /// A number, a list of components, or of rows.
 Value value_of(const Eigen::MatrixXd& matrix) {
   if (matrix.size() == 1) return matrix(0, 0);
+  if (matrix.cols() == 1) return Value(Eigen::VectorXd(matrix));
   Value::List rows;
-  for (Eigen::Index i = 0; i < matrix.rows(); ++i) {
-    const Eigen::VectorXd row = matrix.row(i);
-    if (matrix.cols() == 1) rows.emplace_back(row(0));
-    else rows.emplace_back(std::vector<double>(row.begin(), row.end()));
-  }
+  for (Eigen::Index i = 0; i < matrix.rows(); ++i) rows.emplace_back(Eigen::VectorXd(matrix.row(i)));
   return rows;
 }
 
@@ -199,9 +195,7 @@ int run_explain(const ExplainInput& input) {
   const Explanation explanation = explain_impact(scene, input.number);
   for (const std::string& warning : explanation.warnings) say(warning);
   write_out(input.output, explanation_text(explanation, input.output.style));
-  if (explanation.shortfall.empty()) return 0;
-  say(explanation.shortfall);
-  return explanation.shortfall_status;
+  return status_of(explanation.shortfall, explanation.shortfall_status);
 }
 
 }  // namespace
@@ -339,6 +333,8 @@ void write_energy(StepWriter& writer, const Words& words, const Energies& energi
   writer.found(energies.loss_value, energies.loss, {"energy that the impact took, the difference of both"});
 }
 
+namespace {
+
 std::vector<Column> explain_columns() {
   return {{"step", "", "", "title of the step"},
           {"quantity", "", "", "name of the number"},
@@ -349,7 +345,7 @@ std::vector<Column> explain_columns() {
           {"error", "", "", "of the value"}};
 }
 
-Value explanation_fields(const Explanation& explanation) {
+Value steps_value(const Explanation& explanation) {
   const int digits = std::max(explanation.scene.accuracy.digits, 6);  // a drawing of few digits still tells its numbers
   const FormulaWriter text(Notation::text, digits), tex(Notation::tex, digits);
   Value::List steps;
@@ -361,19 +357,17 @@ Value explanation_fields(const Explanation& explanation) {
     steps.push_back(Value::Fields{
         {"title", step.title}, {"text", text.words(step.words)}, {"laws", laws}, {"equations", equations}});
   }
-  return Value::Fields{{"clatter", version},
-                       {"model", "discrete"},
-                       {"scene", scene_value(explanation.scene, Model::discrete, explanation.approach_speed)},
-                       {"body", body_value(explanation.scene, Model::discrete)},
-                       {"impact", explanation.impact},
-                       {"shortfall", text_or_nothing(explanation.shortfall)},
-                       {"steps", steps}};
+  return steps;
 }
 
+}  // namespace
+
 Report explanation_report(const Explanation& explanation) {
-  Report report = begun_report("explain", fmt::format("impact {} step by step", explanation.impact));
-  report.head = scene_head(explanation.scene, Model::discrete, explanation.approach_speed);
-  report.fields = explanation_fields(explanation);
+  Report report = scene_report("explain", fmt::format("impact {} step by step", explanation.impact), "discrete",
+                               explanation.scene, Model::discrete, explanation.approach_speed);
+  report.fields["impact"] = explanation.impact;
+  report.fields["shortfall"] = text_or_nothing(explanation.shortfall);
+  report.fields["steps"] = steps_value(explanation);
   report.grid.columns = explain_columns();
   const FormulaWriter writer(Notation::text, explanation.scene.accuracy.digits);
   for (const Step& step : explanation.steps) {
@@ -394,8 +388,7 @@ Report explanation_report(const Explanation& explanation) {
 
 std::string explanation_text(const Explanation& explanation, const TextStyle& style) {
   const Report report = explanation_report(explanation);
-  std::vector<std::string> head{report.title};
-  head.insert(head.end(), report.head.begin(), report.head.end());
+  const std::vector<std::string> head = head_lines(report);
   switch (style.format) {
     case Format::markdown: return as_markdown(explanation, head);
     case Format::latex: return as_latex(explanation, head);

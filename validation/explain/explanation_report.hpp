@@ -30,11 +30,9 @@ struct Explanation {
 /// @throws as analytic::impact_sequence and analytic::space::impact_sequence
 [[nodiscard]] Explanation explain_impact(const PreparedScene& prepared, int n);
 
-[[nodiscard]] std::vector<Column> explain_columns();
-/// All of its JSON.  Of an equation: `symbolic` and `numeric` are text, `tex` is lines of an aligned environment; the
-/// value of a vector is a list of its components, of a matrix a list of its rows.
-[[nodiscard]] Value explanation_fields(const Explanation& explanation);
-/// A row for each equation, of a vector or matrix for each component.
+/// A row for each equation, of a vector or matrix for each component.  In JSON `symbolic` and `numeric` of an equation
+/// are text, `tex` is lines of an aligned environment; the value of a vector is a list of its components, of a matrix a
+/// list of its rows.
 [[nodiscard]] Report explanation_report(const Explanation& explanation);
 /// In any format: tables, Markdown and LaTeX have the steps as text with equations.
 [[nodiscard]] std::string explanation_text(const Explanation& explanation, const TextStyle& style);

@@ -5,7 +5,6 @@
 #include <cstdio>
 #include <numeric>
 
-#include "validation/output/said.hpp"
 #include "validation/output/symbols.hpp"
 
 namespace clatter::validation {
@@ -26,8 +25,6 @@ std::size_t edit_distance(const std::string& from, const std::string& to) {
   return row.back();
 }
 
-thread_local CaughtWords* listening = nullptr;
-
 }  // namespace
 
 std::string nearest_name(const std::string& name, const std::vector<std::string>& candidates) {
@@ -41,11 +38,8 @@ std::string nearest_name(const std::string& name, const std::vector<std::string>
   return nearest == candidates.end() ? std::string() : *nearest;
 }
 
-CaughtWords::CaughtWords() { listening = this; }
-CaughtWords::~CaughtWords() { listening = nullptr; }
-
 void say(const std::string& words) {
-  if (listening) return listening->words_.push_back(words);
+  if (Caught<std::string>::open) return Caught<std::string>::open->all.push_back(words);
   std::string line = words;
   std::replace(line.begin(), line.end(), '\n', ' ');
   line = "clatter: " + printable(line) + "\n";

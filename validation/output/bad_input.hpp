@@ -2,6 +2,8 @@
 // Words to the user, on stderr; what was given and cannot be used: one line, exit status 2.
 #pragma once
 
+#include <fmt/format.h>
+
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -11,10 +13,28 @@ namespace clatter::validation {
 class BadInput : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
+  /// Words with what was given put in.
+  template <class... Given>
+  requires(sizeof...(Given) > 0) explicit BadInput(fmt::format_string<Given...> words, Given&&... given)
+      : std::runtime_error(fmt::format(words, std::forward<Given>(given)...)) {}
 };
 
 /// The candidate nearest to `name` by edit distance, of those that have it as a part if there are any.
 [[nodiscard]] std::string nearest_name(const std::string& name, const std::vector<std::string>& candidates);
+
+/// While such an object lives, what comes up in its thread is kept here in place of being written: the words of say(),
+/// or the reports of write_report().  One at a time in a thread.
+template <class What>
+class Caught {
+ public:
+  Caught() { open = this; }
+  ~Caught() { open = nullptr; }
+  Caught(const Caught&) = delete;
+  Caught& operator=(const Caught&) = delete;
+
+  std::vector<What> all;
+  static inline thread_local Caught* open = nullptr;
+};
 
 /// Writes "clatter: WORDS" as one line, foreign characters printable.  Nobody may be there to read (stderr closed, full
 /// or hung up), which changes neither the run nor its status.

@@ -41,9 +41,7 @@ std::string html_escaped(const std::string& text) {
 
 std::string html_table(const Report& report) {
   const Grid& table = report.table();
-  std::vector<std::string> head{report.title};
-  head.insert(head.end(), report.head.begin(), report.head.end());
-  std::string out = paragraphs(head) + "<table>\n<thead><tr>";
+  std::string out = paragraphs(head_lines(report)) + "<table>\n<thead><tr>";
   for (const Column& column : table.columns) {
     if (column.shown) out += heading(column);
   }

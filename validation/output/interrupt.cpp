@@ -73,9 +73,9 @@ CooperativeInterrupt::CooperativeInterrupt() { cooperative = true; }
 CooperativeInterrupt::~CooperativeInterrupt() { cooperative = false; }
 bool CooperativeInterrupt::requested() const { return requested_flag; }
 
-bool shows_progress() {
+bool is_lively(int stream) {
   const char* const terminal = std::getenv("TERM");
-  return isatty(STDERR_FILENO) == 1 && std::getenv("NO_COLOR") == nullptr && terminal != nullptr &&
+  return isatty(stream) == 1 && std::getenv("NO_COLOR") == nullptr && terminal != nullptr &&
          std::string_view(terminal) != "dumb";
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <signal.h>
+#include <unistd.h>
 
 #include <string>
 #include <vector>
@@ -44,8 +45,10 @@ class CooperativeInterrupt {
 void remove_on_interrupt(const std::string& path);
 void keep_on_interrupt(const std::string& path);
 
-/// Whether progress may be shown: stderr is a terminal that moves its cursor, and NO_COLOR is not set.
-[[nodiscard]] bool shows_progress();
+/// Whether this is a terminal that knows colours and moves its cursor, and NO_COLOR is not set.
+[[nodiscard]] bool is_lively(int stream);
+/// Whether progress may be shown, on stderr.
+[[nodiscard]] inline bool shows_progress() { return is_lively(STDERR_FILENO); }
 
 /// Status of an interrupted run.
 inline constexpr int interrupted_status = 130;

@@ -52,41 +52,29 @@ class Writer {
 
  private:
   void write_list(const List& list) {
-    if (list.empty()) {
-      out_ += "[]";
-      return;
-    }
-    bool flat = true;
-    for (const Value& item : list) flat = flat && !is_structured(item);
-    const bool lines = indented_ && !flat;
-    out_ += '[';
-    ++depth_;
-    for (std::size_t i = 0; i < list.size(); ++i) {
-      if (i > 0) out_ += lines || !indented_ ? "," : ", ";
-      if (lines) begin_line();
-      write(list[i]);
-    }
-    --depth_;
-    if (lines) begin_line();
-    out_ += ']';
+    const bool lines = indented_ && std::ranges::any_of(list, is_structured);
+    write_all("[]", list, lines, lines || !indented_ ? "," : ", ", [&](const Value& item) { write(item); });
   }
 
   void write_fields(const Fields& fields) {
-    if (fields.empty()) {
-      out_ += "{}";
-      return;
-    }
-    out_ += '{';
+    write_all("{}", fields, indented_, ",", [&](const Field& field) {
+      out_ += quoted(field.name) + (indented_ ? ": " : ":");
+      write(field.value);
+    });
+  }
+
+  /// Items between brackets, on lines of their own or not.
+  void write_all(const char* brackets, const auto& items, bool lines, const char* between, const auto& write_item) {
+    out_ += brackets[0];
     ++depth_;
-    for (std::size_t i = 0; i < fields.size(); ++i) {
-      if (i > 0) out_ += ',';
-      if (indented_) begin_line();
-      out_ += quoted(fields[i].name) + (indented_ ? ": " : ":");
-      write(fields[i].value);
+    for (const auto& item : items) {
+      if (&item != &items.front()) out_ += between;
+      if (lines) begin_line();
+      write_item(item);
     }
     --depth_;
-    if (indented_) begin_line();
-    out_ += '}';
+    if (lines && !items.empty()) begin_line();
+    out_ += brackets[1];
   }
 
   bool indented_;

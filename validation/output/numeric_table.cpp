@@ -20,6 +20,12 @@
 namespace clatter::validation {
 namespace {
 
+/// The separator of a header: the first of , ; tab in it, or a comma.
+char separator_of(std::string_view header) {
+  const std::size_t at = header.find_first_of(",;\t");
+  return at == std::string_view::npos ? ',' : header[at];
+}
+
 Cell read_cell(const CsvField& field) {
   const std::string text(field.text);
   double number = 0;
@@ -47,6 +53,13 @@ std::string_view without_byte_order_mark(std::string_view text) {
   return text.starts_with(mark) ? text.substr(mark.size()) : text;
 }
 
+std::vector<std::string_view> lines_of(std::string_view text) {
+  std::vector<std::string_view> lines;
+  for (std::size_t begin = 0; begin < text.size(); begin += lines.back().size() + 1)
+    lines.push_back(text.substr(begin, text.find('\n', begin) - begin));
+  return lines;
+}
+
 std::string shown_field(std::string_view field) {
   constexpr std::size_t longest = 40;
   std::string text(field.substr(0, longest));
@@ -54,11 +67,6 @@ std::string shown_field(std::string_view field) {
     if (c < ' ' || c > '~') c = '?';
   }
   return text.empty() ? "(empty)" : text + (field.size() > longest ? "..." : "");
-}
-
-char separator_of(std::string_view header) {
-  const std::size_t at = header.find_first_of(",;\t");
-  return at == std::string_view::npos ? ',' : header[at];
 }
 
 bool CsvLine::next(CsvField& field) {
@@ -90,10 +98,7 @@ void CsvLine::read_quoted(std::size_t start, CsvField& field) {
 
 std::vector<Row> read_csv_rows(const std::string& text) {
   std::vector<Row> rows;
-  for (std::size_t begin = 0; begin < text.size();) {
-    const std::size_t end = std::min(text.find('\n', begin), text.size());
-    const std::string_view line = std::string_view(text).substr(begin, end - begin);
-    begin = end + 1;
+  for (const std::string_view line : lines_of(text)) {
     if (line.starts_with("#")) continue;
     Row& row = rows.emplace_back();
     CsvLine fields(line, ',');
@@ -125,8 +130,8 @@ ColumnNames read_column_names(const std::string& option, const std::string& text
     const std::string name(trimmed(pair.substr(0, equals)));
     const std::string column(equals == std::string::npos ? "" : trimmed(pair.substr(equals + 1)));
     if (name.empty() || column.empty())
-      throw BadInput(fmt::format("{}: {}: must be NAME=COLUMN, more of them after a comma", option, shown_field(pair)));
-    if (!names.emplace(name, column).second) throw BadInput(fmt::format("{}: {} is given twice", option, name));
+      throw BadInput("{}: {}: must be NAME=COLUMN, more of them after a comma", option, shown_field(pair));
+    if (!names.emplace(name, column).second) throw BadInput("{}: {} is given twice", option, name);
   }
   if (names.empty()) throw BadInput(option + ": (empty): must be NAME=COLUMN, more of them after a comma");
   return names;
@@ -140,13 +145,11 @@ class NumericTable::Parser {
   void parse() {
     check_names();
     const std::string_view text = table_.text_;
-    std::size_t offset = text.size() - without_byte_order_mark(text).size();
-    lines_ = static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n')) + 1;
-    while (offset < text.size()) {
-      const std::size_t end = std::min(text.find('\n', offset), text.size());
+    const std::vector<std::string_view> lines = lines_of(without_byte_order_mark(text));
+    lines_ = lines.size();
+    for (const std::string_view line : lines) {
       ++line_;
-      take(text.substr(offset, end - offset), offset);
-      offset = end + 1;
+      take(line, static_cast<std::size_t>(line.data() - text.data()));
     }
     if (table_.kind_.empty()) throw BadInput(table_.path_ + ": is empty, must be a CSV file with a header and rows");
     if (table_.starts_.empty()) fail(1, "no row below the header");
@@ -154,7 +157,7 @@ class NumericTable::Parser {
 
  private:
   [[noreturn]] void fail(std::size_t column, const std::string& what) const {
-    throw BadInput(fmt::format("{}:{}:{}: {}", table_.path_, line_, column, what));
+    throw BadInput("{}:{}:{}: {}", table_.path_, line_, column, what);
   }
 
   /// Every name that --columns maps must be one that is asked for.
@@ -164,8 +167,7 @@ class NumericTable::Parser {
     known.insert(known.end(), request_.words.begin(), request_.words.end());
     for (const auto& [name, column] : request_.names) {
       if (std::find(known.begin(), known.end(), name) != known.end()) continue;
-      throw BadInput(
-          fmt::format("--columns: unknown column {}; did you mean {}?", shown_field(name), nearest_name(name, known)));
+      throw BadInput("--columns: unknown column {}; did you mean {}?", shown_field(name), nearest_name(name, known));
     }
   }
 
@@ -284,27 +286,24 @@ std::string NumericTable::text_of(const std::string& path) {
   std::error_code error;
   if (std::filesystem::is_directory(path, error)) throw BadInput(path + ": is a directory, must be a CSV file");
   std::ifstream file(path, std::ios::binary);
-  if (!file) throw BadInput(fmt::format("{}: cannot be read: {}", path, std::strerror(errno)));
+  if (!file) throw BadInput("{}: cannot be read: {}", path, std::strerror(errno));
   note_read(path);
   std::string text;
   std::vector<char> part(std::size_t{1} << 20);
   while (file.read(part.data(), static_cast<std::streamsize>(part.size())) || file.gcount() > 0)
     text.append(part.data(), static_cast<std::size_t>(file.gcount()));
-  if (file.bad()) throw BadInput(fmt::format("{}: cannot be read: {}", path, std::strerror(errno)));
+  if (file.bad()) throw BadInput("{}: cannot be read: {}", path, std::strerror(errno));
   if (text.find('\n') == std::string::npos) std::replace(text.begin(), text.end(), '\r', '\n');
   return text;
 }
 
 std::vector<std::string> NumericTable::header_of(std::string_view text) {
-  text = without_byte_order_mark(text);
   std::vector<std::string> names;
-  for (std::size_t offset = 0; offset < text.size() && names.empty();) {
-    const std::size_t end = std::min(text.find('\n', offset), text.size());
-    const std::string_view line = text.substr(offset, end - offset);
-    offset = end + 1;
+  for (const std::string_view line : lines_of(without_byte_order_mark(text))) {
     if (trimmed(line).empty() || trimmed(line).front() == '#') continue;
     CsvLine fields(line, separator_of(line));
     for (CsvField field; fields.next(field);) names.emplace_back(field.text);
+    break;
   }
   return names;
 }
@@ -325,7 +324,7 @@ std::optional<std::string> NumericTable::comment(std::string_view key) const {
   const Comment* found = nullptr;
   for (const Comment& one : comments_) {
     if (one.key != key) continue;
-    if (found != nullptr) throw BadInput(fmt::format("{}:{}:1: {} is given twice", path_, one.line, key));
+    if (found != nullptr) throw BadInput("{}:{}:1: {} is given twice", path_, one.line, key);
     found = &one;
   }
   return found == nullptr ? std::nullopt : std::optional(found->value);
@@ -377,8 +376,7 @@ std::string NumericTable::field(std::size_t row, std::string_view column) const 
 
 void NumericTable::refuse(std::size_t row, std::string_view column, const std::string& allowed) const {
   const auto [place, field] = locate(row, column);
-  throw BadInput(
-      fmt::format("{}:{}:{}: {} = {}: must be {}", path_, line(row), place, column, shown_field(field), allowed));
+  throw BadInput("{}:{}:{}: {} = {}: must be {}", path_, line(row), place, column, shown_field(field), allowed);
 }
 
 }  // namespace clatter::validation

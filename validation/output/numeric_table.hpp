@@ -29,11 +29,11 @@ namespace clatter::validation {
 /// Without a byte order mark before it.
 [[nodiscard]] std::string_view without_byte_order_mark(std::string_view text);
 
+/// The lines of a text, without their ends.
+[[nodiscard]] std::vector<std::string_view> lines_of(std::string_view text);
+
 /// A field as an error shows it: on one line, printable, short.
 [[nodiscard]] std::string shown_field(std::string_view field);
-
-/// The separator of a header: the first of , ; tab in it, or a comma.
-[[nodiscard]] char separator_of(std::string_view header);
 
 /// A field of a line: where it is and what it says, without quotes.
 struct CsvField {

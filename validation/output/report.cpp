@@ -2,10 +2,8 @@
 #include "validation/output/report.hpp"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <sstream>
 #include <string_view>
 #include <utility>
@@ -214,12 +212,6 @@ std::vector<std::size_t> shown_columns(const Grid& grid) {
   return shown;
 }
 
-std::vector<std::string> head_lines(const Report& report) {
-  std::vector<std::string> lines{report.title};
-  lines.insert(lines.end(), report.head.begin(), report.head.end());
-  return lines;
-}
-
 void write_aligned(const Report& report, const RowSource& rows, const Written& written, const WriteText& write) {
   for (const auto& line : head_lines(report)) write(wrapped(line) + "\n");
   write_aligned_grid(report.grid, rows, written, write);
@@ -371,6 +363,12 @@ Report begun_report(const std::string& command, const std::string& what) {
   return report;
 }
 
+std::vector<std::string> head_lines(const Report& report) {
+  std::vector<std::string> lines{report.title};
+  lines.insert(lines.end(), report.head.begin(), report.head.end());
+  return lines;
+}
+
 std::vector<std::string> notes_and_commands(const Report& report) {
   std::vector<std::string> lines = report.notes;
   for (const auto& [what, command] : report.commands) lines.push_back(fmt::format("{}: {}", what, command));
@@ -488,13 +486,11 @@ std::string csv_head(const Report& report, bool bare) {
   return out + "\n";
 }
 
-std::string csv_rows(const std::vector<Row>& rows) {
-  std::string out;
-  for (const Row& row : rows) out += csv_row(row);
+std::string csv_text(const Report& report, bool bare) {
+  std::string out = csv_head(report, bare);
+  for (const Row& row : report.grid.rows) out += csv_row(row);
   return out;
 }
-
-std::string csv_text(const Report& report, bool bare) { return csv_head(report, bare) + csv_rows(report.grid.rows); }
 
 Value row_object(const std::vector<Column>& columns, const Row& row) {
   Value object(Value::Fields{});
@@ -551,12 +547,6 @@ std::string shell_word(const std::string& word) {
     else text += c;
   }
   return text + "'";
-}
-
-bool shows_colours() {
-  const char* const terminal = std::getenv("TERM");
-  return isatty(STDOUT_FILENO) == 1 && std::getenv("NO_COLOR") == nullptr && terminal != nullptr &&
-         std::string_view(terminal) != "dumb";
 }
 
 std::string with_colours(const std::string& table) {

@@ -102,7 +102,6 @@ struct TextStyle {
 /// The part of its CSV before the rows.
 [[nodiscard]] std::string csv_head(const Report& report, bool bare);
 [[nodiscard]] std::string csv_text(const Report& report, bool bare);
-[[nodiscard]] std::string csv_rows(const std::vector<Row>& rows);
 /// A text as a field of CSV: printable, on one line, in quotes where it needs them.
 [[nodiscard]] std::string csv_text(const std::string& text);
 
@@ -110,6 +109,8 @@ struct TextStyle {
 [[nodiscard]] Value row_objects(const Grid& grid);
 [[nodiscard]] Value row_object(const std::vector<Column>& columns, const Row& row);
 
+/// The title and the head.
+[[nodiscard]] std::vector<std::string> head_lines(const Report& report);
 /// The notes, and after them the commands, a line each.
 [[nodiscard]] std::vector<std::string> notes_and_commands(const Report& report);
 
@@ -147,9 +148,6 @@ void write_rows(const Report& report, const RowSource& rows, const TextStyle& st
 [[nodiscard]] std::string shell_word(const std::string& word);
 
 // Tables on a terminal: what was asked is dim, what cannot be predicted is bold.
-
-/// Whether stdout is a terminal that knows colours, and NO_COLOR is not set.
-[[nodiscard]] bool shows_colours();
 
 /// The text of a report as a table: dim as far as the heading of its first block, and each "?" that stands alone bold.
 [[nodiscard]] std::string with_colours(const std::string& table);

@@ -27,7 +27,7 @@ namespace fs = std::filesystem;
 constexpr int most_links = 40;  // as the kernel's own limit
 
 [[noreturn]] void refuse(const RunFile& file, const std::string& why) {
-  throw BadInput(fmt::format("{} {}: {}", file.option, file.path, why));
+  throw BadInput("{} {}: {}", file.option, file.path, why);
 }
 
 fs::path folder_of(const fs::path& path) { return path.has_parent_path() ? path.parent_path() : fs::path("."); }
@@ -201,7 +201,7 @@ void Sink::open_temporary() {
 void Sink::fail(const char* what) const {
   const int error = errno;
   if (path_.empty()) throw std::runtime_error(fmt::format("standard output: {} ({})", what, std::strerror(error)));
-  throw BadInput(fmt::format("{} {}: {} ({})", option_, path_, what, std::strerror(error)));
+  throw BadInput("{} {}: {} ({})", option_, path_, what, std::strerror(error));
 }
 
 void Sink::write(std::string_view text) {

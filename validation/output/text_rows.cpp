@@ -73,13 +73,8 @@ std::size_t TextRows::Layout::numbers(const Texts& texts) const {
 
 TextRows::TextRows(const std::string& path, std::span<const std::span<const UnitName>> units, const std::string& needed)
     : path_(path), text_(NumericTable::text_of(path)), units_(units) {
-  const std::string_view text = without_byte_order_mark(text_);
-  std::size_t number = 0;
-  for (std::size_t begin = 0; begin < text.size();) {
-    const std::size_t end = std::min(text.find('\n', begin), text.size());
-    lines_.push_back({++number, trimmed(text.substr(begin, end - begin))});
-    begin = end + 1;
-  }
+  for (const std::string_view line : lines_of(without_byte_order_mark(text_)))
+    lines_.push_back({lines_.size() + 1, trimmed(line)});
   find_rows(needed);
   read_head();
   read_rows();
@@ -88,7 +83,7 @@ TextRows::TextRows(const std::string& path, std::span<const std::span<const Unit
 void TextRows::refuse(const std::string& words) const { throw BadInput(path_ + ": " + words); }
 
 void TextRows::refuse(std::size_t row, const std::string& words) const {
-  throw BadInput(fmt::format("{}:{}:1: {}", path_, row_lines_[row], words));
+  throw BadInput("{}:{}:1: {}", path_, row_lines_[row], words);
 }
 
 /// The layout in which this line is a row of numbers, or of texts among numbers, and so is the next one that is no

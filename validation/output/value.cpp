@@ -21,7 +21,6 @@ Value::Value(std::string text) : content_(std::move(text)) {}
 Value::Value(List list) : content_(std::move(list)) {}
 Value::Value(Fields fields) : content_(std::move(fields)) {}
 Value::Value(const std::vector<std::string>& texts) : content_(List(texts.begin(), texts.end())) {}
-Value::Value(const std::vector<double>& numbers) : content_(List(numbers.begin(), numbers.end())) {}
 Value::~Value() = default;
 Value::Value(const Value& other) = default;
 Value::Value(Value&& other) noexcept = default;

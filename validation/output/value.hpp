@@ -3,6 +3,7 @@
 #pragma once
 
 #include <concepts>
+#include <ranges>
 #include <string>
 #include <variant>
 #include <vector>
@@ -31,7 +32,10 @@ class Value {
   Value(List list);                                                            // NOLINT
   Value(Fields fields);                                                        // NOLINT
   Value(const std::vector<std::string>& texts);                                // NOLINT
-  Value(const std::vector<double>& numbers);                                   // NOLINT
+  template <std::ranges::input_range Numbers>
+  requires std::same_as < std::ranges::range_value_t<Numbers>,
+  double > Value(const Numbers& numbers)
+      : Value(List(std::ranges::begin(numbers), std::ranges::end(numbers))) {}  // NOLINT
   ~Value();
   Value(const Value& other);
   Value(Value&& other) noexcept;

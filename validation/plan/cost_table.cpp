@@ -3,10 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 #include <stdexcept>
 
 #include "validation/embedded/embedded.hpp"
+#include "validation/output/number.hpp"
+#include "validation/output/numeric_table.hpp"
 #include "validation/scene/scene.hpp"
 
 namespace clatter::validation {
@@ -23,15 +24,8 @@ struct CostEntry {
   double tolerance = 0, evaluations = 0, error = 0;
 };
 
-std::vector<std::string> split(const std::string& line) {
-  std::vector<std::string> cells;
-  std::istringstream stream(line);
-  for (std::string cell; std::getline(stream, cell, ',');) cells.push_back(cell);
-  return cells;
-}
-
-std::size_t column(const std::vector<std::string>& names, const std::string& name) {
-  const auto found = std::find(names.begin(), names.end(), name);
+std::size_t column(const Row& names, const std::string& name) {
+  const auto found = std::ranges::find(names, name, [](const Cell& cell) { return cell.value.text(); });
   if (found == names.end()) throw std::runtime_error("the table of costs has no column " + name);
   return static_cast<std::size_t>(found - names.begin());
 }
@@ -48,23 +42,22 @@ bool read_method(const std::string& name, Method& method) {
 
 /// The rows of adaptive methods on each scene's own mesh that have an error.
 std::vector<CostEntry> read_entries(const std::string& csv) {
-  std::istringstream stream(csv);
-  std::string line;
-  while (std::getline(stream, line) && line.starts_with("#")) continue;
-  const std::vector<std::string> names = split(line);
+  const std::vector<Row> rows = read_csv_rows(csv);
+  const Row names = rows.empty() ? Row{} : rows.front();
   const std::size_t scene = column(names, "scene"), model = column(names, "model"), method = column(names, "method"),
                     tolerance = column(names, "tolerance"), mesh = column(names, "mesh"),
                     evaluations = column(names, "force_evaluations"), error = column(names, "error");
   std::vector<CostEntry> entries;
-  while (std::getline(stream, line)) {
-    const std::vector<std::string> cells = split(line);
-    if (line.starts_with("#") || cells.size() <= error) continue;
-    CostEntry entry{.scene = cells[scene], .model = cells[model]};
-    if (!read_method(cells[method], entry.method) || !cells[mesh].empty() || cells[error].empty()) continue;
-    entry.tolerance = std::stod(cells[tolerance]);
-    entry.evaluations = std::stod(cells[evaluations]);
-    entry.error = std::max(std::stod(cells[error]), least_error);
-    entries.push_back(entry);
+  for (const Row& row : rows) {
+    CostEntry entry;
+    const double* const of_error = row.size() > error ? row[error].value.number() : nullptr;
+    if (!of_error || !read_method(row[method].value.text(), entry.method) || !row[mesh].value.is_nothing()) continue;
+    entries.push_back({.scene = row[scene].value.text(),
+                       .model = row[model].value.text(),
+                       .method = entry.method,
+                       .tolerance = *row[tolerance].value.number(),
+                       .evaluations = *row[evaluations].value.number(),
+                       .error = std::max(*of_error, least_error)});
   }
   return entries;
 }
@@ -89,12 +82,6 @@ std::map<std::string, Base> bases_of(const std::vector<CostEntry>& entries) {
     base.evaluations = entry.evaluations;
   }
   return bases;
-}
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 }  // namespace
@@ -125,8 +112,8 @@ CostTable::CostTable(const std::string& csv) {
       const std::vector<double>& seen = errors[method][key];
       if (seen.empty() && curve.log_error.empty()) continue;
       curve.log_tolerance.push_back(-key);
-      curve.log_evaluations.push_back(median(values));
-      curve.log_error.push_back(seen.empty() ? curve.log_error.back() : median(seen));
+      curve.log_evaluations.push_back(upper_median(values));
+      curve.log_error.push_back(seen.empty() ? curve.log_error.back() : upper_median(seen));
     }
   }
   if (!curves_.count(Method::rkck) || !curves_.count(Method::rk8pd))

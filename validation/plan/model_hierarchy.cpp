@@ -318,19 +318,13 @@ Simulation ModelHierarchy::simulate(const LevelSetting& setting, const numeric::
 }
 
 LevelResult ModelHierarchy::run(const LevelSetting& setting, int impacts) const {
-  if (setting.level == ModelLevel::closed_form) {
-    const analytic::Sequence sequence = closed_form_sequence(*thin_rod_, impacts);
-    return {motion_rows(run_of(sequence)), 0, sequence.message};
-  }
-  if (setting.level == ModelLevel::discrete) {
-    const analytic::Sequence sequence = impact_sequence(*drop_, {.impacts = impacts, .amplification = false});
+  const auto of = [](const auto& sequence) -> LevelResult {
     return {motion_rows(run_of(sequence)), sequence.root_evaluations, sequence.message};
-  }
-  if (setting.level == ModelLevel::discrete_in_space) {
-    const analytic::space::Sequence sequence =
-        impact_sequence(*space_drop_, {.impacts = impacts, .amplification = false});
-    return {motion_rows(run_of(sequence)), sequence.root_evaluations, sequence.message};
-  }
+  };
+  const analytic::SequenceOptions options{.impacts = impacts, .amplification = false};
+  if (setting.level == ModelLevel::closed_form) return of(closed_form_sequence(*thin_rod_, impacts));
+  if (setting.level == ModelLevel::discrete) return of(impact_sequence(*drop_, options));
+  if (setting.level == ModelLevel::discrete_in_space) return of(impact_sequence(*space_drop_, options));
   const Simulation run = simulate(setting, impacts);
   return {motion_rows(run_of(run)), run.force_evaluations, std::string(outcome_name(run)) + ": " + run.message};
 }

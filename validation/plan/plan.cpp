@@ -203,7 +203,6 @@ class Planner {
   }
 
   void weigh_assumption(WeighedLevel& weighed) const {
-    weighed.assumption_words = level_assumption(weighed.level, plan_.scene.world.ground);
     if (weighed.level == ModelLevel::closed_form) weighed.assumption_error = thinness();
     if (weighed.level == ModelLevel::discrete) weighed.assumption_error = contact_effects(*ladder_.drop());
     if (weighed.level == ModelLevel::discrete_in_space)

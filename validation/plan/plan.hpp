@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The smallest model, and the loosest setting of it, that gives the digits asked for.
+// The smallest model, and the loosest setting of it, that gives the digits asked for: `clatter plan`.
 #pragma once
 
+#include <functional>
 #include <limits>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "validation/output/report.hpp"
 #include "validation/plan/model_hierarchy.hpp"
+#include "validation/scene/argument.hpp"
 
 namespace clatter::validation {
 
@@ -31,7 +34,6 @@ struct WeighedLevel {
   double seconds = 0;
   /// What the level's assumption brings, by the model's own account, relative; NaN: no account.
   double assumption_error = std::numeric_limits<double>::quiet_NaN();
-  std::string assumption_words = {};
   bool serves = false;
 };
 
@@ -83,5 +85,25 @@ struct Plan {
 
 /// The command line that runs the plan's choice.
 [[nodiscard]] std::string command_line(const Plan& plan);
+
+// What `clatter plan` says.
+
+/// What was asked of a plan, beside its scene.
+struct PlanRequest {
+  std::optional<double> within;               ///< [ms]
+  std::function<bool(const char*)> is_given;  ///< whether the argument is ("digits")
+};
+[[nodiscard]] Argument within_argument(std::optional<double>& within);
+/// @throws BadInput where an argument is given that the plan chooses or a sweep.
+[[nodiscard]] PlanTarget plan_target(const Scene& scene, const PlanRequest& request);
+
+/// @throws BadInput for a scene that ends at a time, or that begins without an impact.
+void require_counted_impacts(const Scene& scene, const char* command);
+
+/// A row for each model of the hierarchy.
+[[nodiscard]] Report plan_report(const Scene& scene, const Plan& plan);
+
+/// Why the plan does not give what was asked, one sentence; empty: it does.
+[[nodiscard]] std::string plan_shortfall(const Plan& plan);
 
 }  // namespace clatter::validation

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "validation/plan/plan_report.hpp"
+#include "validation/plan/plan.hpp"
 
 #include <fmt/format.h>
 
@@ -9,9 +9,11 @@
 #include <limits>
 #include <optional>
 
+#include "validation/command/options.hpp"
 #include "validation/output/bad_input.hpp"
 #include "validation/output/number.hpp"
 #include "validation/run/scene_value.hpp"
+#include "validation/run/shortfall.hpp"
 #include "validation/scene/body_properties.hpp"
 #include "validation/scene/option_values.hpp"
 
@@ -20,12 +22,13 @@ namespace {
 
 std::string error_words(double error) { return std::isfinite(error) ? significant(error, 2) : "too large to tell"; }
 
+std::string within_words(const Plan& plan) {
+  return plan.target.within_ms ? fmt::format(" within {} ms", shortest(*plan.target.within_ms)) : "";
+}
+
 std::string summary_of(const Plan& plan) {
-  if (plan.target.most_accurate)
-    return fmt::format("the most accurate model within {} ms", shortest(*plan.target.within_ms));
-  const std::string within =
-      plan.target.within_ms ? fmt::format(" within {} ms", shortest(*plan.target.within_ms)) : "";
-  return fmt::format("the smallest model that gives {} digits{}", plan.target.digits, within);
+  if (plan.target.most_accurate) return "the most accurate model" + within_words(plan);
+  return fmt::format("the smallest model that gives {} digits{}", plan.target.digits, within_words(plan));
 }
 
 std::string setting_words(const LevelSetting& setting) {
@@ -52,15 +55,13 @@ std::string price_words(const Plan& plan) {
   if (!(plan.evaluations_with_estimates > 0)) return "";
   const numeric::Request& request = plan.scene.request;
   const bool both = request.error_estimates && request.amplification;
-  return fmt::format("With {}: {} ms, {} times the force evaluations; {} = false leaves them out",
-                     both                      ? "error estimates and the growth of errors"
-                     : request.error_estimates ? "error estimates"
-                                               : "the growth of errors",
+  const auto [what, keys] = both
+                                ? std::pair("error estimates and the growth of errors", "run.errors, run.amplification")
+                            : request.error_estimates ? std::pair("error estimates", "run.errors")
+                                                      : std::pair("the growth of errors", "run.amplification");
+  return fmt::format("With {}: {} ms, {} times the force evaluations; {} = false leaves them out", what,
                      significant(1e3 * plan.seconds_with_estimates, 2),
-                     significant(plan.evaluations_with_estimates / plan.evaluations, 2),
-                     both                      ? "run.errors, run.amplification"
-                     : request.error_estimates ? "run.errors"
-                                               : "run.amplification");
+                     significant(plan.evaluations_with_estimates / plan.evaluations, 2), keys);
 }
 
 std::string measured_words(const Plan& plan) {
@@ -139,8 +140,8 @@ std::string level_words(const WeighedLevel& level, const Plan& plan) {
   if (!level.against.empty()) return name + " does not apply: " + level.against;
   if (!std::isfinite(level.assumption_error)) return "";
   if (level.level == ModelLevel::planar) return plane_words(plan);
-  return fmt::format("{} takes for granted: {}; an error of {} is expected from that", name, level.assumption_words,
-                     error_words(level.assumption_error));
+  return fmt::format("{} takes for granted: {}; an error of {} is expected from that", name,
+                     level_assumption(level.level, plan.scene.world.ground), error_words(level.assumption_error));
 }
 
 std::vector<std::string> notes_of(const Plan& plan) {
@@ -218,8 +219,6 @@ void add_limit(const Limit& limit, PicturePanel& panel) {
                                .colour = ink});
 }
 
-}  // namespace
-
 Picture plan_picture(const Scene& scene, const Plan& plan) {
   PicturePanel panel{.columns = {{"curve", "1", "number of the model; -1: what is asked, -2: the time allowed"},
                                  {"cost", "ms", "predicted time"},
@@ -248,43 +247,6 @@ Picture plan_picture(const Scene& scene, const Plan& plan) {
   return {.what = "Models that were weighed: predicted cost and error", .scene = scene.summary(), .panels = {panel}};
 }
 
-std::string plan_shortfall(const Plan& plan) {
-  if (std::isnan(plan.error)) return "no impact could be computed: " + plan.pilot_ending;
-  if (plan.cut_short) {
-    return fmt::format("{} of {} impacts could be computed: {}", plan.impacts, plan.scene.request.impacts,
-                       plan.pilot_ending);
-  }
-  if (plan.serves || plan.target.most_accurate) return "";
-  const std::string best =
-      fmt::format("the best is {} with an error of {}", level_name(plan.choice.level), error_words(plan.error));
-  if (plan.known_impacts < plan.impacts) {
-    return fmt::format("{} digits can be had of the first {} impacts only; over all {}", plan.target.digits,
-                       plan.known_impacts, best);
-  }
-  const std::string within =
-      plan.target.within_ms ? fmt::format(" within {} ms", shortest(*plan.target.within_ms)) : "";
-  return fmt::format("{} digits cannot be had{}; {}", plan.target.digits, within, best);
-}
-
-Argument within_argument(std::optional<double>& within) {
-  return number_argument("--within", within, {0, 1e9, true, "greater than 0, at most 1e9"}, "MS",
-                         "that the run may take; alone: as accurate as fits");
-}
-
-PlanTarget plan_target(const Scene& scene, const PlanRequest& request) {
-  PlanTarget target{.digits = scene.accuracy.digits};
-  if (request.within) {
-    target.within_ms = request.within;
-    target.most_accurate = !request.is_given("digits");
-  }
-  for (const char* name : {"method", "tolerance", "step"}) {
-    if (request.is_given(name)) throw BadInput(fmt::format("--{}: left out here: the plan chooses it", name));
-  }
-  if (request.is_given("history")) throw BadInput("--history: plan writes none; clatter simulate does");
-  if (!scene.sweep) return target;
-  throw BadInput(fmt::format("{}: a sweep has no plan; give --angle or leave out [sweep]", scene.path));
-}
-
 std::vector<Column> plan_columns() {
   return {word_column("model", "model", "a model of the hierarchy"),
           word_column("method", "method", "of integration"),
@@ -299,21 +261,102 @@ std::vector<Column> plan_columns() {
           {"reason", "", "", "why it does not apply", false}};
 }
 
+}  // namespace
+
+std::string plan_shortfall(const Plan& plan) {
+  if (std::isnan(plan.error)) return "no impact could be computed: " + plan.pilot_ending;
+  if (plan.cut_short) {
+    return fmt::format("{} of {} impacts could be computed: {}", plan.impacts, plan.scene.request.impacts,
+                       plan.pilot_ending);
+  }
+  if (plan.serves || plan.target.most_accurate) return "";
+  const std::string best =
+      fmt::format("the best is {} with an error of {}", level_name(plan.choice.level), error_words(plan.error));
+  if (plan.known_impacts < plan.impacts) {
+    return fmt::format("{} digits can be had of the first {} impacts only; over all {}", plan.target.digits,
+                       plan.known_impacts, best);
+  }
+  return fmt::format("{} digits cannot be had{}; {}", plan.target.digits, within_words(plan), best);
+}
+
+Argument within_argument(std::optional<double>& within) {
+  return number_argument("--within", within, {0, 1e9, true, "greater than 0, at most 1e9"}, "MS",
+                         "that the run may take; alone: as accurate as fits");
+}
+
+PlanTarget plan_target(const Scene& scene, const PlanRequest& request) {
+  PlanTarget target{.digits = scene.accuracy.digits};
+  if (request.within) {
+    target.within_ms = request.within;
+    target.most_accurate = !request.is_given("digits");
+  }
+  for (const char* name : {"method", "tolerance", "step"}) {
+    if (request.is_given(name)) throw BadInput("--{}: left out here: the plan chooses it", name);
+  }
+  if (request.is_given("history")) throw BadInput("--history: plan writes none; clatter simulate does");
+  if (!scene.sweep) return target;
+  throw BadInput("{}: a sweep has no plan; give --angle or leave out [sweep]", scene.path);
+}
+
 Report plan_report(const Scene& scene, const Plan& plan) {
-  Report report = begun_report("plan", summary_of(plan));
-  report.head = scene_head(scene);
+  Report report = scene_report("plan", summary_of(plan), "plan", scene);
   report.grid.columns = plan_columns();
   for (const WeighedLevel& level : plan.levels) report.grid.rows.push_back(level_row(level, plan));
   report.notes = notes_of(plan);
-  report.fields["model"] = "plan";
-  report.fields["scene"] = scene_value(scene);
-  report.fields["body"] = body_value(scene);
   report.fields["asked"] = plan.asked;
   report.fields["within_ms"] = plan.target.within_ms ? Value(*plan.target.within_ms) : Value();
   report.fields["choice"] = std::isnan(plan.error) ? Value() : choice_fields(plan);
   report.fields["rungs"] = row_objects(report.grid);
   add_results(plan, report.fields);
   return report;
+}
+
+void require_counted_impacts(const Scene& scene, const char* command) {
+  const auto refuse = [&](const char* key) {
+    throw BadInput("{}: must be left out for clatter {}, which counts impacts", key, command);
+  };
+  if (std::isfinite(scene.request.until)) refuse("run.until");
+  if (scene.request.starts_on_ground) refuse("drop.start = \"rest\"");
+}
+
+namespace {
+
+struct PlanInput {
+  SceneFlags scene;
+  std::optional<double> within;  ///< [ms]
+  OutputChoice output;
+  PlotChoice plot;
+};
+
+int run_plan(const PlanInput& input) {
+  const Scene scene = read_scene_flags(input.scene);
+  require_level(scene, "plan");
+  require_counted_impacts(scene, "plan");
+  const OutputChoice& choice = input.output;
+  const auto is_typed = [&](const std::string& name) { return is_given(input.scene, "--" + name); };
+  const PlanTarget target = plan_target(scene, {input.within, is_typed});
+  check_files(choice, plot_files(input.plot));
+  PlotFile plot(input.plot);
+  Plan plan = make_plan(scene, target);
+  plan.given = overrides_of(input.scene);
+  write_report(choice, plan_report(scene, plan));
+  plot.write(plan_picture(scene, plan), run_words("plan", "the smallest model that serves", scene));
+  return status_of(plan_shortfall(plan));
+}
+
+}  // namespace
+
+Command plan_command() {
+  return command_of<PlanInput>(run_plan, [](Command& command, PlanInput& input) {
+    add_scene_flags(command, input.scene);
+    command.add(within_argument(input.within));
+    add_output_options(command, input.output);
+    add_plot_options(command, input.plot);
+    command.footer =
+        "Example: clatter plan phone-damped --digits 4\n"
+        "Exit status 3 if no model gives the digits; the best is shown all the same.";
+    command.columns = {{"plan", plan_columns}};
+  });
 }
 
 }  // namespace clatter::validation

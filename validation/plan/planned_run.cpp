@@ -36,6 +36,17 @@ std::size_t index_of(Method method) { return method == Method::rkck ? 0 : 1; }
 
 double half_decade(int index) { return std::max(1e-4 * std::pow(10.0, -0.5 * index), numeric::least_tolerance); }
 
+/// A method and tolerance that the measured table predicts to serve.
+struct PredictedSetting {
+  Method method = Method::rkck;
+  int index = 0;           ///< of half_decade
+  double evaluations = 0;  ///< over those of rkck at CostTable::pilot_tolerance
+};
+
+namespace {
+
+/// The loosest tolerance of a method whose predicted error is a third of `asked`, or the smallest tolerance.
+/// @param error_constant of the scene: error over tolerance of rkck
 PredictedSetting predicted_setting(Method method, double error_constant, double asked) {
   const CostTable& table = CostTable::measured();
   int index = 0;
@@ -44,11 +55,14 @@ PredictedSetting predicted_setting(Method method, double error_constant, double 
   return {method, index, table.evaluations(method, half_decade(index))};
 }
 
+/// The cheaper one of rkck and rk8pd.
 PredictedSetting cheapest_by_table(double error_constant, double asked) {
   const PredictedSetting low = predicted_setting(methods[0], error_constant, asked);
   const PredictedSetting high = predicted_setting(methods[1], error_constant, asked);
   return high.evaluations < low.evaluations ? high : low;
 }
+
+}  // namespace
 
 ToleranceSearch::ToleranceSearch(const ModelHierarchy& hierarchy, ModelLevel level, int impacts,
                                  const MotionNumbers& sizes, double error_constant, double pilot_evaluations)
@@ -357,13 +371,14 @@ std::string laid_warning(const Scene& scene, const numeric::MotionState& start) 
       significant(off, 3));
 }
 
-}  // namespace
-
+/// A warning if the motion is kept in its plane although nothing but that keeps it there; empty: none.
 std::string planar_warning(const numeric::Body& body, const numeric::World& world, const numeric::MotionState& start) {
   if (!world.planar || is_mirror_image(body, start)) return "";
   return "kept in its plane, although the body as it lies or moves is not its own mirror image there: velocities, "
          "forces and moments out of the plane are left out";
 }
+
+}  // namespace
 
 PlannedRun run_to_digits(const Scene& scene, const numeric::Body& body, const numeric::Observer& observer) {
   const Accuracy& accuracy = scene.accuracy;

@@ -18,17 +18,7 @@ namespace clatter::validation {
 inline constexpr int tolerance_steps = 20;
 [[nodiscard]] double half_decade(int index);
 
-/// A method and tolerance that the measured table predicts to serve.
-struct PredictedSetting {
-  numeric::Method method = numeric::Method::rkck;
-  int index = 0;           ///< of half_decade
-  double evaluations = 0;  ///< over those of rkck at CostTable::pilot_tolerance
-};
-/// The loosest tolerance of a method whose predicted error is a third of `asked`, or the smallest tolerance.
-/// @param error_constant of the scene: error over tolerance of rkck
-[[nodiscard]] PredictedSetting predicted_setting(numeric::Method method, double error_constant, double asked);
-/// The cheaper one of rkck and rk8pd.
-[[nodiscard]] PredictedSetting cheapest_by_table(double error_constant, double asked);
+struct PredictedSetting;
 
 struct FoundSetting {
   LevelSetting setting;
@@ -89,10 +79,6 @@ struct PlannedRun {
   std::optional<FirstTouch> first_touch{};  ///< of a drop with a release
   MotionNumbers sizes{};  ///< of all impacts, against which a number counts as zero; 0 without impacts
 };
-
-/// A warning if the motion is kept in its plane although nothing but that keeps it there; empty: none.
-[[nodiscard]] std::string planar_warning(const numeric::Body& body, const numeric::World& world,
-                                         const numeric::MotionState& start);
 
 /// Runs the scene.  With `run.method = "auto"`, no step and no tolerance, two pilot runs with rkck (at 1e-4 and 1e-6)
 /// give the scene's error constant, the measured table (CostTable) the cheapest method and tolerance for the digits;

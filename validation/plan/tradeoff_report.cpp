@@ -10,8 +10,13 @@
 #include <map>
 
 #include "numeric/base/errors.hpp"
+#include "validation/command/options.hpp"
+#include "validation/output/bad_input.hpp"
+#include "validation/output/interrupt.hpp"
 #include "validation/output/number.hpp"
+#include "validation/plan/plan.hpp"
 #include "validation/run/scene_value.hpp"
+#include "validation/run/shortfall.hpp"
 #include "validation/scene/body_properties.hpp"
 
 namespace clatter::validation {
@@ -20,10 +25,14 @@ namespace {
 using numeric::Method;
 
 constexpr Method adaptive[] = {Method::rk4, Method::rkf45, Method::rkck, Method::rk8pd};
+constexpr int tolerance_count = 13;
 constexpr int first_steps_per_contact = 8;  // tvd-rk3: contact time over 8, 16, …
 constexpr int step_halvings = 11;
 constexpr double tolerance_of_meshes = 1e-10;
 constexpr int mesh_factors[] = {1, 2, 4, 8};
+
+/// A tolerance of the adaptive methods, at least the smallest that is allowed.
+double trade_tolerance(int index) { return std::max(std::pow(10.0, -1 - index), numeric::least_tolerance); }
 
 /// Runs `work` until it has been repeated often and long enough; least time.
 void time_it(const TradeoffOptions& options, TradePoint& point, const auto& work) {
@@ -170,8 +179,6 @@ class Bench {
 
 }  // namespace
 
-double trade_tolerance(int index) { return std::max(std::pow(10.0, -1 - index), numeric::least_tolerance); }
-
 Tradeoff measure_tradeoff(const Scene& scene, const TradeoffOptions& options) { return Bench(scene, options).run(); }
 
 namespace {
@@ -228,8 +235,6 @@ std::string reference_words(const Tradeoff& tradeoff) {
                      tradeoff.impacts, tradeoff.reference, significant(tradeoff.reference_error, 1));
 }
 
-}  // namespace
-
 std::vector<Column> tradeoff_columns() {
   return {word_column("model", "model", "a model of the hierarchy"),
           word_column("method", "method", "of integration"),
@@ -242,34 +247,6 @@ std::vector<Column> tradeoff_columns() {
           {"error", "error", "", "largest over all impacts and numbers, relative to the sequence's sizes"},
           {"front", "", "", "whether no point beats it in both cost and error", false},
           {"failure", "", "", "why it has no numbers", false}};
-}
-
-Report tradeoff_report(const Scene& scene, const Tradeoff& tradeoff) {
-  Report report = begun_report("tradeoff", tradeoff_summary);
-  report.head = scene_head(scene);
-  report.grid.columns = tradeoff_columns();
-  for (const TradePoint& point : tradeoff.points) report.grid.rows.push_back(point_row(point));
-  report.digest = Grid{tradeoff_columns(), {}};
-  for (const TradePoint* point : front_of(tradeoff)) report.digest->rows.push_back(point_row(*point));
-  report.notes = {
-      fmt::format("The front: of {} points, those that none beats in both cost and error.", tradeoff.points.size()),
-      reference_words(tradeoff)};
-  for (const TradePoint& point : tradeoff.points) {
-    if (point.failure.empty()) continue;
-    const std::string setting = setting_words(point);
-    report.notes.push_back(
-        fmt::format("failed: {}{}{}: {}", name_of(point), setting.empty() ? "" : ", ", setting, point.failure));
-  }
-  report.fields["model"] = "tradeoff";
-  report.fields["scene"] = scene_value(scene);
-  report.fields["body"] = body_value(scene);
-  report.fields["points"] = row_objects(report.grid);
-  report.fields["reference"] = tradeoff.reference;
-  report.fields["reference_error"] = rounded_up(tradeoff.reference_error);
-  report.fields["impacts"] = tradeoff.impacts;
-  report.fields["shortfall"] = text_or_nothing(tradeoff.shortfall);
-  report.fields["message"] = reference_words(tradeoff);
-  return report;
 }
 
 Picture tradeoff_picture(const Scene& scene, const Tradeoff& tradeoff) {
@@ -299,6 +276,84 @@ Picture tradeoff_picture(const Scene& scene, const Tradeoff& tradeoff) {
   panel.plot.x = {cheapest / 3, 3 * dearest};  // a point on the frame is hard to see
   return {
       .what = "Cost against true error of models, methods and tolerances", .scene = scene.summary(), .panels = {panel}};
+}
+
+}  // namespace
+
+Report tradeoff_report(const Scene& scene, const Tradeoff& tradeoff) {
+  Report report = scene_report("tradeoff", tradeoff_summary, "tradeoff", scene);
+  report.grid.columns = tradeoff_columns();
+  for (const TradePoint& point : tradeoff.points) report.grid.rows.push_back(point_row(point));
+  report.digest = Grid{tradeoff_columns(), {}};
+  for (const TradePoint* point : front_of(tradeoff)) report.digest->rows.push_back(point_row(*point));
+  report.notes = {
+      fmt::format("The front: of {} points, those that none beats in both cost and error.", tradeoff.points.size()),
+      reference_words(tradeoff)};
+  for (const TradePoint& point : tradeoff.points) {
+    if (point.failure.empty()) continue;
+    const std::string setting = setting_words(point);
+    report.notes.push_back(
+        fmt::format("failed: {}{}{}: {}", name_of(point), setting.empty() ? "" : ", ", setting, point.failure));
+  }
+  report.fields["points"] = row_objects(report.grid);
+  report.fields["reference"] = tradeoff.reference;
+  report.fields["reference_error"] = rounded_up(tradeoff.reference_error);
+  report.fields["impacts"] = tradeoff.impacts;
+  report.fields["shortfall"] = text_or_nothing(tradeoff.shortfall);
+  report.fields["message"] = reference_words(tradeoff);
+  return report;
+}
+
+namespace {
+
+struct TradeoffInput {
+  SceneFlags scene;
+  OutputChoice output;
+  PlotChoice plot;
+};
+
+int run_tradeoff(const TradeoffInput& input) {
+  const Scene scene = read_scene_flags(input.scene);
+  require_level(scene, "tradeoff");
+  require_counted_impacts(scene, "tradeoff");
+  const OutputChoice& choice = input.output;
+  check_files(choice, plot_files(input.plot));
+  if (scene.sweep) throw BadInput("{}: a sweep has no tradeoff; give --angle or leave out [sweep]", scene.path);
+  PlotFile plot(input.plot);
+  const CooperativeInterrupt interrupt;
+  Tradeoff tradeoff;
+  {
+    Progress progress;
+    TradeoffOptions options;
+    options.progress = [&](std::size_t done, std::size_t of) {
+      progress.show(progress_bar(done, of));
+      return !interrupt.requested();
+    };
+    tradeoff = measure_tradeoff(scene, options);
+  }
+  Report report = tradeoff_report(scene, tradeoff);
+  if (interrupt.requested()) note_interrupt("the models and settings that are not listed were not run", report);
+  write_report(choice, report);
+  if (interrupt.requested()) {
+    plot.leave_out("interrupted");
+    return interrupted_status;
+  }
+  plot.write(tradeoff_picture(scene, tradeoff), run_words("tradeoff", "cost against true error", scene));
+  return status_of(tradeoff.shortfall);
+}
+
+}  // namespace
+
+Command tradeoff_command() {
+  return command_of<TradeoffInput>(run_tradeoff, [](Command& command, TradeoffInput& input) {
+    add_scene_flags(command, input.scene);
+    add_output_options(command, input.output);
+    add_plot_options(command, input.plot);
+    command.footer =
+        "Example: clatter plan --tradeoff rod-45 --plot tradeoff.svg\n"
+        "The table shows the front, --format csv all points.";
+    command.columns = {{"tradeoff", tradeoff_columns}};
+  });
 }
 
 }  // namespace clatter::validation

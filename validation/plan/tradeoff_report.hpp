@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Cost against error as a report and as a picture.
+// Cost against error: `clatter plan --tradeoff`.
 #pragma once
 
 #include <functional>
 #include <string>
 #include <vector>
 
-#include "validation/output/picture.hpp"
 #include "validation/output/report.hpp"
 #include "validation/plan/model_hierarchy.hpp"
 
@@ -44,20 +43,13 @@ struct TradeoffOptions {
   std::function<bool(std::size_t, std::size_t)> progress = nullptr;
 };
 
-/// Tolerances of the adaptive methods.
-inline constexpr int tolerance_count = 13;
-[[nodiscard]] double trade_tolerance(int index);  ///< 10^(−1 − index), at least the smallest that is allowed
-
 /// The scene through every level; the continuous ones with four adaptive methods over thirteen tolerances and the
 /// paper's over eleven steps, and over mesh densities.  True values: see true_values().
 /// Methods that fail are points with their reason.
 /// @throws numeric::NumericalError if the scene has no impact with a reference that can be trusted.
 [[nodiscard]] Tradeoff measure_tradeoff(const Scene& scene, const TradeoffOptions& options);
 
-[[nodiscard]] std::vector<Column> tradeoff_columns();
 /// A row for each point; in tables the front, which nothing beats in both cost and error.
 [[nodiscard]] Report tradeoff_report(const Scene& scene, const Tradeoff& tradeoff);
-/// Error over cost, one curve for each model and method.
-[[nodiscard]] Picture tradeoff_picture(const Scene& scene, const Tradeoff& tradeoff);
 
 }  // namespace clatter::validation

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "validation/program/commands.hpp"
+#include "validation/program/program.hpp"
 
 #include "validation/sweep/sweep_run.hpp"
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "validation/output/interrupt.hpp"
-#include "validation/program/commands.hpp"
 #include "validation/program/program.hpp"
 
 int main(int argc, char** argv) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "validation/program/parser.hpp"
+#include "validation/program/program.hpp"
 
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
@@ -74,8 +74,8 @@ const Command& called_command(const std::vector<Command>& commands, std::vector<
   }
   if (called == nullptr) {
     const auto nearest = std::find(known.begin(), known.end(), nearest_name(words.front(), known));
-    throw BadInput(fmt::format("command '{}': unknown; did you mean {}?", words.front(),
-                               meant[static_cast<std::size_t>(nearest - known.begin())]));
+    throw BadInput("command '{}': unknown; did you mean {}?", words.front(),
+                   meant[static_cast<std::size_t>(nearest - known.begin())]);
   }
   if (asking != words.begin()) words.erase(asking);
   words.erase(words.begin());
@@ -89,8 +89,8 @@ void require_scene_by_keys(const Command& command, const std::string& name) {
   if (std::find(names.begin(), names.end(), "--set") == names.end()) return;
   for (const Key& key : all_keys()) {
     if (key.flag != name) continue;
-    throw BadInput(fmt::format("{}: {} takes a scene and its keys, as in clatter {} rod-10 --set {}=...", name,
-                               command.name, command.name, key.name));
+    throw BadInput("{}: {} takes a scene and its keys, as in clatter {} rod-10 --set {}=...", name, command.name,
+                   command.name, key.name);
   }
 }
 
@@ -102,23 +102,22 @@ const Argument* find_option(const Command& command, const std::string& name) {
   }
   const auto is_flag_of_scenes = [&](const Key& key) { return key.flag == name; };
   if (command.name.empty() && std::any_of(all_keys().begin(), all_keys().end(), is_flag_of_scenes))
-    throw BadInput(fmt::format("{}: a command comes first; did you mean clatter sequence {}?", name, name));
+    throw BadInput("{}: a command comes first; did you mean clatter sequence {}?", name, name);
   static const std::set<std::string> of_simulator{"--tolerance", "--step", "--history", "--planar"};
   if (command.name == "sequence" && of_simulator.contains(name))
-    throw BadInput(fmt::format("{}: is the simulator's; the discrete model has no such option", name));
+    throw BadInput("{}: is the simulator's; the discrete model has no such option", name);
   require_scene_by_keys(command, name);
   if (command.name == "angles" && name == "--angle")
     throw BadInput("--angle: angles takes a range of them, --from, --to and --step");
   if (command.name == "angles" && (name == "--height" || name == "--clearance"))
     throw BadInput(name + ": angles takes the speed at the touch, --gravity G --speed V with V = sqrt(2 G (fall))");
   if (name == "--gravity-number")
-    throw BadInput(fmt::format("--gravity-number: is of angles; {} takes --gravity in m/s^2, the number times v_n^2/L",
-                               command.name));
+    throw BadInput("--gravity-number: is of angles; {} takes --gravity in m/s^2, the number times v_n^2/L",
+                   command.name);
   if (name == "--probe" || name == "--part")
-    throw BadInput(fmt::format("{}: is for shock, sweep and report; leave it out of {}", name, command.name));
-  throw BadInput(fmt::format("option {}: unknown{}; did you mean {}?", name,
-                             command.name.empty() ? "" : " for " + command.name,
-                             nearest_name(name, command.option_names())));
+    throw BadInput("{}: is for shock, sweep and report; leave it out of {}", name, command.name);
+  throw BadInput("option {}: unknown{}; did you mean {}?", name, command.name.empty() ? "" : " for " + command.name,
+                 nearest_name(name, command.option_names()));
 }
 
 /// Takes one command's arguments apart.
@@ -131,25 +130,24 @@ class Scan {
     const std::string name = argument.substr(0, equal);
     const Argument* option = find_option(command_, name);
     const bool may_repeat = option && option->repeats;
-    if (!seen_.insert(name).second && !may_repeat) throw BadInput(fmt::format("{}: given twice", name));
+    if (!seen_.insert(name).second && !may_repeat) throw BadInput("{}: given twice", name);
     list_ = option && option->is_list() ? name : "";
     if (!option || option->is_flag()) {
-      if (equal != std::string::npos) throw BadInput(fmt::format("{}: takes no value", name));
+      if (equal != std::string::npos) throw BadInput("{}: takes no value", name);
       out_.push_back(name);
       return;
     }
     used_next = equal == std::string::npos;
-    if (used_next && (next == nullptr || next->starts_with("--")))
-      throw BadInput(fmt::format("{}: needs a value", name));
+    if (used_next && (next == nullptr || next->starts_with("--"))) throw BadInput("{}: needs a value", name);
     const std::string value = used_next ? *next : argument.substr(equal + 1);
-    if (value.empty()) throw BadInput(fmt::format("{} '': the value is empty", name));
+    if (value.empty()) throw BadInput("{} '': the value is empty", name);
     out_.push_back(name + "=" + value);
   }
 
   /// A value of the list before it, or an argument of its own.
   void positional(const std::string& argument) {
     if (!list_.empty()) {
-      if (argument.empty()) throw BadInput(fmt::format("{} '': the value is empty", list_));
+      if (argument.empty()) throw BadInput("{} '': the value is empty", list_);
       out_.push_back(list_ + "=" + argument);
       return;
     }
@@ -160,7 +158,7 @@ class Scan {
       takes_many = takes_many || (!one.is_option() && one.is_list());
     }
     if (++positionals_ > allowed && !takes_many)
-      throw BadInput(fmt::format("'{}': unexpected argument for {}", argument, command_.name));
+      throw BadInput("'{}': unexpected argument for {}", argument, command_.name);
     out_.push_back(argument);
   }
 
@@ -191,9 +189,9 @@ std::vector<std::string> checked_arguments(const Command& command, const std::ve
     else if (argument.starts_with("--") && argument.size() > 2) {
       scan.option(argument, i + 1 < arguments.size() ? &arguments[i + 1] : nullptr, used_next);
     } else if (is_short_option(argument)) {
-      throw BadInput(fmt::format("option {}: unknown; options begin with two dashes", argument));
+      throw BadInput("option {}: unknown; options begin with two dashes", argument);
     } else if (command.name.empty()) {
-      throw BadInput(fmt::format("'{}': a command comes before its options", argument));
+      throw BadInput("'{}': a command comes before its options", argument);
     } else {
       scan.positional(argument);
     }

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "validation/program/program.hpp"
 
+#include "validation/command/options.hpp"
 #include "validation/output/bad_input.hpp"
 #include "validation/output/sink.hpp"
-#include "validation/program/parser.hpp"
 #include "validation/scene/failure.hpp"
 
 namespace clatter::validation {
@@ -15,11 +15,7 @@ int parse_and_run(const std::vector<Command>& commands, const std::vector<std::s
     throw BadInput(line.command->name + ": is a command of the whole program, which this one comes before");
   int status = 0;
   if (line.command) status = line.command->run();
-  else {
-    Sink sink("");
-    sink.write(line.text);
-    sink.commit();
-  }
+  else write_out({}, line.text);
   if (!line.note.empty()) say(line.note);
   return status;
 }

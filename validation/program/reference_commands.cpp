@@ -5,15 +5,13 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <memory>
 
 #include "validation/command/options.hpp"
 #include "validation/output/bad_input.hpp"
 #include "validation/output/json.hpp"
 #include "validation/output/sink.hpp"
 #include "validation/output/version.hpp"
-#include "validation/program/commands.hpp"
-#include "validation/program/parser.hpp"
+#include "validation/program/program.hpp"
 #include "validation/scene/keys.hpp"
 #include "validation/scene/option_values.hpp"
 #include "validation/scene/orientation.hpp"
@@ -31,17 +29,12 @@ Scene begun_scene(BodyScene::Shape shape) {
   return scene;
 }
 
-/// As a scene file has it: texts in quotes.
 /// "required", or the value that a scene file has without the key; empty: none.
 std::string default_words(const Key& key) {
   if (key.is_required) return "required";
-  if (std::holds_alternative<ListValue>(key.value) || std::holds_alternative<CurveValue>(key.value)) return "";
+  if (key.value.kind == KeyValue::Kind::list || key.value.kind == KeyValue::Kind::curve) return "";
   for (std::size_t shape = 0; shape < shape_names().size(); ++shape) {
-    Scene scene;
-    scene.body.shape = static_cast<BodyScene::Shape>(shape);
-    scene.world.ground.stiffness = 0;  // none
-    scene.world.gravity = 0;
-    const Value value = key.get(scene);
+    const Value value = key.get(bare_scene(static_cast<BodyScene::Shape>(shape)));
     if (!value.text().empty()) return compact_json(value);
   }
   return "";
@@ -134,11 +127,7 @@ std::string keys_text() {
 
 /// A value to begin with, for a key that has none by itself.
 std::string example(const Key& key) {
-  if (const auto* list = std::get_if<ListValue>(&key.value)) return list->example;
-  if (const auto* curve = std::get_if<CurveValue>(&key.value)) return curve->example;
-  if (std::holds_alternative<TextValue>(key.value)) return "\"name\"";
-  if (const auto* choice = std::get_if<NameValue>(&key.value)) return compact_json(Value(choice->names->front()));
-  if (key.is_truth()) return "true";
+  if (!key.value.example.empty()) return key.value.example;
   const std::string_view name = key.name;
   return name == "run.tolerance" || name == "run.step" || name == "body.mesh.weld" ? "1e-6" : "1";
 }
@@ -166,7 +155,7 @@ void require_new(const std::string& path) {
   if (path.empty()) return;
   const Destination destination = destination_of({"--output", path});
   if (!destination.is_stream && destination.mode)
-    throw BadInput(fmt::format("{}: is there already; init writes new files alone", path));
+    throw BadInput("{}: is there already; init writes new files alone", path);
 }
 
 int run_keys(const OutputChoice& choice) {
@@ -176,34 +165,36 @@ int run_keys(const OutputChoice& choice) {
   return 0;
 }
 
+struct InitInput {
+  std::string file, option;  ///< one of them, or neither
+};
+
+int run_init(const InitInput& input) {
+  if (!input.file.empty() && !input.option.empty())
+    throw BadInput("--output {}: {} is the file", input.option, input.file);
+  const OutputChoice choice{.style = {}, .path = input.file + input.option};
+  require_new(choice.path);
+  check_files(choice);
+  write_out(choice, scene_file());
+  return 0;
+}
+
 }  // namespace
 
 Command keys_command() {
-  auto output = std::make_shared<OutputChoice>();
-  Command command;
-  add_output_options(command, *output);
-  command.footer = "Example: clatter help keys --format markdown";
-  command.run = [output] { return run_keys(*output); };
-  return command;
+  return command_of<OutputChoice>(run_keys, [](Command& command, OutputChoice& output) {
+    add_output_options(command, output);
+    command.footer = "Example: clatter help keys --format markdown";
+  });
 }
 
 Command init_command() {
-  auto file = std::make_shared<std::string>();
-  Command command;
-  auto named = std::make_shared<std::string>();
-  command.add(
-      {.name = "FILE", .target = named.get(), .type = "FILE", .help = "to write, whole or not at all (stdout)"});
-  command.add_text("--output", *file, "FILE", "the same");
-  command.footer = "Example: clatter init scene.toml";
-  command.run = [file, named] {
-    if (!named->empty() && !file->empty()) throw BadInput(fmt::format("--output {}: {} is the file", *file, *named));
-    const OutputChoice choice{.style = {}, .path = named->empty() ? *file : *named};
-    require_new(choice.path);
-    check_files(choice);
-    write_out(choice, scene_file());
-    return 0;
-  };
-  return command;
+  return command_of<InitInput>(run_init, [](Command& command, InitInput& input) {
+    command.add(
+        {.name = "FILE", .target = &input.file, .type = "FILE", .help = "to write, whole or not at all (stdout)"});
+    command.add_text("--output", input.option, "FILE", "the same");
+    command.footer = "Example: clatter init scene.toml";
+  });
 }
 
 // `clatter help columns`: every column of CSV and JSON, by command.
@@ -451,34 +442,28 @@ std::string man_page() {
   return page;
 }
 
-int print(const std::string& text) {
-  Sink sink("");
-  sink.write(text);
-  sink.commit();
+int run_completion(const std::string& shell) {
+  std::string (*const scripts[])(){bash_completion, zsh_completion, fish_completion};
+  write_out({}, scripts[read_name_option("completion", shell, {"bash", "zsh", "fish"})]());
   return 0;
 }
 
 }  // namespace
 
 Command completion_command() {
-  auto shell = std::make_shared<std::string>();
-  Command command;
-  command.add({.name = "SHELL", .target = shell.get(), .help = "bash, zsh or fish", .required = true});
-  command.footer = "Example: clatter completion bash > ~/.local/share/bash-completion/completions/clatter";
-  command.run = [shell] {
-    switch (read_name_option("completion", *shell, {"bash", "zsh", "fish"})) {
-      case 0: return print(bash_completion());
-      case 1: return print(zsh_completion());
-      default: return print(fish_completion());
-    }
-  };
-  return command;
+  return command_of<std::string>(run_completion, [](Command& command, std::string& shell) {
+    command.add({.name = "SHELL", .target = &shell, .help = "bash, zsh or fish", .required = true});
+    command.footer = "Example: clatter completion bash > ~/.local/share/bash-completion/completions/clatter";
+  });
 }
 
 Command man_command() {
   Command command;
   command.footer = "Example: clatter man | man -l -";
-  command.run = [] { return print(man_page()); };
+  command.run = [] {
+    write_out({}, man_page());
+    return 0;
+  };
   return command;
 }
 

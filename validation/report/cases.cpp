@@ -21,7 +21,7 @@ constexpr std::size_t most_cases = 100;
 /// The values of a flag that has several: 0.3:0.7:0.1 or 0.3,0.5, as in a sweep, or names, concrete,wood.  Empty: one.
 std::vector<std::string> several_values(const Key& key, const std::string& text) {
   std::vector<std::string> values;
-  if (std::holds_alternative<NameValue>(key.value) && text.find(',') != std::string::npos) {
+  if (key.value.kind == KeyValue::Kind::name && text.find(',') != std::string::npos) {
     for (const auto part : std::views::split(text, ',')) values.emplace_back(part.begin(), part.end());
   } else if (key.is_number() && text.find_first_of(":,") != std::string::npos) {
     const SweepAxis axis = read_grid_axis(key.flag, text, key.is_whole());

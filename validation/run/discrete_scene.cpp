@@ -213,12 +213,7 @@ std::string side_name(BodyScene::Shape shape, const Vector3& side) {
 }
 
 const char* source_name(LawSource source, const char* of_ground) {
-  switch (source) {
-    case LawSource::standard: return "default";
-    case LawSource::impact: return "impact";
-    case LawSource::ground: return of_ground;
-  }
-  return "";
+  return source == LawSource::standard ? "default" : source == LawSource::impact ? "impact" : of_ground;
 }
 
 std::string law_friction_words(const Scene& scene, const DiscreteLaw& law) {
@@ -471,8 +466,8 @@ PreparedScene read_discrete_scene(const SceneValues& values, const std::vector<S
   if (scene.sweep) {
     const bool is_angle = scene.sweep->quantity == SceneSweep::Quantity::angle_deg;
     if (is_angle || !(scene.impact.friction || scene.impact.impulse_ratio)) {
-      throw BadInput(fmt::format("{}: sweep.{}: must be left out here; give {}", values.path(), scene.sweep->name(),
-                                 is_angle ? "--angle" : "--friction"));
+      throw BadInput("{}: sweep.{}: must be left out here; give {}", values.path(), scene.sweep->name(),
+                     is_angle ? "--angle" : "--friction");
     }
   }
   return prepared(std::move(scene));
@@ -505,12 +500,8 @@ Value law_fields(const Scene& scene, std::optional<double> approach) {
   }
   fields["restitution_from"] = source_name(
       found.restitution_from, scene.world.ground.has_dissipation() ? "ground.dissipation" : "ground.damping");
-  switch (law.friction) {
-    case analytic::FrictionKind::none: fields["friction_law"] = "none"; break;
-    case analytic::FrictionKind::coulomb: fields["friction_law"] = "coulomb"; break;
-    case analytic::FrictionKind::moreau: fields["friction_law"] = "moreau"; break;
-    case analytic::FrictionKind::impulse_ratio: fields["friction_law"] = "impulse-ratio"; break;
-  }
+  const char* const frictions[]{"none", "impulse-ratio", "coulomb", "moreau"};
+  fields["friction_law"] = frictions[static_cast<std::size_t>(law.friction)];
   if (law.friction != analytic::FrictionKind::none) fields["friction"] = law.friction_value;
   fields["friction_from"] = source_name(found.friction_from, "ground.sliding_friction");
   return fields;

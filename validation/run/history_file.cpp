@@ -18,8 +18,8 @@ TimeWindow read_window(const std::string& name, const std::string& text) {
   const std::size_t colon = std::min(text.find(':'), text.size());
   const bool reads = colon < text.size() && read_number(text.substr(0, colon), window.from) &&
                      read_number(text.substr(colon + 1), window.to);
-  if (!reads) throw BadInput(fmt::format("{} '{}': must be FROM:TO, two times in s", name, text));
-  if (!(window.from < window.to)) throw BadInput(fmt::format("{} '{}': FROM must be less than TO", name, text));
+  if (!reads) throw BadInput("{} '{}': must be FROM:TO, two times in s", name, text);
+  if (!(window.from < window.to)) throw BadInput("{} '{}': FROM must be less than TO", name, text);
   return window;
 }
 

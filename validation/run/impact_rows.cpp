@@ -17,11 +17,9 @@ namespace {
 using Number = Entry (*)(const Numbers&);
 using Fact = Entry (*)(const Impact&);
 
-/// The models and the tail that know a quantity, in the order plane, space, continuous, tail.
-struct KnownTo {
-  Known in_plane, in_space, continuous, tail;
-};
 using enum Known;
+/// What the models in the plane and in space, the continuous one and the tail know.
+using KnownTo = std::array<Known, 4>;
 constexpr KnownTo all_models{value_only, value_only, value_only, absent},
     all_with_errors{with_error, with_error, with_error, absent},
     all_and_tail{with_error, with_error, with_error, with_error}, force_of_contact{empty, empty, with_error, absent},
@@ -33,14 +31,13 @@ template <auto Member>
 constexpr Fact fact_at = [](const Impact& impact) { return Entry(impact.*Member); };
 
 constexpr ImpactQuantity quantity(const char* name, const char* symbol, const char* unit, const char* meaning,
-                                  Scale scale, const KnownTo& known, Number of_numbers, Fact of_impact = nullptr) {
-  return {name,           symbol,           unit,       meaning,    scale,    known.in_plane,
-          known.in_space, known.continuous, known.tail, of_numbers, of_impact};
+                                  Scale scale, const KnownTo& known, Number of_numbers) {
+  return {name, symbol, unit, meaning, scale, known, of_numbers, nullptr};
 }
 
 constexpr ImpactQuantity quantity(const char* name, const char* symbol, const char* unit, const char* meaning,
                                   Scale scale, const KnownTo& known, Fact of_impact) {
-  return quantity(name, symbol, unit, meaning, scale, known, nullptr, of_impact);
+  return {name, symbol, unit, meaning, scale, known, nullptr, of_impact};
 }
 
 constexpr ImpactQuantity all[]{
@@ -117,15 +114,6 @@ constexpr ImpactQuantity all[]{
              Scale::none, all_models, fact_at<&Impact::predictable>)};
 
 }  // namespace
-
-Known ImpactQuantity::known_to(RunModel model) const {
-  switch (model) {
-    case RunModel::plane: return in_plane;
-    case RunModel::space: return in_space;
-    case RunModel::continuous: return continuous;
-  }
-  return absent;
-}
 
 Entry ImpactQuantity::kind() const {
   static const Impact some{.corners = "0"};  // the text that an impact without named corners lacks
@@ -216,7 +204,7 @@ void add_errors(const Entry& error, Row& row) {
 /// What the model knows of a quantity of the impact; a tail knows less.
 Known known_of(const ImpactQuantity& quantity, RunModel model, const Impact& impact) {
   const Known known = quantity.known_to(model);
-  return impact.is_tail ? std::min(known, quantity.tail) : known;
+  return impact.is_tail ? std::min(known, quantity.known.back()) : known;
 }
 
 void append_error(CellWriter& out, const Entry& entry) {

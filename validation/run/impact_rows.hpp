@@ -39,11 +39,11 @@ struct ImpactQuantity {
   const char* unit;
   const char* meaning;
   Scale scale;
-  Known in_plane, in_space, continuous, tail;
+  std::array<Known, 4> known;       ///< to the models, in their order, and to a tail
   Entry (*number)(const Numbers&);  ///< one of the numbers, and so of their errors; or none
   Entry (*fact)(const Impact&);     ///< anything else
 
-  [[nodiscard]] Known known_to(RunModel model) const;
+  [[nodiscard]] Known known_to(RunModel model) const { return known[static_cast<std::size_t>(model)]; }
   [[nodiscard]] Entry value(const Impact& impact) const { return number ? number(impact.value) : fact(impact); }
   /// The error of a number; no other kind has one.
   [[nodiscard]] Entry error(const Impact& impact) const { return number(impact.error); }

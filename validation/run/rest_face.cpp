@@ -121,7 +121,7 @@ DiscreteSequence sequence_to_face(const Scene& scene, const DiscreteDrop& drop, 
 
 Value fields_of(const RestFace& rest) {
   return Value::Fields{{"face", text_or_nothing(rest.face)},
-                       {"time", std::isnan(rest.time.value) ? Value() : Value(rest.time.value)},
+                       {"time", rest.time.value},
                        {"time_error", error_or_nothing(rest.time)},
                        {"known", rest.is_known}};
 }

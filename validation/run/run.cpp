@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include "analytic/base/angle.hpp"
@@ -325,16 +326,14 @@ std::string words_of(const EndMotion& motion) {
 }
 
 Value fields_of(const EndMotion& motion) {
-  const auto list = [](const EntryVector& v) { return std::vector<double>(v.begin(), v.end()); };
-  const auto finite = [](double value) { return std::isfinite(value) ? Value(value) : Value(); };
   return Value::Fields{{"kind", motion.kind},
                        {"start", motion.begin},
-                       {"duration", finite(motion.duration)},
-                       {"distance", finite(motion.distance)},
-                       {"velocity", list(motion.velocity)},
-                       {"angular_velocity", list(motion.angular_velocity)},
-                       {"velocity_after", list(motion.velocity_after)},
-                       {"angular_velocity_after", list(motion.angular_velocity_after)}};
+                       {"duration", motion.duration},
+                       {"distance", motion.distance},
+                       {"velocity", motion.velocity},
+                       {"angular_velocity", motion.angular_velocity},
+                       {"velocity_after", motion.velocity_after},
+                       {"angular_velocity_after", motion.angular_velocity_after}};
 }
 
 namespace {
@@ -366,27 +365,9 @@ void settle_outcome(bool followed, bool stops, Run& run) {
 }
 
 Numbers Numbers::unknown() {
-  constexpr double x = unknown_error;
-  return {.start = x,
-          .duration = x,
-          .inclination_deg = x,
-          .contact_angle_deg = x,
-          .approach_speed = x,
-          .restitution = x,
-          .impulse_ratio = x,
-          .impulse = each(x),
-          .peak_force = x,
-          .peak_time = x,
-          .indentation = x,
-          .velocity_after = each(x),
-          .angular_velocity_after = each(x),
-          .energy_before = x,
-          .energy_after = x,
-          .energy_loss = x,
-          .work_damping = x,
-          .work_friction = x,
-          .work_released = x,
-          .attitude = {x, x, x, x}};
+  std::array<double, sizeof(Numbers) / sizeof(double)> all;
+  all.fill(unknown_error);
+  return std::bit_cast<Numbers>(all);
 }
 
 Impact impact_of(const analytic::ImpactRow& row, int n, double drop_deg) {
@@ -490,12 +471,11 @@ FirstTouch first_touch_of(double time, const numeric::MotionState& state) {
 }
 
 Value fields_of(const FirstTouch& touch) {
-  return Value::Fields{
-      {"time", touch.time.value},
-      {"time_error", error_or_nothing(touch.time)},
-      {"attitude", std::vector<double>(touch.attitude.begin(), touch.attitude.end())},
-      {"velocity", std::vector<double>(touch.velocity.begin(), touch.velocity.end())},
-      {"angular_velocity", std::vector<double>(touch.angular_velocity.begin(), touch.angular_velocity.end())}};
+  return Value::Fields{{"time", touch.time.value},
+                       {"time_error", error_or_nothing(touch.time)},
+                       {"attitude", touch.attitude},
+                       {"velocity", touch.velocity},
+                       {"angular_velocity", touch.angular_velocity}};
 }
 
 std::string words_of(const FirstTouch& touch) {

@@ -282,4 +282,35 @@ std::vector<std::string> scene_head(const Scene& scene, Model model, std::option
   return head;
 }
 
+Report scene_report(const std::string& command, const std::string& what, const char* model_name, const Scene& scene,
+                    Model model, std::optional<double> approach) {
+  Report report = begun_report(command, what);
+  report.head = scene_head(scene, model, approach);
+  report.fields["model"] = model_name;
+  report.fields["scene"] = scene_value(scene, model, approach);
+  report.fields["body"] = body_value(scene, model);
+  return report;
+}
+
+Column swept_column(const SceneSweep& sweep) {
+  const bool over_angle = sweep.quantity == SceneSweep::Quantity::angle_deg;
+  return {.name = sweep.name(),
+          .heading = over_angle ? "angle" : "μₖ",
+          .unit = over_angle ? "°" : "",
+          .meaning = "swept: " + swept_words(sweep)};
+}
+
+std::string swept_words(const SceneSweep& sweep) {
+  return sweep.quantity == SceneSweep::Quantity::angle_deg ? "contact angle θ" : "friction coefficient μ";
+}
+
+Range2 swept_range(double first, double last) {
+  return first < last ? Range2{first, last} : Range2{first - 0.5, last + 0.5};
+}
+
+void add_interruption(const SceneSweep& sweep, std::size_t done, Report& report) {
+  const std::size_t values = sweep.values().size();
+  if (done < values) report.notes.push_back(fmt::format("interrupted: {} of {} values", done, values));
+}
+
 }  // namespace clatter::validation

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A scene as the head and the fields of a report.
+// A scene as the head and the fields of a report, and what reports over its sweep share.
 #pragma once
 
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "validation/output/value.hpp"
+#include "validation/output/plot.hpp"
+#include "validation/output/report.hpp"
 #include "validation/scene/scene.hpp"
 
 namespace clatter::validation {
@@ -24,5 +25,21 @@ namespace clatter::validation {
 /// It leaves out what `unsettled` keys say, and the body's numbers where they are not those of one body.
 [[nodiscard]] std::vector<std::string> scene_head(const Scene& scene, Model model = Model::continuous,
                                                   std::optional<double> approach = {}, const KeyNames& unsettled = {});
+
+/// A report on a scene with its title, head and, in JSON, the model's name, scene and body.
+[[nodiscard]] Report scene_report(const std::string& command, const std::string& what, const char* model_name,
+                                  const Scene& scene, Model model = Model::continuous,
+                                  std::optional<double> approach = {});
+
+/// Column of the swept values, named like the quantity.
+[[nodiscard]] Column swept_column(const SceneSweep& sweep);
+
+/// The quantity in words, for an axis of a picture, without the unit.
+[[nodiscard]] std::string swept_words(const SceneSweep& sweep);
+/// Range of such an axis from the first to the last value; around a single one.
+[[nodiscard]] Range2 swept_range(double first, double last);
+
+/// Adds a note if fewer values than the sweep has are done.
+void add_interruption(const SceneSweep& sweep, std::size_t done, Report& report);
 
 }  // namespace clatter::validation

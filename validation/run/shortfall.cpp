@@ -34,10 +34,12 @@ std::string Shortfalls::words(long long all, const char* what) const {
   return count_ == 0 ? "" : fmt::format("{} of {} {} fall short; {}", count_, all, what, first_);
 }
 
-int Shortfalls::status(long long all, const char* what) const {
-  if (count_ == 0) return 0;
-  say(words(all, what));
-  return exit_status(FailureKind::not_computed);
+int Shortfalls::status(long long all, const char* what) const { return status_of(words(all, what)); }
+
+int status_of(const std::string& why, int status) {
+  if (why.empty()) return 0;
+  say(why);
+  return status;
 }
 
 int shortfall_status(const Run& run) {

@@ -34,6 +34,9 @@ class Shortfalls {
   std::string first_;
 };
 
+/// Says why a run falls short, if it does.  @returns the exit status that goes with that, or 0
+[[nodiscard]] int status_of(const std::string& why, int status = 3);
+
 /// Exit status of a run of the discrete model that falls short: 4 where it leaves the model, else 3.
 [[nodiscard]] int shortfall_status(const Run& run);
 

@@ -87,9 +87,8 @@ std::vector<double> state_times(const Scene& scene, const Run& run) {
     const double end = std::isfinite(scene.request.until) ? scene.request.until : end_of(run);
     const double last = end * scene.rate;
     if (!(last <= most_times)) {
-      throw BadInput(
-          fmt::format("run.rate = {}: gives more than a million states until {} s; give a lower one, or run.until",
-                      shortest(scene.rate), shortest(end)));
+      throw BadInput("run.rate = {}: gives more than a million states until {} s; give a lower one, or run.until",
+                     shortest(scene.rate), shortest(end));
     }
     for (double k = 0; k <= last * (1 + 1e-12); ++k) times.push_back(k / scene.rate);
   }

@@ -71,7 +71,7 @@ struct Bounds {
 [[noreturn]] void refuse(const Scene& scene, const char* name, const std::string& allowed) {
   const Key& key = key_named(name);
   const std::string place = scene.path.empty() ? std::string(key.flag) : scene.path + ": " + name;
-  throw BadInput(fmt::format("{} = {}: must be {}", place, compact_json(key.get(scene)), allowed));
+  throw BadInput("{} = {}: must be {}", place, compact_json(key.get(scene)), allowed);
 }
 
 /// @param k2 inertia over mass about the centre of mass, which does not overflow where m R² does
@@ -233,10 +233,6 @@ BodyProperties shape_properties(const Scene& scene, double radius) {
   return properties;
 }
 
-}  // namespace
-
-namespace {
-
 /// The body of a file, with centre and inertia that the scene gives.
 SolidBody settled_solid(const Scene& scene) {
   const BodyScene& body = scene.body;
@@ -362,12 +358,11 @@ std::string mesh_words(const Scene& scene) {
 
 Value body_value(const Scene& scene, Model model) {
   const BodyProperties body = body_properties(scene, model);
-  const auto list = [](const Vector3& v) { return std::vector<double>{v.x(), v.y(), v.z()}; };
   const Matrix3 i = body.mass * body.gyration_square;
   Value value = Value::Fields{{"mass", body.mass},
-                              {"extents", list(body.extents)},
-                              {"centre", list(body.centre)},
-                              {"principal_inertia", list(body.principal_inertia())},
+                              {"extents", body.extents},
+                              {"centre", body.centre},
+                              {"principal_inertia", body.principal_inertia()},
                               {"inertia", std::vector<double>{i(0, 0), i(1, 1), i(2, 2), i(0, 1), i(0, 2), i(1, 2)}}};
   if (scene.body.is_polyhedron() && scene.body.is_surface()) value["mesh"] = mesh_value(*solid_of_file(scene), scene);
   return value;

@@ -20,8 +20,6 @@ std::string facet_part(double inside, const numeric::ImpactRecord& row) {
   return part < 1 ? shortest(rounded_up(100 * part)) + " %" : "all";
 }
 
-}  // namespace
-
 constexpr double thin_part = 0.01;  ///< of the length: the radius of the rod that a thin one is given
 
 /// How much a small error of the motion grows from one impact's end to the next one's.
@@ -78,7 +76,8 @@ void add_to(numeric::StateRecord& state, const ImpactSizes& sizes, double relati
   state.error.energy += relative * sizes.energy;
 }
 
-/// R (1 − cos(π/n)) beside a rod's axis; a sphere's facet spans a cap in which one meridian's cosine is added as a
+/// How far the facets of a mesh that stands for a round body lie inside its surface, at most [m]; 0: none stands for
+/// one. R (1 − cos(π/n)) beside a rod's axis; a sphere's facet spans a cap in which one meridian's cosine is added as a
 /// factor. What maps a unit ball to an ellipsoid stretches no distance by more than its longest semiaxis.
 double facet_depth(const BodyScene& body) {
   if (!body.traits().has_sectors || body.is_smooth()) return 0;
@@ -88,6 +87,8 @@ double facet_depth(const BodyScene& body) {
   const double radius = body.has_size() ? body.size.maxCoeff() / 2 : body.meshed_radius();
   return radius * (1 - around * along);
 }
+
+}  // namespace
 
 void add_facet_errors(const Scene& scene, numeric::Simulation& run) {
   const BodyScene& body = scene.body;

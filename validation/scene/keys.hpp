@@ -6,11 +6,8 @@
 #include <array>
 #include <functional>
 #include <map>
-#include <optional>
-#include <span>
 #include <string>
 #include <string_view>
-#include <variant>
 #include <vector>
 
 #include "validation/output/value.hpp"
@@ -19,56 +16,18 @@
 
 namespace clatter::validation {
 
-// The kinds of values: where one stands in a scene, and what is allowed.
-
-struct NumberValue {
-  double& (*at)(Scene& scene);
-  Range range;
-  const Range* wide = nullptr;  ///< for the discrete model, where it allows more
+/// The value of a key: where a scene has it, how it is read, and what is allowed.
+struct KeyValue {
+  enum class Kind { number, whole, truth, text, name, list, curve } kind = Kind::number;
+  std::string allowed{};                     ///< in words
+  std::function<Value(const Scene&)> get{};  ///< nothing where a scene has none
+  /// Puts what is given under the name in its place.  @throws BadInput where it is out of its range
+  std::function<void(const SceneValues& values, const std::string& name, Scene& scene, Model model)> read{};
+  void (*put)(Scene& scene, double number) = nullptr;  ///< of numbers: whether it is in range is for the reader to say
+  Range range = any_number;                            ///< of a number, or of each of a list
+  std::vector<std::string> names{};                    ///< to choose from, in the order of an enumeration
+  std::string example{};                               ///< as a scene file has it; empty: a number
 };
-struct OptionalNumber {
-  std::optional<double>& (*at)(Scene& scene);
-  Range range;
-  const Range* wide = nullptr;
-};
-struct WholeNumber {
-  int& (*at)(Scene& scene);
-  int low, high;
-  int wide_low = low, wide_high = high;
-};
-struct LongNumber {
-  long& (*at)(Scene& scene);
-  long long low, high;
-};
-struct TruthValue {
-  bool& (*at)(Scene& scene);
-};
-struct TextValue {
-  std::string& (*at)(Scene& scene);
-};
-struct NameValue {
-  const std::vector<std::string>* names;
-  std::size_t (*get)(const Scene& scene);
-  void (*put)(Scene& scene, std::size_t index);
-};
-struct ListValue {
-  std::vector<double> (*get)(const Scene& scene);
-  void (*put)(Scene& scene, const std::vector<double>& numbers);
-  std::vector<std::size_t> sizes;  ///< how many numbers; empty: one or more
-  Range range;
-  const char* words;    ///< what is allowed
-  const char* example;  ///< as a scene file has it
-  const Range* wide = nullptr;
-};
-/// A list of pairs, or the file that has them.
-struct CurveValue {
-  std::vector<std::array<double, 2>>& (*points)(Scene& scene);
-  std::string& (*file)(Scene& scene);
-  const char* words;
-  const char* example;
-};
-using KeyValue = std::variant<NumberValue, OptionalNumber, WholeNumber, LongNumber, TruthValue, TextValue, NameValue,
-                              ListValue, CurveValue>;
 
 /// How a key stands in the JSON echo of a scene.
 enum class Echo { value, null, absent };
@@ -86,8 +45,8 @@ struct Key {
   KeyValue value;
   /// None: its value, and null where that is empty or another key is given instead.
   Echo (*echo)(const Scene& scene, Model model) = nullptr;
-  bool is_required = false;                      ///< no scene of the continuous model is without it
-  std::span<const char* const> instead_of = {};  ///< keys whose place it takes: a scene has it or some of them
+  std::vector<const char*> instead_of{};  ///< keys whose place it takes: a scene has it or some of them
+  bool is_required = false;               ///< no scene of the continuous model is without it
 
   /// What the flag's value is in help: `type`, or the names to choose from, "rod|box|mesh".
   [[nodiscard]] std::string value_type() const;
@@ -98,20 +57,20 @@ struct Key {
   }
   /// Whether it says at which times the motion is told, or ends: of the commands alone that tell it.
   [[nodiscard]] bool is_of_times() const;
-  [[nodiscard]] bool is_truth() const { return std::holds_alternative<TruthValue>(value); }
-  [[nodiscard]] bool is_number() const;
-  [[nodiscard]] bool is_whole() const;
+  [[nodiscard]] bool is_truth() const { return value.kind == KeyValue::Kind::truth; }
+  [[nodiscard]] bool is_number() const { return value.put != nullptr; }
+  [[nodiscard]] bool is_whole() const { return value.kind == KeyValue::Kind::whole; }
   [[nodiscard]] bool is_of_body() const { return std::string_view(name).starts_with("body."); }
   /// Whether its value names a file, which only the command line and scene files may.
   [[nodiscard]] bool is_file() const { return std::string_view(type) == "FILE"; }
   /// What is allowed, in words: "greater than 0", "one of rod, box, mesh".
-  [[nodiscard]] std::string allowed() const;
+  [[nodiscard]] const std::string& allowed() const { return value.allowed; }
   /// Its value in a scene, null or absent as in the echo.
   [[nodiscard]] Value get(const Scene& scene) const;
-  /// Whether a scene has a value of it; true for kinds that always have one.
-  [[nodiscard]] bool is_given(const Scene& scene) const;
-  /// Puts a number in its place; whether it is in range is for the reader to say.  @pre is_number()
-  void put_number(Scene& scene, double number) const;
+  /// Whether a scene has a value of it.
+  [[nodiscard]] bool is_given(const Scene& scene) const { return !value.get(scene).is_nothing(); }
+  /// @pre is_number()
+  void put_number(Scene& scene, double number) const { value.put(scene, number); }
 };
 
 /// In the order of the echo.
@@ -146,14 +105,14 @@ void add_keys(const Scene& scene, Model model, Value& fields);
 /// Names of choices, in the order of their enumerators.
 [[nodiscard]] const std::vector<std::string>& shape_names();
 [[nodiscard]] const std::vector<std::string>& law_names();
-[[nodiscard]] const std::vector<std::string>& start_names();
 [[nodiscard]] const std::vector<std::string>& area_names();
-[[nodiscard]] const std::vector<std::string>& friction_law_names();
-[[nodiscard]] const std::vector<std::string>& impact_friction_names();
 [[nodiscard]] const std::vector<std::string>& method_names();
 [[nodiscard]] const std::vector<std::string>& sweep_names();
 
 // A scene as others read it again: the keys that it has to say, and the text of a file.
+
+/// What flags alone give a body of this shape.
+[[nodiscard]] Scene bare_scene(BodyScene::Shape shape);
 
 /// Keys whose values flags alone would not give, in the order of the echo, but for files; those of the body, gravity
 /// and restitution in any case.

@@ -4,124 +4,14 @@
 #include "validation/scene/keys.hpp"
 
 namespace clatter::validation {
-
-using analytic::ImpactMode;
-using numeric::FrictionMode;
-using numeric::Outcome;
-
-const char* mode_name(analytic::ImpactMode mode) {
-  switch (mode) {
-    case analytic::ImpactMode::frictionless: return "frictionless";
-    case analytic::ImpactMode::slip: return "slip";
-    case analytic::ImpactMode::stick: return "stick";
-    case analytic::ImpactMode::slip_stick: return "slip-stick";
-    case analytic::ImpactMode::reverse_slip: return "reverse-slip";
-  }
-  return "";
-}
-
-/// Slip that turns is slip.
-const char* mode_name(analytic::space::PathKind path) {
-  using analytic::space::PathKind;
-  switch (path) {
-    case PathKind::frictionless: return "frictionless";
-    case PathKind::slip:
-    case PathKind::turning_slip: return "slip";
-    case PathKind::stick: return "stick";
-    case PathKind::slip_stick: return "slip-stick";
-    case PathKind::slip_reslip: return "slip-reslip";
-  }
-  return "";
-}
-
-const char* outcome_name(analytic::Outcome outcome) {
-  switch (outcome) {
-    case analytic::Outcome::no_further_impact: return "no-further-impact";
-    case analytic::Outcome::impact_limit: return "impact-limit";
-    case analytic::Outcome::time_limit: return "time-limit";
-    case analytic::Outcome::at_rest: return "at-rest";
-    case analytic::Outcome::sustained_contact: return "sustained-contact";
-    case analytic::Outcome::not_computed: return "not-computed";
-    case analytic::Outcome::outside_model: return "outside-model";
-  }
-  return "";
-}
-
-const char* outcome_name(const numeric::Simulation& run) {
-  if (run.outcome != Outcome::sustained_contact || !run.on_ground) return outcome_name(run.outcome);
-  switch (run.on_ground->kind) {
-    case numeric::GroundMotionKind::slides: return "slides-on";
-    case numeric::GroundMotionKind::spins: return "spins-on";
-    case numeric::GroundMotionKind::rolls: return "rolls-on";
-    case numeric::GroundMotionKind::rests: return "at-rest";
-  }
-  return "";
-}
-
-const char* outcome_name(Outcome outcome) {
-  switch (outcome) {
-    case Outcome::no_further_impact: return "no-further-impact";
-    case Outcome::impact_limit: return "impact-limit";
-    case Outcome::at_rest: return "at-rest";
-    case Outcome::sustained_contact: return "sustained-contact";
-    case Outcome::evaluation_limit: return "evaluation-limit";
-    case Outcome::step_too_small: return "step-too-small";
-    case Outcome::not_representable: return "not-representable";
-    case Outcome::flight_undecided: return "flight-undecided";
-    case Outcome::interrupted: return "interrupted";
-    case Outcome::time_limit: return "time-limit";
-  }
-  return "";
-}
-
-bool is_cut_short(analytic::Outcome outcome) {
-  return outcome == analytic::Outcome::not_computed || outcome == analytic::Outcome::outside_model;
-}
-
-bool is_cut_short(Outcome outcome) {
-  switch (outcome) {
-    case Outcome::evaluation_limit:
-    case Outcome::step_too_small:
-    case Outcome::not_representable:
-    case Outcome::flight_undecided: return true;
-    case Outcome::no_further_impact:
-    case Outcome::impact_limit:
-    case Outcome::at_rest:
-    case Outcome::sustained_contact:
-    case Outcome::time_limit:
-    case Outcome::interrupted: return false;
-  }
-  return false;
-}
-
-const char* mode_name(FrictionMode mode) {
-  switch (mode) {
-    case FrictionMode::frictionless: return "frictionless";
-    case FrictionMode::slip: return "slip";
-    case FrictionMode::stick: return "stick";
-    case FrictionMode::slip_stick: return "slip-stick";
-    case FrictionMode::stick_slip: return "stick-slip";
-    case FrictionMode::slip_stick_slip: return "slip-stick-slip";
-    case FrictionMode::stick_slip_stick: return "stick-slip-stick";
-    case FrictionMode::alternating: return "alternating";
-    case FrictionMode::reverse_slip: return "reverse-slip";
-    case FrictionMode::regularised: return "regularised";
-    case FrictionMode::local: return "local";
-  }
-  return "";
-}
-
-const char* end_name(numeric::ContactEnd end) {
-  switch (end) {
-    case numeric::ContactEnd::a: return "a";
-    case numeric::ContactEnd::b: return "b";
-    case numeric::ContactEnd::both: return "both";
-    case numeric::ContactEnd::middle: return "middle";
-  }
-  return "";
-}
-
 namespace {
+
+/// The name of an enumerator, of those of all up to the last one in their order.
+template <auto last, std::size_t count>
+const char* name_in(const char* const (&names)[count], decltype(last) value) {
+  static_assert(count == static_cast<std::size_t>(last) + 1);
+  return names[static_cast<std::size_t>(value)];
+}
 
 /// In the order of the enumerators.
 constexpr RestitutionWords restitution_laws[]{
@@ -134,6 +24,57 @@ constexpr RestitutionWords restitution_laws[]{
     {"viscoelastic", "", "The impact ends where the ground has given back what its dampers left."}};
 
 }  // namespace
+
+const char* mode_name(analytic::ImpactMode mode) {
+  return name_in<analytic::ImpactMode::reverse_slip>({"frictionless", "slip", "stick", "slip-stick", "reverse-slip"},
+                                                     mode);
+}
+
+/// Slip that turns is slip.
+const char* mode_name(analytic::space::PathKind path) {
+  return name_in<analytic::space::PathKind::slip_reslip>(
+      {"frictionless", "slip", "slip", "stick", "slip-stick", "slip-reslip"}, path);
+}
+
+const char* mode_name(numeric::FrictionMode mode) {
+  return name_in<numeric::FrictionMode::local>(
+      {"frictionless", "slip", "stick", "slip-stick", "stick-slip", "slip-stick-slip", "stick-slip-stick",
+       "alternating", "reverse-slip", "regularised", "local"},
+      mode);
+}
+
+const char* outcome_name(analytic::Outcome outcome) {
+  return name_in<analytic::Outcome::outside_model>({"no-further-impact", "impact-limit", "time-limit", "at-rest",
+                                                    "sustained-contact", "not-computed", "outside-model"},
+                                                   outcome);
+}
+
+const char* outcome_name(numeric::Outcome outcome) {
+  return name_in<numeric::Outcome::time_limit>(
+      {"no-further-impact", "impact-limit", "at-rest", "sustained-contact", "evaluation-limit", "step-too-small",
+       "not-representable", "flight-undecided", "interrupted", "time-limit"},
+      outcome);
+}
+
+const char* outcome_name(const numeric::Simulation& run) {
+  if (run.outcome != numeric::Outcome::sustained_contact || !run.on_ground) return outcome_name(run.outcome);
+  return name_in<numeric::GroundMotionKind::rolls>({"at-rest", "slides-on", "spins-on", "rolls-on"},
+                                                   run.on_ground->kind);
+}
+
+const char* end_name(numeric::ContactEnd end) {
+  return name_in<numeric::ContactEnd::middle>({"a", "b", "both", "middle"}, end);
+}
+
+bool is_cut_short(analytic::Outcome outcome) {
+  return outcome == analytic::Outcome::not_computed || outcome == analytic::Outcome::outside_model;
+}
+
+bool is_cut_short(numeric::Outcome outcome) {
+  using enum numeric::Outcome;
+  return outcome == evaluation_limit || outcome == step_too_small || outcome == not_representable ||
+         outcome == flight_undecided;
+}
 
 const RestitutionWords& words_of(analytic::RestitutionLaw law) {
   return restitution_laws[static_cast<std::size_t>(law)];

@@ -21,16 +21,15 @@ std::string Range::allowed() const {
 
 double read_number_option(const std::string& option, const std::string& text, const Range& range) {
   double value = 0;
-  if (!read_number(text, value))
-    throw BadInput(fmt::format("{} '{}': is no number; it must be {}", option, text, range.allowed()));
-  if (!range.holds(value)) throw BadInput(fmt::format("{} '{}': must be {}", option, text, range.allowed()));
+  if (!read_number(text, value)) throw BadInput("{} '{}': is no number; it must be {}", option, text, range.allowed());
+  if (!range.holds(value)) throw BadInput("{} '{}': must be {}", option, text, range.allowed());
   return value;
 }
 
 int read_integer_option(const std::string& option, const std::string& text, int low, int high) {
   long long value = 0;
   if (!read_integer(text, value) || value < low || value > high)
-    throw BadInput(fmt::format("{} '{}': must be a whole number from {} to {}", option, text, low, high));
+    throw BadInput("{} '{}': must be a whole number from {} to {}", option, text, low, high);
   return static_cast<int>(value);
 }
 
@@ -39,8 +38,8 @@ std::size_t read_name_option(const std::string& option, const std::string& text,
   for (std::size_t i = 0; i < names.size(); ++i) {
     if (names[i] == text) return i;
   }
-  throw BadInput(fmt::format("{} '{}': must be one of {}; did you mean {}?", option, text, fmt::join(names, ", "),
-                             nearest_name(text, names)));
+  throw BadInput("{} '{}': must be one of {}; did you mean {}?", option, text, fmt::join(names, ", "),
+                 nearest_name(text, names));
 }
 
 }  // namespace clatter::validation

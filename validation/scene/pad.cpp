@@ -127,6 +127,13 @@ void check_curve(const GivenCurve& curve, const std::optional<double>& thickness
 /// What the curve's x is in m.
 double depth_unit(const PadScene& pad) { return pad.units == strain_curve ? *pad.thickness : 1; }
 
+/// The stiffness of a pad beyond its curve [Pa/m]: `pad.under`, or on a named floor that of what is left of it,
+/// h = pad_left(), as a layer that bears as floor and body do:  E*/h  (floors.hpp).  That is an estimate on the hard
+/// side: under patches wider than h floor and body yield, too.  None: the curve's last slope goes on.
+std::optional<double> stiffness_under(const PadScene& pad, const HalfSpaceScene& floor) {
+  return floor.floor ? reduced_modulus(floor).middle / pad_left(pad) : pad.under;
+}
+
 }  // namespace
 
 void read_pad(const SceneValues& values, PadScene& pad) {
@@ -139,10 +146,6 @@ void read_pad(const SceneValues& values, PadScene& pad) {
 
 double pad_left(const PadScene& pad) {
   return pad.thickness ? *pad.thickness - pad.curve.back()[0] * depth_unit(pad) : std::nan("");
-}
-
-std::optional<double> stiffness_under(const PadScene& pad, const HalfSpaceScene& floor) {
-  return floor.floor ? reduced_modulus(floor).middle / pad_left(pad) : pad.under;
 }
 
 void settle_pad(const PadScene& pad, const HalfSpaceScene& floor, numeric::Ground& ground) {

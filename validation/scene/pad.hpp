@@ -2,7 +2,6 @@
 // A pad's curve, as data sheets have it, and the ground that it makes.
 #pragma once
 
-#include <optional>
 #include <string>
 
 #include "validation/scene/scene.hpp"
@@ -18,11 +17,6 @@ void read_pad(const SceneValues& values, PadScene& pad);
 
 /// What is left of a pad's thickness at its curve's last point [m]; NaN without a thickness.
 [[nodiscard]] double pad_left(const PadScene& pad);
-
-/// The stiffness of a pad beyond its curve [Pa/m]: `pad.under`, or on a named floor that of what is left of it,
-/// h = pad_left(), as a layer that bears as floor and body do:  E*/h  (floors.hpp).  That is an estimate on the hard
-/// side: under patches wider than h floor and body yield, too.  None: the curve's last slope goes on.
-[[nodiscard]] std::optional<double> stiffness_under(const PadScene& pad, const HalfSpaceScene& floor);
 
 /// Makes of a pad that was read the ground's stiffness and kinks, of which the last stands at the curve's end.  Slopes
 /// that differ by less than 1e-12 of the larger are one piece.  Nothing without a curve.

@@ -85,11 +85,9 @@ std::vector<Probe> read_probes(const std::string& flag, const std::vector<std::s
     if (is_named) probe = probe_named(of_file, text, flag + " " + text);
     else if (!(colon != std::string::npos && is_probe_name(probe.name) &&
                read_place(text.substr(colon + 1), probe.place))) {
-      throw BadInput(
-          fmt::format("{} '{}': must be NAME:X,Y,Z, the name {}, then {}", flag, text, names_allowed, three_places));
+      throw BadInput("{} '{}': must be NAME:X,Y,Z, the name {}, then {}", flag, text, names_allowed, three_places);
     }
-    if (has_name(probes, probe.name))
-      throw BadInput(fmt::format("{} '{}': there is a probe of this name already", flag, text));
+    if (has_name(probes, probe.name)) throw BadInput("{} '{}': there is a probe of this name already", flag, text);
     probes.push_back(probe);
   }
   return probes;
@@ -147,8 +145,7 @@ void say_doubts(const Scene& scene, Model model, const std::vector<Probe>& probe
 Value probe_fields(const std::vector<Probe>& probes) {
   Value::List list;
   for (const Probe& probe : probes) {
-    const std::vector<double> place(probe.place.begin(), probe.place.end());
-    list.emplace_back(Value::Fields{{"name", probe.name}, {"place", place}});
+    list.emplace_back(Value::Fields{{"name", probe.name}, {"place", probe.place}});
     if (!probe.part.empty()) list.back()["part"] = probe.part;
   }
   return list;

@@ -110,9 +110,9 @@ std::optional<SceneSweep> read_sweep_table(const SceneValues& values) {
   for (std::size_t i = 0; i < sweep_names().size(); ++i) {
     const std::string table = "sweep." + sweep_names()[i];
     if (!values.has(table) && !values.has_table(table)) continue;
-    if (sweep) throw BadInput(fmt::format("{}: {}: only one quantity can be swept", values.path(), table));
+    if (sweep) throw BadInput("{}: {}: only one quantity can be swept", values.path(), table);
     const Key& key = key_named(i == 0 ? "drop.angle_deg" : "ground.sliding_friction");
-    const Range& range = std::get<NumberValue>(key.value).range;
+    const Range& range = key.value.range;
     sweep = values.has(table) ? read_list(values, table, range) : read_grid(values, table, range);
     sweep->quantity = static_cast<SceneSweep::Quantity>(i);
   }
@@ -131,13 +131,16 @@ void only_for(const SceneValues& values, const std::vector<std::string>& keys, c
   }
 }
 
+/// What was given for a key, or none.
+const SceneOverride* given(const std::vector<SceneOverride>& overrides, std::string_view key) {
+  const auto found = std::ranges::find(overrides, key, &SceneOverride::key);
+  return found == overrides.end() ? nullptr : &*found;
+}
+
 void refuse_both(const std::vector<SceneOverride>& overrides, const char* first, const char* second) {
-  const auto of = [&](const char* key) {
-    return std::find_if(overrides.begin(), overrides.end(), [&](const SceneOverride& o) { return o.key == key; });
-  };
-  const auto one = of(first), other = of(second);
-  if (one == overrides.end() || other == overrides.end()) return;
-  throw BadInput(fmt::format("{} and {}: give one of them, not both", one->flag, other->flag));
+  const SceneOverride *const one = given(overrides, first), *const other = given(overrides, second);
+  if (!one || !other) return;
+  throw BadInput("{} and {}: give one of them, not both", one->flag, other->flag);
 }
 
 void check_mesh(const SceneValues& values, BodyScene& body) {
@@ -261,7 +264,7 @@ constexpr std::array motions_before_touch{"drop.speed",  "drop.height",         
                                           "drop.topple", "drop.release.height", "drop.release.clearance"};
 
 bool starts_at_rest(const SceneValues& values) {
-  return values.has("drop.start") && values.text("drop.start") == start_names()[1];
+  return values.has("drop.start") && values.text("drop.start") == "rest";
 }
 
 void check_start(const SceneValues& values, const Scene& scene, Model model) {
@@ -340,26 +343,21 @@ void check_impact(const SceneValues& values, const Scene& scene) {
 
 /// A restitution takes the place of a file's viscoelastic law, and that law of a file's restitution.
 void make_room_for_law(SceneValues& values, const std::vector<SceneOverride>& overrides) {
-  const auto given = [&](const char* key) {
-    return std::find_if(overrides.begin(), overrides.end(), [&](const SceneOverride& o) { return o.key == key; });
-  };
-  const auto law = given("impact.law"), restitution = given("impact.restitution"), none = overrides.end();
-  const bool computes = law != none && law->text == "viscoelastic";
-  if (computes && restitution != none) {
-    throw BadInput(fmt::format("{} {} and {} {}: give one of them, not both", law->flag, law->text, restitution->flag,
-                               restitution->text));
+  const SceneOverride *const law = given(overrides, "impact.law"), *const restitution =
+                                                                       given(overrides, "impact.restitution");
+  const bool computes = law && law->text == "viscoelastic";
+  if (computes && restitution) {
+    throw BadInput("{} {} and {} {}: give one of them, not both", law->flag, law->text, restitution->flag,
+                   restitution->text);
   }
   if (computes) values.drop("impact.restitution");
-  const bool file_computes = law == none && values.has("impact.law") && values.text("impact.law") == "viscoelastic";
-  if (restitution != none && file_computes) values.drop("impact.law");
+  const bool file_computes = !law && values.has("impact.law") && values.text("impact.law") == "viscoelastic";
+  if (restitution && file_computes) values.drop("impact.law");
 }
 
 /// A mesh that a flag gives is the body, in place of the file's with its sizes.
 void make_room_for_mesh(SceneValues& values, const std::vector<SceneOverride>& overrides) {
-  const auto given = [&](const char* key) {
-    return std::any_of(overrides.begin(), overrides.end(), [&](const SceneOverride& o) { return o.key == key; });
-  };
-  if (!given("body.mesh.file") || given("body.shape")) return;
+  if (!given(overrides, "body.mesh.file") || given(overrides, "body.shape")) return;
   for (const Key& key : all_keys()) {
     const std::string_view name = key.name;
     if (key.is_of_body() && name != "body.mass" && name != "body.mesh.density" && name != "body.merge")
@@ -375,14 +373,13 @@ Scene read_values(SceneValues values, const std::vector<SceneOverride>& override
   refuse_both(overrides, "run.tolerance", "run.step");
   make_room_for_law(values, overrides);
   make_room_for_mesh(values, overrides);
-  const auto is_curve = [](const SceneOverride& flag) { return flag.key == "ground.curve"; };
-  if (std::ranges::any_of(overrides, is_curve) && values.has("ground.modulus")) values.drop("ground.body_material");
+  if (given(overrides, "ground.curve") && values.has("ground.modulus")) values.drop("ground.body_material");
   for (const SceneOverride& flag : overrides) {
     for (const Alternative& pair : alternatives()) {
       if (flag.key == pair.key) values.drop(pair.instead_of);
       if (flag.key == pair.instead_of) values.drop(pair.key);
     }
-    if (flag.key == "drop.start" && flag.text == start_names()[1]) {
+    if (flag.key == "drop.start" && flag.text == "rest") {
       for (const char* const motion : motions_before_touch) values.drop(motion);
     }
     if (flag.key == "run.method") values.drop(flag.text == "tvd-rk3" ? "run.tolerance" : "run.step");
@@ -429,8 +426,8 @@ std::string case_path(const std::string& name) { return "validation/cases/" + na
 
 void require_level(const Scene& scene, const std::string& command) {
   if (scene.world.incline_deg == 0) return;
-  throw BadInput(fmt::format("world.incline_deg = {}: must be left out for clatter {}, whose ground is level",
-                             shortest(scene.world.incline_deg), command));
+  throw BadInput("world.incline_deg = {}: must be left out for clatter {}, whose ground is level",
+                 shortest(scene.world.incline_deg), command);
 }
 
 void Scene::settle() {
@@ -447,7 +444,7 @@ void Scene::settle() {
       throw BadInput("drop.orientation: must be left out where the body is no box");
     const int number = static_cast<int>(*orientation);
     if (number != *orientation)
-      throw BadInput(fmt::format("drop.orientation = {}: must be a whole number from 1 to 26", shortest(*orientation)));
+      throw BadInput("drop.orientation = {}: must be a whole number from 1 to 26", shortest(*orientation));
     attitude = orientation_attitude(number, body.size);
   }
   if (!attitude.empty()) angle_deg = inclination_of(attitude);
@@ -472,8 +469,7 @@ std::vector<std::string> case_names() {
 std::string_view case_text(const std::string& name) {
   const std::vector<std::string> names = case_names();
   if (std::find(names.begin(), names.end(), name) != names.end()) return embedded_text(case_path(name));
-  throw BadInput(
-      fmt::format("case '{}': there is none of this name; did you mean {}?", name, nearest_name(name, names)));
+  throw BadInput("case '{}': there is none of this name; did you mean {}?", name, nearest_name(name, names));
 }
 
 SceneValues scene_values(const std::string& source) {
@@ -484,7 +480,7 @@ SceneValues scene_values(const std::string& source) {
   const std::vector<std::string> names = case_names();
   if (std::find(names.begin(), names.end(), source) != names.end())
     return {case_path(source), case_text(source), scene_keys()};
-  throw BadInput(fmt::format("{}: neither a file nor a case; did you mean {}?", source, nearest_name(source, names)));
+  throw BadInput("{}: neither a file nor a case; did you mean {}?", source, nearest_name(source, names));
 }
 
 std::string name_of_source(const std::string& path) {

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The body of a scene and how it comes to the ground.
+// A scene, its body and how that comes to the ground.
+#include "validation/scene/scene.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -15,14 +17,32 @@
 #include "validation/scene/body_properties.hpp"
 #include "validation/scene/keys.hpp"
 #include "validation/scene/names.hpp"
-#include "validation/scene/scene.hpp"
 
 namespace clatter::validation {
-namespace {
 
-constexpr double degree = std::numbers::pi / 180;
+analytic::RestitutionLaw restitution_law(const Scene& scene) {
+  if (scene.impact.law) return *scene.impact.law;
+  return scene.impact.restitution || !scene.has_ground() ? analytic::RestitutionLaw::newton
+                                                         : analytic::RestitutionLaw::viscoelastic;
+}
 
-}  // namespace
+bool takes_friction_of_ground(const Scene& scene) {
+  const DiscreteImpact& impact = scene.impact;
+  return !impact.impulse_ratio && !impact.friction && scene.has_ground() && scene.world.ground.has_friction();
+}
+
+Scene Scene::at(double value) const {
+  Scene one = *this;
+  if (sweep->quantity == SceneSweep::Quantity::angle_deg) one.angle_deg = value;
+  else one.world.ground.static_friction = one.world.ground.sliding_friction = value;
+  one.sweep.reset();
+  one.settle_restitution();
+  return one;
+}
+
+int Scene::most_impacts() const { return until_rest || std::isfinite(request.until) ? 100'000 : request.impacts; }
+
+bool Scene::has_vectors() const { return !attitude.empty() || !velocity.empty() || !angular_velocity.empty(); }
 
 const std::vector<std::string>& shape_names() {
   static const std::vector<std::string> names = [] {
@@ -48,6 +68,7 @@ numeric::Body Scene::make_body() const {
 }
 
 Eigen::Quaterniond Scene::touch_attitude() const {
+  constexpr double degree = std::numbers::pi / 180;
   if (attitude.empty())
     return numeric::attitude_of({.inclination = angle_deg * degree, .out_of_plane_tilt = tilt_deg * degree});
   return Eigen::Quaterniond(attitude[0], attitude[1], attitude[2], attitude[3]).normalized();
@@ -65,9 +86,9 @@ numeric::Vector3 Scene::touch_angular_velocity() const {
 double Scene::release_height(double touch) const {
   const double lowest = release.clearance ? *release.clearance : *release.height - touch;
   if (!(lowest > 0)) {
-    throw BadInput(fmt::format(
+    throw BadInput(
         "{}drop.release.height = {}: must be greater than {} m, where the body touches (lengths are in metres)",
-        path.empty() ? "" : path + ": ", shortest(*release.height), significant(touch, 6)));
+        path.empty() ? "" : path + ": ", shortest(*release.height), significant(touch, 6));
   }
   return touch + lowest;
 }
@@ -104,9 +125,8 @@ numeric::MotionState Scene::start(const numeric::Body& dropped, double* fall) co
   if (fall) *fall = fallen;
   const numeric::FirstTouch first = numeric::first_touch(dropped, state);
   if (!(first.approach_speed > 0)) {  // in the discrete model's words
-    throw BadInput(
-        fmt::format("the first contact, end {}, does not approach the ground: speed and spin must bring it down",
-                    end_name(first.end)));
+    throw BadInput("the first contact, end {}, does not approach the ground: speed and spin must bring it down",
+                   end_name(first.end));
   }
   return state;
 }
@@ -148,10 +168,10 @@ TouchMotion toppled(const Scene& scene) {
 
 double Scene::fallen_speed(double touch) const {
   if (!(*height > touch)) {
-    throw BadInput(fmt::format(
+    throw BadInput(
         "{}drop.height = {}: must be greater than {} m, the height of the centre of mass at the first touch (lengths "
         "are in metres)",
-        path.empty() ? "" : path + ": ", shortest(*height), significant(touch, 6)));
+        path.empty() ? "" : path + ": ", shortest(*height), significant(touch, 6));
   }
   return std::sqrt(2 * world.gravity * (*height - touch));
 }

@@ -39,7 +39,7 @@ toml::table parse(const std::string& path, std::string_view text) {
   try {
     return toml::parse(text, path);
   } catch (const toml::parse_error& error) {
-    throw BadInput(fmt::format("{}: {}", position(path, error.source()), words_of(error)));
+    throw BadInput("{}: {}", position(path, error.source()), words_of(error));
   }
 }
 
@@ -51,9 +51,9 @@ std::string text_of(const std::string& path) {
   std::array<char, 1 << 16> block;
   while (file.read(block.data(), block.size()), file.gcount() > 0) {
     text.append(block.data(), static_cast<std::size_t>(file.gcount()));
-    if (text.size() > longest) throw BadInput(fmt::format("{}: longer than any scene, 16 MB", path));
+    if (text.size() > longest) throw BadInput("{}: longer than any scene, 16 MB", path);
   }
-  if (!file.is_open() || file.bad()) throw BadInput(fmt::format("{}: cannot be read", path));
+  if (!file.is_open() || file.bad()) throw BadInput("{}: cannot be read", path);
   return text;
 }
 
@@ -62,22 +62,21 @@ void refuse_other_files(const std::string& path, std::string_view text) {
   const std::string_view begin = text.substr(0, 4096);
   const auto is_control = [](char c) { return (c >= 0 && c < ' ' && (c < '\t' || c > '\r')) || c == '\x7f'; };
   if (std::any_of(begin.begin(), begin.end(), is_control))
-    throw BadInput(fmt::format("{}: is a binary file; a scene is a text (TOML), as clatter init writes it", path));
+    throw BadInput("{}: is a binary file; a scene is a text (TOML), as clatter init writes it", path);
   std::istringstream lines{std::string(begin)};
   for (std::string line; std::getline(lines, line);) {
     const std::size_t first = line.find_first_not_of(" \t\r\xEF\xBB\xBF");
     if (first == std::string::npos || line[first] == '#') continue;
     const bool is_table =
         line.find_first_of("=[{\"'") == std::string::npos && line.find_first_of(",;\t", first) != std::string::npos;
-    if (is_table)
-      throw BadInput(fmt::format("{}: is a table of values (CSV); a scene is TOML, as clatter init writes it", path));
+    if (is_table) throw BadInput("{}: is a table of values (CSV); a scene is TOML, as clatter init writes it", path);
     return;
   }
 }
 
 toml::table parse(const std::string& path) {
   if (std::error_code error; !std::filesystem::is_regular_file(path, error) && !std::filesystem::is_fifo(path, error))
-    throw BadInput(fmt::format("{}: {}", path, std::filesystem::exists(path, error) ? "not a file" : "cannot be read"));
+    throw BadInput("{}: {}", path, std::filesystem::exists(path, error) ? "not a file" : "cannot be read");
   note_read(path);
   const std::string text = text_of(path);
   refuse_other_files(path, text);
@@ -134,19 +133,16 @@ class SceneParser {
   void add_probes(const toml::node& node, const std::string& where) {
     const toml::array* const list = node.as_array();
     if (!list || !list->is_array_of_tables())
-      throw BadInput(
-          fmt::format("{}: {}: must be tables, each [[{}]] with name and place", where, probes_name, probes_name));
+      throw BadInput("{}: {}: must be tables, each [[{}]] with name and place", where, probes_name, probes_name);
     for (std::size_t i = 0; i < list->size(); ++i) {
       const toml::table& table = *list->get(i)->as_table();
       if (table.empty())
-        throw BadInput(
-            fmt::format("{}: {}: required, name and place", position(values_.path_, table.source()), probes_name));
+        throw BadInput("{}: {}: required, name and place", position(values_.path_, table.source()), probes_name);
       for (const auto& [name, value] : table) {
         const std::string part(name.str());
         if (part != "name" && part != "place" && part != "part")
-          throw BadInput(fmt::format("{}: {}.{}: unknown key; did you mean {}.{}?",
-                                     position(values_.path_, name.source()), probes_name, part, probes_name,
-                                     nearest_name(part, {"name", "place", "part"})));
+          throw BadInput("{}: {}.{}: unknown key; did you mean {}.{}?", position(values_.path_, name.source()),
+                         probes_name, part, probes_name, nearest_name(part, {"name", "place", "part"}));
         add_value(fmt::format("{}.{}.{}", probes_name, i, part), value);
       }
     }
@@ -155,12 +151,12 @@ class SceneParser {
   /// A quoted name with a dot in it would look like a key of a table.
   static void check_name(const std::string& name, const std::string& where) {
     if (name.find('.') == std::string::npos) return;
-    throw BadInput(fmt::format("{}: \"{}\": unknown key; tables and keys have no dots in their names", where, name));
+    throw BadInput("{}: \"{}\": unknown key; tables and keys have no dots in their names", where, name);
   }
 
   void check_key(const std::string& key, const std::string& where) const {
     if (std::find(known_.begin(), known_.end(), key) != known_.end()) return;
-    throw BadInput(fmt::format("{}: {}: unknown key; did you mean {}?", where, key, nearest_name(key, known_)));
+    throw BadInput("{}: {}: unknown key; did you mean {}?", where, key, nearest_name(key, known_));
   }
 
   void check_table(const std::string& key, const std::string& where) const {
@@ -168,10 +164,10 @@ class SceneParser {
         std::any_of(known_.begin(), known_.end(), [&](const std::string& name) { return name.starts_with(key + "."); });
     if (known) return;
     if (std::find(known_.begin(), known_.end(), key) != known_.end())
-      throw BadInput(fmt::format("{}: {}: must be a value, not a table", where, key));
+      throw BadInput("{}: {}: must be a value, not a table", where, key);
     std::vector<std::string> tables;
     for (const std::string& name : known_) tables.push_back(name.substr(0, name.rfind('.')));
-    throw BadInput(fmt::format("{}: {}: unknown table; did you mean {}?", where, key, nearest_name(key, tables)));
+    throw BadInput("{}: {}: unknown table; did you mean {}?", where, key, nearest_name(key, tables));
   }
 
   void add_value(const std::string& key, const toml::node& node) {
@@ -185,7 +181,7 @@ class SceneParser {
     else if (const toml::array* list = node.as_array(); list && pairs_of(*list))
       entry = pairs_entry(*list, entry.where);
     else if (list) entry.value = numbers_of(*list, entry.where, entry.shown);
-    else throw BadInput(fmt::format("{} = {}: must be a number, a text or a list", entry.where, entry.shown));
+    else throw BadInput("{} = {}: must be a number, a text or a list", entry.where, entry.shown);
     values_.entries_[key] = std::move(entry);
   }
 
@@ -202,7 +198,7 @@ class SceneParser {
   static std::vector<double> numbers_of(const toml::array& list, const std::string& where, const std::string& shown) {
     std::vector<double> numbers;
     for (const toml::node& node : list) {
-      if (!node.is_number()) throw BadInput(fmt::format("{} = {}: must be a list of numbers", where, shown));
+      if (!node.is_number()) throw BadInput("{} = {}: must be a list of numbers", where, shown);
       numbers.push_back(*node.value<double>());
     }
     return numbers;
@@ -249,7 +245,7 @@ std::string SceneValues::place_of(const std::string& key) const {
 }
 
 void SceneValues::require(const std::string& key, const std::string& what) const {
-  if (!has(key)) throw BadInput(fmt::format("{}: required, {}", place_of(key), what));
+  if (!has(key)) throw BadInput("{}: required, {}", place_of(key), what);
 }
 
 void SceneValues::exclude(const std::string& first, const std::string& second) const {
@@ -258,17 +254,16 @@ void SceneValues::exclude(const std::string& first, const std::string& second) c
     const auto typed = [&](const std::string& key) {
       return at(key).where + " " + std::get<std::string>(at(key).value);
     };
-    throw BadInput(fmt::format("{} and {}: give one of them, not both", typed(first), typed(second)));
+    throw BadInput("{} and {}: give one of them, not both", typed(first), typed(second));
   }
-  throw BadInput(
-      fmt::format("{} = {}: excludes {}; give one of them, not both", at(second).where, at(second).shown, first));
+  throw BadInput("{} = {}: excludes {}; give one of them, not both", at(second).where, at(second).shown, first);
 }
 
 void SceneValues::refuse(const std::string& key, const std::string& allowed) const {
   const auto entry = entries_.find(key);
-  if (entry == entries_.end()) throw BadInput(fmt::format("{}: must be {}", place_of(key), allowed));
+  if (entry == entries_.end()) throw BadInput("{}: must be {}", place_of(key), allowed);
   const Entry& given = entry->second;
-  throw BadInput(fmt::format("{}{}{}: must be {}", given.where, given.is_flag ? " " : " = ", given.shown, allowed));
+  throw BadInput("{}{}{}: must be {}", given.where, given.is_flag ? " " : " = ", given.shown, allowed);
 }
 
 double SceneValues::number(const std::string& key, double fallback, const Range& range) const {

@@ -4,9 +4,8 @@
 #include "validation/command/command.hpp"
 #include "validation/command/options.hpp"
 #include "validation/output/bad_input.hpp"
-#include "validation/output/report.hpp"
+#include "validation/output/interrupt.hpp"
 #include "validation/output/sink.hpp"
-#include "validation/output/symbols.hpp"
 #include "validation/run/discrete_scene.hpp"
 #include "validation/run/impact_rows.hpp"
 #include "validation/run/shortfall.hpp"
@@ -26,40 +25,28 @@ struct SequenceInput {
   bool states = false;
 };
 
-int status_of(const Scene& scene, const Run& run) {
-  const std::string why = shortfall(scene, run);
-  if (why.empty()) return 0;
-  say(why);
-  return shortfall_status(run);
-}
-
 /// @throws BadInput if the window holds none of the sequence's times.
 Picture picture_of(const PreparedScene& prepared, const DiscreteRun& found, const TimeWindow& window) {
   const Picture picture = sequence_picture(prepared, found, window);
   if (picture.panels.front().rows.size() < 2)
-    throw BadInput(fmt::format("--window {}: must hold times of the sequence", window.text()));
+    throw BadInput("--window {}: must hold times of the sequence", window.text());
   return picture;
 }
 
 /// As write_report() writes a sequence's report, but row by row: a terminal's colours alone need the whole text.
 void write_rows_of(const PreparedScene& prepared, const DiscreteRun& found, const analytic::space::TiltEffort& tilts,
                    const OutputChoice& choice) {
-  const bool is_table = choice.style.format == Format::table;
-  if (is_table && choice.path.empty() && shows_colours())
+  if (choice.style.format == Format::table && choice.path.empty() && is_lively(STDOUT_FILENO))
     return write_report(choice, sequence_report(prepared, found, tilts));
   Sink sink(choice.path);
-  write_sequence(prepared, found, tilts, choice.style, [&](std::string_view text) {
-    const std::string clean = printable(std::string(text), Lines::kept);
-    sink.write(is_table && choice.style.ascii ? to_ascii(clean) : clean);
-  });
+  write_sequence(prepared, found, tilts, choice.style, [&](std::string_view text) { sink.write(text); });
   sink.commit();
 }
 
 int run_sequence(const SequenceInput& input) {
   const PreparedScene prepared = read_discrete_flags(input.scene);
   const OutputChoice& choice = input.output;
-  if (input.window && input.plot.path.empty())
-    throw BadInput(fmt::format("--window {}: needs --plot FILE", input.window->text()));
+  if (input.window && input.plot.path.empty()) throw BadInput("--window {}: needs --plot FILE", input.window->text());
   require_states(input.states, prepared.scene);
   check_files(choice, plot_files(input.plot));
   PlotFile plot(input.plot);
@@ -74,7 +61,7 @@ int run_sequence(const SequenceInput& input) {
   else write_rows_of(prepared, found, tilts, choice);
   if (picture)
     plot.write(*picture, run_words("sequence", "impact sequence, discrete model", prepared.scene, Model::discrete));
-  return status_of(prepared.scene, found.run);
+  return status_of(shortfall(prepared.scene, found.run), shortfall_status(found.run));
 }
 
 }  // namespace

@@ -175,7 +175,6 @@ using analytic::ImpactRow;
 using analytic::PlanarBody;
 using analytic::PlanarVelocity;
 using analytic::Sequence;
-using Style = FigureCurve::Style;
 
 /// Lowest point of each half of the body [m].
 struct EndHeights {
@@ -341,50 +340,50 @@ PicturePanel impulse_panel(const PlanarBody& body, const Sequence& sequence) {
   return panel;
 }
 
-// ---- in space
+// In space.
 
-using SpaceSequence = analytic::space::Sequence;
+using SpaceSequence = space::Sequence;
 
 /// From the first impact to the last, with a fifth of that after it.
-double shown_time(const SpaceSequence& sequence, const analytic::space::Body& body) {
+double shown_time(const SpaceSequence& sequence, const space::Body& body) {
   const double last = sequence.tail ? sequence.tail->end_time : sequence.rows.back().start;
-  const analytic::space::Impact& impact = sequence.rows.back().impact;
+  const space::Impact& impact = sequence.rows.back().impact;
   const double reach = body.reach();
   const double speed = std::max(impact.velocity_after.norm(), reach * impact.angular_velocity_after.norm());
   return last > 0 ? 1.2 * last : 5 * reach / speed;
 }
 
 /// Height of the hull's lowest point [m].
-double lowest_point(const analytic::space::Body& body, const analytic::space::State& state) {
+double lowest_point(const space::Body& body, const space::State& state) {
   double lowest = std::numeric_limits<double>::infinity();
-  const auto height = [&](const analytic::space::Vector3& place) { return (state.attitude * place).z(); };
+  const auto height = [&](const space::Vector3& place) { return (state.attitude * place).z(); };
   for (const auto& vertex : body.vertices) lowest = std::min(lowest, height(vertex));
   for (const auto& rim : body.rims)
     lowest =
         std::min(lowest, height(rim.centre) - rim.radius * std::sqrt(std::max(0.0, 1 - std::pow(height(rim.axis), 2))));
-  const analytic::space::Vector3 up = state.attitude.conjugate() * analytic::space::Vector3::UnitZ();
+  const space::Vector3 up = state.attitude.conjugate() * space::Vector3::UnitZ();
   for (const auto& [centre, semiaxes] : body.ellipsoids)
     lowest = std::min(lowest, height(centre) - semiaxes.cwiseProduct(up).norm());
   return state.position.z() + lowest;
 }
 
 /// Rows of time, height of the centre of mass, height of the lowest point.
-std::vector<std::vector<double>> space_heights(const analytic::space::Drop& drop, const SpaceSequence& sequence) {
-  const analytic::space::PrincipalAxes principal(drop.body.inertia);
+std::vector<std::vector<double>> space_heights(const space::Drop& drop, const SpaceSequence& sequence) {
+  const space::PrincipalAxes principal(drop.body.inertia);
   const double end = shown_time(sequence, drop.body), depth = 1e-9 * drop.body.reach();  // of what is still rounding
   std::vector<std::vector<double>> samples;
   for (std::size_t i = 0; i < sequence.rows.size(); ++i) {
-    const analytic::space::ImpactRow& row = sequence.rows[i];
+    const space::ImpactRow& row = sequence.rows[i];
     const bool is_last = i + 1 == sequence.rows.size();
     const double duration = (is_last ? end : sequence.rows[i + 1].start) - row.start;
-    analytic::space::State after = row.before;
+    space::State after = row.before;
     after.velocity = row.impact.velocity_after;
     after.angular_velocity = row.impact.angular_velocity_after;
-    const analytic::space::FreeFlight flight(principal, after, drop.gravity);
+    const space::FreeFlight flight(principal, after, drop.gravity);
     const double turns = after.angular_velocity.norm() * duration / 6;
     const int count = static_cast<int>(std::clamp(1000 * duration / end, 6.0, 60.0) + std::min(24 * turns, 3000.0));
     for (int k = 0; k <= count; ++k) {
-      const analytic::space::State state = flight.at(duration * k / count);
+      const space::State state = flight.at(duration * k / count);
       const double low = lowest_point(drop.body, state);
       if (is_last && k > 0 && low < -depth) return samples;
       samples.push_back({row.start + duration * k / count, state.position.z(), std::max(low, 0.0)});
@@ -393,8 +392,7 @@ std::vector<std::vector<double>> space_heights(const analytic::space::Drop& drop
   return samples;
 }
 
-PicturePanel space_height_panel(const analytic::space::Drop& drop, const SpaceSequence& sequence,
-                                const TimeWindow& window) {
+PicturePanel space_height_panel(const space::Drop& drop, const SpaceSequence& sequence, const TimeWindow& window) {
   return {.columns = {{"time", "s", "time since the first impact"},
                       {"centre", "m", "height of the centre of mass"},
                       {"lowest", "m", "height of the lowest point"}},
@@ -478,12 +476,12 @@ Picture sequence_picture(const PreparedScene& prepared, const DiscreteRun& found
     picture.panels = {height_panel(*drop, sequence, window), impulse_panel(drop->body, sequence)};
   } else {
     const auto& in_space = std::get<SpaceSequence>(found.sequence);
-    picture.panels = {space_height_panel(std::get<analytic::space::Drop>(prepared.drop), in_space, window),
+    picture.panels = {space_height_panel(std::get<space::Drop>(prepared.drop), in_space, window),
                       space_impulse_panel(run)};
   }
   if (window.is_all()) show_all(picture, (run.tail ? run.tail->sum : run.impacts.back()).value.start);
   else show_window(picture, window);
-  if (const auto* const drop = std::get_if<analytic::space::Drop>(&prepared.drop)) {
+  if (const auto* const drop = std::get_if<space::Drop>(&prepared.drop)) {
     auto tilts = tilt_panel(*drop, std::get<SpaceSequence>(found.sequence).rows);
     if (tilts) picture.panels.push_back(std::move(*tilts));
   }

@@ -197,7 +197,6 @@ std::vector<std::string> notes_of(const PreparedScene& prepared, const DiscreteR
 
 Value tail_fields(const RunTail& tail) {
   const Numbers &value = tail.sum.value, &error = tail.sum.error;
-  const auto list = [](const EntryVector& v) { return std::vector<double>(v.begin(), v.end()); };
   return Value::Fields{{"end", text_or_nothing(tail.sum.end)},
                        {"end_time", value.start},
                        {"end_time_error", rounded_up(error.start)},
@@ -205,13 +204,11 @@ Value tail_fields(const RunTail& tail) {
                        {"impulse_normal_error", rounded_up(error.impulse[2])},
                        {"impulse_tangential", value.impulse[0]},
                        {"impulse_tangential_error", rounded_up(error.impulse[0])},
-                       {"impulse", list(value.impulse)},
+                       {"impulse", value.impulse},
                        {"closed_form", tail.closed_form},
-                       {"velocity_after", list(value.velocity_after)},
-                       {"angular_velocity_after", list(value.angular_velocity_after)}};
+                       {"velocity_after", value.velocity_after},
+                       {"angular_velocity_after", value.angular_velocity_after}};
 }
-
-std::vector<double> numbers_of(const space::Vector3& v) { return {v.x(), v.y(), v.z()}; }
 
 /// The first strikes, each with the names of its corners.
 Value order_value(const Scene& scene, const space::ImpactRow& row, const space::GroupImpact& impact) {
@@ -236,8 +233,8 @@ Value outcome_fields(const Scene& scene, const space::ImpactRow& row, const spac
   return Value::Fields{{"share", outcome.share},
                        {"tilt_direction_deg", outcome.tilt_direction / degree},
                        {"tilt_sectors_deg", sectors},
-                       {"velocity_after", numbers_of(impact.velocity_after)},
-                       {"angular_velocity_after", numbers_of(impact.angular_velocity_after)},
+                       {"velocity_after", impact.velocity_after},
+                       {"angular_velocity_after", impact.angular_velocity_after},
                        {"energy_loss", impact.energy_loss},
                        {"strikes", impact.order.size()},
                        {"order", order_value(scene, row, impact)}};
@@ -253,8 +250,8 @@ void add_outcomes(const Scene& scene, const space::ImpactRow& row, const space::
   impact["outcomes_vary"] = set.varies;
   impact["outcomes_complete"] = set.is_complete();
   impact["outcomes_open_share"] = set.open_share;
-  impact["outcomes_range"] = Value::Fields{{"velocity_after", numbers_of(set.range.velocity)},
-                                           {"angular_velocity_after", numbers_of(set.range.angular_velocity)},
+  impact["outcomes_range"] = Value::Fields{{"velocity_after", set.range.velocity},
+                                           {"angular_velocity_after", set.range.angular_velocity},
                                            {"energy_loss", set.range.energy_loss}};
 }
 
@@ -282,8 +279,8 @@ Value contact_value(const Scene& scene, const space::Drop& drop, const space::Su
       {"impulse_normal", contact.normal_impulse},
       {"energy_loss", contact.energy_loss},
       {"attitude", std::vector<double>{q.w(), q.x(), q.y(), q.z()}},
-      {"velocity_after", numbers_of(contact.after.velocity)},
-      {"angular_velocity_after", numbers_of(contact.after.angular_velocity)},
+      {"velocity_after", contact.after.velocity},
+      {"angular_velocity_after", contact.after.angular_velocity},
       {"error_estimate", Value::Fields{{"end", rounded_up(error.time)},
                                        {"attitude", rounded_up(error.attitude)},
                                        {"velocity_after", rounded_up(error.velocity)},
@@ -321,9 +318,8 @@ void add_end(const Scene& scene, const space::Drop& drop, const space::Sequence&
     fields["contacts"] = contacts;
   }
   if (!sequence.rest) return;
-  const double latest = sequence.rest->latest;
   fields["rest"]["corners"] = names_of(scene, drop.body, sequence.rest->corners);
-  fields["rest"]["latest"] = std::isfinite(latest) ? Value(latest) : Value();
+  fields["rest"]["latest"] = sequence.rest->latest;
 }
 
 /// The fields behind the impacts.
@@ -417,16 +413,12 @@ class SequenceRows {
 Report SequenceRows::begun() const {
   const Scene& scene = prepared_.scene;
   const Run& run = found_.run;
-  const double approach = first_approach_speed(prepared_.drop);
   const bool in_space = run.model == RunModel::space;
-  Report report = begun_report(
-      "sequence", in_space ? "impact sequence, discrete model in space" : "impact sequence, discrete model");
-  report.head = scene_head(scene, Model::discrete, approach);
+  Report report = scene_report(
+      "sequence", in_space ? "impact sequence, discrete model in space" : "impact sequence, discrete model", "discrete",
+      scene, Model::discrete, first_approach_speed(prepared_.drop));
   report.remarks = {totals_line(totals(run))};
   report.notes = notes_of(prepared_, found_, sets_);
-  report.fields["model"] = "discrete";
-  report.fields["scene"] = scene_value(scene, Model::discrete, approach);
-  report.fields["body"] = body_value(scene, Model::discrete);
   report.grid.columns = columns_of(prepared_, run);
   report.fields["impacts"] = Value::List{};
   if (scene.has_times()) {

@@ -78,7 +78,7 @@ void add_ground_block(const std::vector<SceneOverride>& keys, Report& report) {
   report.notes.emplace_back("[ground]");
   for (const SceneOverride& key : keys) {
     const std::string name = key.key.substr(key.key.find('.') + 1);
-    const bool is_name = std::holds_alternative<NameValue>(key_named(key.key).value);
+    const bool is_name = key_named(key.key).value.kind == KeyValue::Kind::name;
     report.notes.push_back(is_name ? fmt::format("{} = \"{}\"", name, key.text)
                                    : fmt::format("{} = {}", name, key.text));
     double number = 0;

@@ -16,8 +16,6 @@
 #include "validation/run/shortfall.hpp"
 #include "validation/run/states.hpp"
 #include "validation/scene/body_properties.hpp"
-#include "validation/scene/failure.hpp"
-#include "validation/simulate/simulation_picture.hpp"
 #include "validation/simulate/simulation_report.hpp"
 
 namespace clatter::validation {
@@ -63,10 +61,7 @@ void warn(const std::vector<std::string>& warnings) {
 
 int status_of(const Scene& scene, const PlannedRun& planned) {
   if (planned.run.outcome == Outcome::interrupted) return interrupted_status;
-  const std::string why = shortfall(scene, planned);
-  if (why.empty()) return 0;
-  say(why);
-  return exit_status(FailureKind::not_computed);
+  return validation::status_of(shortfall(scene, planned));
 }
 
 int status_of(const std::vector<SweptRun>& runs) {
@@ -79,7 +74,7 @@ int status_of(const std::vector<SweptRun>& runs) {
 void check_times(const Simulation& run, const PictureHistory& history, const std::optional<TimeWindow>& window) {
   if (run.outcome == Outcome::interrupted || run.impacts.empty() || !window) return;
   if (clipped(history.rows(), *window).size() < 2)
-    throw BadInput(fmt::format("--window {}: must hold times of the run", window->text()));
+    throw BadInput("--window {}: must hold times of the run", window->text());
 }
 
 /// The history's picture, unless there is none to draw: a run that ends early, whose status tells so.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "validation/simulate/simulation_picture.hpp"
+#include "validation/simulate/simulation_report.hpp"
 
 #include <fmt/format.h>
 
@@ -8,7 +8,7 @@
 #include <string>
 
 #include "numeric/motion/free_flight.hpp"
-#include "validation/run/swept_column.hpp"
+#include "validation/run/scene_value.hpp"
 
 namespace clatter::validation {
 namespace {

@@ -14,7 +14,6 @@
 #include "validation/run/scene_value.hpp"
 #include "validation/run/shortfall.hpp"
 #include "validation/run/states.hpp"
-#include "validation/run/swept_column.hpp"
 #include "validation/scene/body_properties.hpp"
 #include "validation/scene/facet_words.hpp"
 #include "validation/scene/names.hpp"
@@ -259,16 +258,12 @@ void add_run(const SweptRun& swept, const Scene& scene, Report& report) {
 std::vector<Column> simulation_columns() { return impact_columns(RunModel::continuous, {}); }
 
 Report simulation_report(const Scene& scene, const PlannedRun& planned) {
-  Report report = begun_report("simulate", "impact sequence, continuous contact");
-  report.head = scene_head(scene);
+  Report report = scene_report("simulate", "impact sequence, continuous contact", "continuous", scene);
   if (const std::string facets = facet_words(scene, planned.run); !facets.empty()) report.head.push_back(facets);
   const Run record = named_run(scene, planned.run);
   report.notes = notes_of(scene, planned, record);
   report.remarks = {totals_line(totals(record))};
   report.grid = {columns_of(scene), rows_of(scene, planned, record)};
-  report.fields["model"] = "continuous";
-  report.fields["scene"] = scene_value(scene);
-  report.fields["body"] = body_value(scene);
   report.fields["impacts"] = row_objects(report.grid);
   if (scene.has_times()) {
     const bool is_still = planned.run.impacts.empty();  // nothing says then how fast it might be
@@ -284,14 +279,10 @@ Report simulation_report(const Scene& scene, const PlannedRun& planned) {
 }
 
 Report sweep_report(const Scene& scene, const std::vector<SweptRun>& runs) {
-  Report report = begun_report("simulate", "impact sequences, continuous contact");
-  report.head = scene_head(scene);
+  Report report = scene_report("simulate", "impact sequences, continuous contact", "continuous", scene);
   report.grid.columns = columns_of(scene);
   report.grid.columns.insert(report.grid.columns.begin(), swept_column(*scene.sweep));
   report.digest = Grid{report.grid.columns, {}, 2};
-  report.fields["model"] = "continuous";
-  report.fields["scene"] = scene_value(scene);
-  report.fields["body"] = body_value(scene);
   report.fields["runs"] = Value::List{};
   for (const SweptRun& swept : runs) add_run(swept, scene, report);
   const std::size_t values = scene.sweep->values().size();

@@ -32,13 +32,13 @@ const std::vector<std::string> box_sides{"body.size.length", "body.size.width", 
 
 /// The sides of the box, each a number where the file has one list.
 const std::vector<Key>& side_keys() {
-  static const Range range = std::get<ListValue>(key_named(box_size).value).range;
-  static const std::vector<Key> keys{{"body.size.length", Use::both, "", "M", "m", "",
-                                      NumberValue{[](Scene& s) -> double& { return s.body.size.x(); }, range}},
-                                     {"body.size.width", Use::both, "", "M", "m", "",
-                                      NumberValue{[](Scene& s) -> double& { return s.body.size.y(); }, range}},
-                                     {"body.size.thickness", Use::both, "", "M", "m", "",
-                                      NumberValue{[](Scene& s) -> double& { return s.body.size.z(); }, range}}};
+  const auto side = [](const char* name, void (*put)(Scene&, double)) {
+    return Key{name, Use::both, "", "M", "m", "", {.put = put}};
+  };
+  static const std::vector<Key> keys{
+      side("body.size.length", [](Scene& s, double size) { s.body.size.x() = size; }),
+      side("body.size.width", [](Scene& s, double size) { s.body.size.y() = size; }),
+      side("body.size.thickness", [](Scene& s, double size) { s.body.size.z() = size; })};
   return keys;
 }
 
@@ -71,7 +71,7 @@ std::vector<std::string> settable_keys() {
 
 bool is_list(const std::string& name) {
   return std::any_of(all_keys().begin(), all_keys().end(),
-                     [&](const Key& key) { return key.name == name && std::holds_alternative<ListValue>(key.value); });
+                     [&](const Key& key) { return key.name == name && key.value.kind == KeyValue::Kind::list; });
 }
 
 /// How values are drawn.

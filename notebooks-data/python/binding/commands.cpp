@@ -6,8 +6,8 @@
 
 #include "binding.hpp"
 #include "validation/command/options.hpp"
-#include "validation/output/said.hpp"
-#include "validation/program/parser.hpp"
+#include "validation/output/bad_input.hpp"
+#include "validation/program/program.hpp"
 
 namespace clatter::python {
 namespace {
@@ -33,13 +33,13 @@ py::tuple run_command(const std::string& name, const std::vector<std::string>& w
     const std::vector<Command> commands{made(name)};
     std::vector<std::string> line{name};
     line.insert(line.end(), words.begin(), words.end());
-    const validation::CaughtReport caught;
-    const validation::CaughtWords said;
+    validation::Caught<validation::Report> caught;
+    validation::Caught<std::string> said;
     parse_line(commands, line).command->run();
-    return std::pair(caught.report(), said.words());
+    return std::pair(std::move(caught.all), std::move(said.all));
   };
-  auto [report, said] = run_interruptible(work);
-  return py::make_tuple(report ? py::cast(kept(std::move(*report))) : py::none(), said);
+  auto [reports, said] = run_interruptible(work);
+  return py::make_tuple(reports.empty() ? py::none() : py::cast(kept(std::move(reports.back()))), said);
 }
 
 }  // namespace

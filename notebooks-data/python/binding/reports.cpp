@@ -82,12 +82,8 @@ std::string text_of(const Report& report, const std::string& format, bool ascii)
 
 /// "number", "whole", "truth", "text", "name", "list" or "curve".
 const char* kind_of(const Key& key) {
-  if (key.is_truth()) return "truth";
-  if (key.is_whole() || key.allowed().starts_with("a whole number")) return "whole";
-  if (key.is_number()) return "number";
-  if (std::holds_alternative<validation::NameValue>(key.value)) return "name";
-  if (std::holds_alternative<validation::CurveValue>(key.value)) return "curve";
-  return std::holds_alternative<validation::ListValue>(key.value) ? "list" : "text";
+  static const char* const kinds[]{"number", "whole", "truth", "text", "name", "list", "curve"};
+  return key.allowed().starts_with("a whole number") ? "whole" : kinds[static_cast<std::size_t>(key.value.kind)];
 }
 
 /// The rows of the table of keys that are arguments here, in the order of the table.
@@ -95,12 +91,11 @@ py::list keys() {
   py::list rows;
   for (const Key& key : validation::all_keys()) {
     if (key.is_file()) continue;
-    const auto* const choice = std::get_if<validation::NameValue>(&key.value);
     py::dict row;
     row["argument"] = key.argument();
     row["key"] = key.name;
     row["kind"] = kind_of(key);
-    row["names"] = choice ? *choice->names : std::vector<std::string>{};
+    row["names"] = key.value.names;
     row["flag"] = key.flag;
     row["unit"] = key.unit;
     row["allowed"] = key.allowed();

@@ -12,7 +12,7 @@
 #include "validation/compare/comparison.hpp"
 #include "validation/output/bad_input.hpp"
 #include "validation/output/numeric_table.hpp"
-#include "validation/plan/plan_report.hpp"
+#include "validation/plan/plan.hpp"
 #include "validation/plan/planned_run.hpp"
 #include "validation/plan/tradeoff_report.hpp"
 #include "validation/run/history_file.hpp"

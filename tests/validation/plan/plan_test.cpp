@@ -5,7 +5,7 @@
 #include "tests/support.hpp"
 #include "validation/compare/random_scenes.hpp"
 #include "validation/plan/cost_table.hpp"
-#include "validation/plan/plan_report.hpp"
+#include "validation/plan/plan.hpp"
 #include "validation/plan/planned_run.hpp"
 
 using namespace clatter;
