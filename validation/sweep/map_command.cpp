@@ -10,6 +10,7 @@
 #include "validation/output/interrupt.hpp"
 #include "validation/output/sink.hpp"
 #include "validation/scene/failure.hpp"
+#include "validation/scene/probes.hpp"
 #include "validation/sweep/map_picture.hpp"
 #include "validation/sweep/sweep_file.hpp"
 #include "validation/sweep/sweep_run.hpp"
@@ -162,6 +163,7 @@ int run_map(const MapInput& input, Ranks& ranks) {
   const MapPlan plan = read_map_plan(input.request);
   const int threads = thread_count(input.threads, ranks);
   check_map_output(input);
+  if (ranks.writes()) say_doubts(plan.sweep.scene, Model::discrete);
   const SweepBody body = plan.sweep.body_values.empty() ? make_sweep_body(plan.sweep, plan.sweep.scene) : SweepBody{};
   const bool is_csv = file_kind(input.output) == MapFile::csv;
   const MakeCompute make = map_runners(plan, body, is_csv ? MapForm::csv : MapForm::compact);

@@ -217,18 +217,21 @@ Report MapPlan::report() const {
 Arguments map_arguments(MapRequest& request) {
   std::vector<std::string> names;
   for (const MapQuantity& quantity : map_quantities()) names.emplace_back(quantity.name);
-  return {{.name = "--quantity",
-           .target = &request.quantity,
-           .type = "NAME",
-           .help = fmt::format("what the colours show, one of {} (impacts); with --samples NAME=CLASS",
-                               fmt::join(names, ", "))},
-          {.name = "--size",
-           .target = [&request](const auto& name, const auto& text) { read_size(name, text, request); },
-           .type = "WIDTHxHEIGHT",
-           .help = "pixels of the map (800x600)"},
-          whole_argument("--samples", request.samples, 1, 1'000'000, "N",
-                         "random drops for each pixel, of which the class's part is shown"),
-          whole_argument("--seed", request.seed, 0, std::numeric_limits<int>::max(), "S", "of the random drops (1)")};
+  return {
+      {.name = "--quantity",
+       .target = &request.quantity,
+       .type = "NAME",
+       .help = fmt::format(
+           "what the colours show, one of {} (impacts); ratio is of the second impulse to the first; with --samples "
+           "NAME=CLASS",
+           fmt::join(names, ", "))},
+      {.name = "--size",
+       .target = [&request](const auto& name, const auto& text) { read_size(name, text, request); },
+       .type = "WIDTHxHEIGHT",
+       .help = "pixels of the map (800x600)"},
+      whole_argument("--samples", request.samples, 1, 1'000'000, "N",
+                     "random drops for each pixel, of which the class's part is shown"),
+      whole_argument("--seed", request.seed, 0, std::numeric_limits<int>::max(), "S", "of the random drops (1)")};
 }
 
 MapPlan read_map_plan(const MapRequest& request) {

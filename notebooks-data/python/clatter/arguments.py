@@ -156,6 +156,11 @@ def set_texts(values: Mapping[str, Swept] | None, changes: Mapping[str, Any]) ->
     return sets
 
 
+def colons(numbers: str | Iterable[float] | None) -> str | None:
+    """Numbers as the program has those of one thing: (500, 300) is 500:300."""
+    return numbers if numbers is None or isinstance(numbers, str) else ":".join(map(number_text, numbers))
+
+
 def probe_texts(probe: str | Iterable[str] | Probes | None) -> list[str]:
     """Points of a body, each as NAME:X,Y,Z."""
     if isinstance(probe, Mapping):

@@ -8,7 +8,7 @@ from collections.abc import Iterable, Mapping
 from typing import Any
 
 from clatter import _clatter
-from clatter.arguments import (KEYS, AnyKey, DiscreteKey, Path, Probes, Progress, Scene, Swept, SweptKey, checked, probe_texts,
+from clatter.arguments import (KEYS, AnyKey, DiscreteKey, Path, Probes, Progress, Scene, Swept, SweptKey, checked, colons, probe_texts,
                                set_texts, texts_of)
 from clatter.arrays import numpy_for
 from clatter.errors import ClatterWarning, NotComputed
@@ -161,7 +161,7 @@ def sweep(
     scatter: float | None = None,
     columns: str | Iterable[str] | None = None,
     probe: str | Iterable[str] | Probes | None = None,
-    part: str | None = None,
+    part: str | Iterable[float] | None = None,
     errors: bool = True,
     require_digits: bool = False,
     summary: bool = False,
@@ -198,7 +198,7 @@ def sweep(
     sets += ["run.require_digits=true"] if require_digits else []
     names = columns if columns is None or isinstance(columns, str) else ",".join(columns)
     options = texts_of({"random": random, "seed": seed, "scatter": scatter, "model": model, "rows": rows, "columns": names,
-                        "rank_by": rank_by, "part": part})
+                        "rank_by": rank_by, "part": colons(part)})
     name, text, _ = scene_text(scene, {})
     if isinstance(scene, str):  # the program finds a case by its name, which its commands then have, too
         name, text = scene, None

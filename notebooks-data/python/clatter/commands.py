@@ -13,7 +13,7 @@ from pathlib import Path as FilePath
 from typing import Any
 
 from clatter import _clatter
-from clatter.arguments import (KEYS, AnyKey, Path, Probes, Scene, Swept, SweptKey, checked, is_number, number_text, probe_texts, set_texts,
+from clatter.arguments import (KEYS, AnyKey, Path, Probes, Scene, Swept, SweptKey, checked, colons, is_number, probe_texts, set_texts,
                                shown, text_of, texts_of)
 from clatter.arrays import Array, numpy_for
 from clatter.errors import BadArgument, BadInput, ClatterWarning, NotComputed
@@ -83,12 +83,8 @@ def _probes(probe: str | Iterable[str] | Probes | None) -> list[str]:
 def _parts(part: str | Iterable[str] | Iterable[float] | None) -> list[str]:
     parts: list[Any] = [part] if isinstance(part, str) else [*(part or [])]
     if parts and all(is_number(number) for number in parts):  # (500, 300): Hz and g
-        parts = [":".join(number_text(number) for number in parts)]
+        parts = [colons(parts)]
     return [f"--part={text}" for text in parts]
-
-
-def _frequencies(given: str | Iterable[float] | None) -> str | None:
-    return given if given is None or isinstance(given, str) else ":".join(number_text(number) for number in given)
 
 
 def _table(report: Report | None) -> Table:
@@ -122,13 +118,14 @@ def shock(
     scene and keys as for simulate().  probe: {"camera": (x, y, z)} in m from the geometric centre, or texts NAME:X,Y,Z.
     model: "discrete" or "continuous".  rows: "impact", "spectrum" or "pulse"; to_dict() has all.  rate [Hz]: rows are the
     history.  part: (500, 300) or "500:300", Hz and g, "300g" or "40g:11ms", what the part at the probe bears, or several texts.
-    frequencies: (low, high, count) of the spectra [Hz].  first: so many impacts are the first ones.
+    frequencies: (low, high, count) of the spectra [Hz].
+    sensitivity: how peaks follow the ground's numbers, by four more runs.  first: so many impacts are the first ones.
     measured: accelerations of a logger (CSV) in place of a drop; its column and unit; against: a scene beside it.
     Raises BadInput, OutsideModel, NotComputed; warns of a run that ended early.
 
     >>> clatter.shock("phone-damped", probe={"camera": (0.048, 0.016, 0.0095)}, impacts=1)["peak"]
     """
-    options = {"model": model, "axis": axis, "quality": quality, "frequencies": _frequencies(frequencies), "first": first,
+    options = {"model": model, "axis": axis, "quality": quality, "frequencies": colons(frequencies), "first": first,
                "severity": severity, "no_sensitivity": not sensitivity, "rows": rows, "rate": rate,
                "measured": measured and os.fspath(measured), "column": column, "unit": unit,
                "against": against and os.fspath(against)}
@@ -187,7 +184,7 @@ def report(
     Arguments as for shock(); drops and scatter [°]: of the random attitudes; rank_by: a column of sweep()'s rows.
     Raises BadInput, OutsideModel, NotComputed; warns of a run that ended early.
     """
-    options = {"model": model, "axis": axis, "quality": quality, "frequencies": _frequencies(frequencies), "first": first,
+    options = {"model": model, "axis": axis, "quality": quality, "frequencies": colons(frequencies), "first": first,
                "severity": severity, "no_sensitivity": not sensitivity, "drops": drops, "scatter": scatter,
                "rank_by": rank_by, "output": output and os.fspath(output), "format": None if output else "json"}
     made = _run("report", scene, changes, _probes(probe) + _parts(part) + _options(options))
@@ -225,9 +222,10 @@ def map(
 
     over: two keys of the scene file with their ranges, {"drop.angle_deg": (0, 60), "impact.restitution": "0.1:1:log"},
     across and upward; each number is that of the middle of its part of the range.  values: of other keys, as for sweep(), with
-    samples ranges, too, or as arguments by the names that sequence() takes.  quantity: "impacts", "total", "loss" ..., with samples
-    "NAME=CLASS", the share of that class; then the first axis is share, least and most (Wilson's).  size: across and upward; a
-    body's size is values={"body.size": ...}.  Up to 100 impacts are followed, or as many as impacts says.
+    samples ranges, too, or as arguments by the names that sequence() takes.  quantity: "impacts", "ratio" (of the second impulse to
+    the first), "total", "loss" ..., with samples "NAME=CLASS", the share of that class; then the first axis is share, least and most
+    (Wilson's).  size: across and upward; a body's size is values={"body.size": ...}.  Up to 100 impacts are followed, or as many as
+    impacts says.
     Raises BadInput; warns of pixels that could not be computed.
 
     >>> clatter.map(over={"drop.angle_deg": (1, 60), "impact.restitution": (0.2, 0.9)}, body="rod", gravity=9.81, quantity="ratio")

@@ -157,11 +157,14 @@ _WHOLE = {"index", "impacts", "n", "hardest", "touches", *(key.key for key in KE
 
 
 class Rows(Table):
-    """Rows of a sweep or of regimes; `rows` holds a record for each."""
+    """Rows of a sweep or of regimes; `rows` holds a record for each.  Of rows of impacts n is None, in arrays NaN, in one that sums
+    up all further impacts."""
 
     @functools.cached_property
     def _columns(self) -> dict[str, list[Any]]:
-        return {name: [int(value) if isinstance(value, float) else value for value in values] if name in _WHOLE or name.endswith("_impact") else values
+        def whole(value: Any) -> Any:
+            return None if value == "tail" else int(value) if isinstance(value, float) else value
+        return {name: [whole(value) for value in values] if name in _WHOLE or name.endswith("_impact") else values
                 for name, values in super()._columns.items()}
 
     def column(self, name: str) -> Array:
