@@ -78,7 +78,7 @@ void HistoryWriter::slide(const GroundMotion& motion, double start) {
 void HistoryWriter::flight(const FreeFlight& flight, double start, double duration) {
   if (!recorder_) return;
   const double turn = flight.at(0).angular_velocity.norm() * duration;
-  const int parts = static_cast<int>(std::clamp(turn * 8, 100.0, 2000.0));
+  const int parts = static_cast<int>(std::clamp(turn * 8, 50.0, 2000.0));
   for (int i = 1; i < parts; ++i) {
     const double time = duration * i / parts;
     HistorySample row = sample(start + time, flight.at(time));
