@@ -212,7 +212,7 @@ std::optional<AllAttitudes> all_attitudes(const ReportInput& input, const Scene&
       all.drops.push_back(drop);
     }
     const auto done = static_cast<std::size_t>(queue.taken()), of = static_cast<std::size_t>(plan.points.count());
-    progress.show(fmt::format("attitudes: {}{}", progress_bar(done, of), progress.time_left(done, of)));
+    progress.show(fmt::format("{}attitudes: {}{}", input.turn, progress_bar(done, of), progress.time_left(done, of)));
   };
   hooks.tick = [] {};
   hooks.stop = [&] { return interrupt.requested(); };

@@ -50,7 +50,9 @@ int run_report(const ReportInput& input) {
   attitudes.scatter = input.scatter.value_or(attitudes.scatter);
   std::vector<ReportCase> cases = cases_of(input);
   int status = 0;
-  for (ReportCase& one : cases) {
+  for (std::size_t i = 0; i < cases.size(); ++i) {
+    ReportCase& one = cases[i];
+    if (cases.size() > 1) one.input.turn = fmt::format("case {} of {}, ", i + 1, cases.size());
     auto found = findings_of(one.input, one.given, one.is_turned, attitudes, one.view, interrupt);
     if (!found) return interrupted_status;
     one.found = std::move(*found);

@@ -20,6 +20,7 @@ struct ReportInput : ShockInput {
   std::string title, date;
   bool is_short = false;  ///< the page has headlines, the table of cases and a drawing of each worst drop alone
   bool is_bare = false;   ///< CSV without comments
+  std::string turn;       ///< "case 2 of 9, " before what tells how far it is; empty: there is one
   enum class RowForm { by_itself, attitude } row_form = RowForm::by_itself;
 
   /// The part of one case, which has no more than one.

@@ -259,9 +259,10 @@ MapPlan read_map_plan(const MapRequest& request) {
   if (plan.counts()) plan.sweep.words.push_back(fmt::format("seed: {}", seed));
   const std::string name = plan.quantity->name;
   if (plan.quantity->tells_rest()) plan.sweep.scene.until_rest = true;
-  plan.request = {
-      .limit = is_capped(request) || plan.quantity->tells_rest() ? plan.sweep.scene.most_impacts() : uncapped_impacts,
-      .only_counts = !is_capped(request) && (name == "impacts" || name == "outcome")};
+  const bool is_asked = is_capped(request) || plan.quantity->tells_rest();
+  const int enough = name == "ratio" ? 2 : uncapped_impacts;  // later ones would leave pixels open in vain
+  plan.request = {.limit = is_asked ? plan.sweep.scene.most_impacts() : enough,
+                  .only_counts = !is_capped(request) && (name == "impacts" || name == "outcome")};
   if (plan.wanted_count)
     plan.request = {.limit = *plan.wanted_count + (plan.wants_at_least() ? 0 : 1), .only_counts = true};
   if (!plan.sweep.scene.until_rest) plan.sweep.scene.request.impacts = plan.request.limit;  // as its head says
