@@ -146,7 +146,7 @@ KeyValue list(const std::vector<std::size_t>& counts, const Range& range, const 
     const std::vector<double> numbers =
         values.numbers(name, counts, wide && model == Model::discrete ? *wide : range, words);
     if constexpr (requires { held = numbers; }) held = numbers;
-    else std::ranges::copy(numbers, held.begin());
+    else std::copy(numbers.begin(), numbers.end(), held.begin());
   };
   return {.kind = Kind::list, .allowed = words, .get = get, .read = read, .range = range, .example = example};
 }

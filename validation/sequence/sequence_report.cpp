@@ -363,7 +363,7 @@ std::vector<Column> columns_of(const PreparedScene& prepared, const Run& run) {
   if (run.model == RunModel::plane) return sequence_columns(friction, loses_energy(run));
   const bool is_outline = is_planar(prepared);  // that turns about y alone
   std::vector<std::string> shown = shown_quantities(is_outline ? RunModel::plane : RunModel::space);
-  if (is_outline) std::ranges::replace(shown, "end", "corners");
+  if (is_outline) *std::ranges::find(shown, "end") = "corners";
   if (friction) shown.emplace_back("mode");
   return impact_columns(RunModel::space, shown);
 }
