@@ -15,7 +15,7 @@ inline constexpr double degrees_per_radian = 57.29577951308232087679815481410517
 /// upright any more.  Angles given in degrees therefore take sine and cosine from the distance to the
 /// nearer of 0° and 90°, which is exact in floating point.
 struct Angle {
-  /// Of 0°.  Members that do not belong to one angle are no Angle, and so none is made of them.
+  /// The angle 0°.  Members that do not belong to one angle are no Angle, and so none is made of them.
   Angle() = default;
 
   double radians = 0;  ///< [rad]

@@ -18,8 +18,8 @@ struct Drop {
 /// Body → world of a drop.
 [[nodiscard]] Eigen::Quaterniond attitude_of(const Drop& drop);
 
-/// The state with the centre of mass above x = y = 0 and the lowest vertex on z = 0; its attitude may have any length but
-/// 0, and gets 1.
+/// The state with the centre of mass above x = y = 0 and the lowest vertex on z = 0; its attitude may have any length
+/// but 0, and gets 1.
 [[nodiscard]] MotionState on_ground(const Body& body, MotionState state);
 
 /// State at the first touch, on the ground as on_ground has it.

@@ -177,8 +177,8 @@ void Drop::validate() const {
   require(gravity >= 0 && std::isfinite(gravity), "gravity", gravity, "at least 0 and finite");
   require(std::isfinite(gravity_along), "gravity along the ground", gravity_along, "finite");
   if (release_height) {
-    require(std::isfinite(*release_height) && *release_height > touch_height(body, attitude),
-            "release height", *release_height, "finite and above that at which the body touches");
+    require(std::isfinite(*release_height) && *release_height > touch_height(body, attitude), "release height",
+            *release_height, "finite and above that at which the body touches");
   }
 }
 

@@ -222,8 +222,8 @@ struct Sequence {
   /// h″ of the corner that stays on the ground, if sustained_contact without a tail [m/s²].
   double end_acceleration = 0;
   double total_normal_impulse = 0;  ///< rows, contacts and tail [N·s]
-  /// Bound on its error; infinite where errors are not followed, or a row cannot be predicted and the body does not come
-  /// to rest for certain, which bounds it by m (g T + v) [N·s].
+  /// Bound on its error; infinite where errors are not followed, or a row cannot be predicted and the body does not
+  /// come to rest for certain, which bounds it by m (g T + v) [N·s].
   double total_normal_impulse_error = detail::infinite;
   /// Bound on the error of the time from the release to the first impact, which is rows.front().flight.time [s].
   double first_flight_error = 0;
