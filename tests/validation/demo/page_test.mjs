@@ -232,7 +232,7 @@ test("a link that is copied has the scene alone: who opens it is asked before th
 }));
 
 test("a name in hide= or lock= that means nothing is said", async () => {
-  for (const [fragment, words] of [["hide=map,situation", /^hide=situation: must be one of story, .*controls, continuous$/], ["lock=angel,scene", /^lock=angel: must be a quantity/]]) {
+  for (const [fragment, words] of [["hide=map,situation", /^hide=situation: must be one of story, .*, continuous$/], ["lock=angel,scene", /^lock=angel: must be a quantity/]]) {
     await onPage(`#predict=0&${fragment}`, async (page) => {
       await page.waitForSelector("#error:visible");
       assert.match(await page.textContent("#error"), words);
