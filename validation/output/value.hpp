@@ -33,8 +33,7 @@ class Value {
   Value(Fields fields);                                                        // NOLINT
   Value(const std::vector<std::string>& texts);                                // NOLINT
   template <std::ranges::input_range Numbers>
-  requires std::same_as < std::ranges::range_value_t<Numbers>,
-  double > Value(const Numbers& numbers)
+  requires(std::same_as<std::ranges::range_value_t<Numbers>, double>) Value(const Numbers& numbers)
       : Value(List(std::ranges::begin(numbers), std::ranges::end(numbers))) {}  // NOLINT
   ~Value();
   Value(const Value& other);

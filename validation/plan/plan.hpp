@@ -97,7 +97,7 @@ struct PlanRequest {
 /// @throws BadInput where an argument is given that the plan chooses or a sweep.
 [[nodiscard]] PlanTarget plan_target(const Scene& scene, const PlanRequest& request);
 
-/// @throws BadInput for a scene that ends at a time, or that begins without an impact.
+/// @throws BadInput for a scene on a slope, one that ends at a time, or one that begins without an impact.
 void require_counted_impacts(const Scene& scene, const char* command);
 
 /// A row for each model of the hierarchy.

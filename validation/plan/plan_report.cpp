@@ -315,6 +315,7 @@ void require_counted_impacts(const Scene& scene, const char* command) {
   const auto refuse = [&](const char* key) {
     throw BadInput("{}: must be left out for clatter {}, which counts impacts", key, command);
   };
+  require_level(scene, command);
   if (std::isfinite(scene.request.until)) refuse("run.until");
   if (scene.request.starts_on_ground) refuse("drop.start = \"rest\"");
 }
@@ -330,7 +331,6 @@ struct PlanInput {
 
 int run_plan(const PlanInput& input) {
   const Scene scene = read_scene_flags(input.scene);
-  require_level(scene, "plan");
   require_counted_impacts(scene, "plan");
   const OutputChoice& choice = input.output;
   const auto is_typed = [&](const std::string& name) { return is_given(input.scene, "--" + name); };

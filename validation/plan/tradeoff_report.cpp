@@ -314,7 +314,6 @@ struct TradeoffInput {
 
 int run_tradeoff(const TradeoffInput& input) {
   const Scene scene = read_scene_flags(input.scene);
-  require_level(scene, "tradeoff");
   require_counted_impacts(scene, "tradeoff");
   const OutputChoice& choice = input.output;
   check_files(choice, plot_files(input.plot));

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 
 #include "analytic/base/angle.hpp"
@@ -358,16 +357,37 @@ void settle_outcome(bool followed, bool stops, Run& run) {
   if (motion.kind == "rolls") run.outcome = "rolls-on";
   if (motion.kind == "rests" || (motion.kind != "rolls" && followed && motion.ends())) run.outcome = "at-rest";
   const std::string words = words_of(motion);
-  if (words.empty()) say_instead(run.message, "the body slides on", "the body is at rest");
-  if (words.empty()) return;
+  if (words.empty()) {
+    say_instead(run.message, "the body slides on", "the body is at rest");
+    return;
+  }
   say_instead(run.message, "; the body slides and turns on its round surface, which impacts do not describe", "");
   run.message += "; " + words;
 }
 
 Numbers Numbers::unknown() {
-  std::array<double, sizeof(Numbers) / sizeof(double)> all;
-  all.fill(unknown_error);
-  return std::bit_cast<Numbers>(all);
+  constexpr double x = unknown_error;
+  constexpr EntryVector each{x, x, x};
+  return {.start = x,
+          .duration = x,
+          .inclination_deg = x,
+          .contact_angle_deg = x,
+          .approach_speed = x,
+          .restitution = x,
+          .impulse_ratio = x,
+          .impulse = each,
+          .peak_force = x,
+          .peak_time = x,
+          .indentation = x,
+          .velocity_after = each,
+          .angular_velocity_after = each,
+          .energy_before = x,
+          .energy_after = x,
+          .energy_loss = x,
+          .work_damping = x,
+          .work_friction = x,
+          .work_released = x,
+          .attitude = {x, x, x, x}};
 }
 
 Impact impact_of(const analytic::ImpactRow& row, int n, double drop_deg) {

@@ -129,9 +129,8 @@ bool is_capped(const MapRequest& request) {
 
 SweepRequest sweep_request(const MapRequest& request) {
   SweepRequest sweep;
-  sweep.file = request.file.empty() ? "map" : request.file;
+  sweep.file = request.file;
   sweep.sets = request.over;
-  if (request.file.empty()) sweep.text = "";
   sweep.sets.insert(sweep.sets.end(), request.sets.begin(), request.sets.end());
   sweep.random = 1;
   sweep.seed = request.seed;

@@ -614,11 +614,9 @@ int run_sweep(const SweepInput& input, const SweepPlan& plan, const SweepBody& b
 }
 
 int run_command(const SweepInput& input, Ranks& ranks) {
-  SweepRequest request = input.request;
-  if (request.file.empty()) {
-    if (request.sets.empty()) throw BadInput("SCENE, or keys by --set: required, clatter help keys has them");
-    request.text = "";
-  }
+  const SweepRequest& request = input.request;
+  if (request.file.empty() && request.sets.empty())
+    throw BadInput("SCENE, or keys by --set: required, clatter help keys has them");
   SweepPlan plan = read_sweep_plan(request);
   plan.packed = input.request.summary || is_hdf5(input);
   const int threads = thread_count(input.threads, ranks);
