@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "validation/output/estimated.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cmath>
 
 #include "validation/output/number.hpp"
 
@@ -34,6 +37,17 @@ Cell known_cell(const Estimated& number, const Shown& shown) {
   if (digits > 0) return {number.value, std::min(digits, shown.digits)};
   Cell cell(number.value, 0);
   if (number.is_known() && is_zero(number, shown)) cell.shown = "0";
+  return cell;
+}
+
+Cell measured_cell(const Estimated& number, int digits) {
+  constexpr int least_digits = 3, most_decimals = 4;
+  Cell cell = known_cell(number, {digits, 0});
+  if (!number.is_known() || known_digits(number.value, number.error) >= least_digits) return cell;
+  const double error = rounded_up(number.error);
+  const int decimals = std::max(1 - static_cast<int>(std::floor(std::log10(error))), 0);  // as many as the error has
+  if (error < std::fabs(number.value) && decimals <= most_decimals)
+    cell.shown = fmt::format("{:.{}f}±{:.{}f}", number.value, decimals, error, decimals);
   return cell;
 }
 

@@ -49,6 +49,9 @@ struct Shown {
 [[nodiscard]] Cell known_cell(const Estimated& number, const Shown& shown);
 [[nodiscard]] std::string known_text(const Estimated& number, const Shown& shown);
 
+/// The same, but where the error leaves fewer than three digits the number beside it, 4.705±0.055.
+[[nodiscard]] Cell measured_cell(const Estimated& number, int digits);
+
 /// The error as outputs show it, with two significant digits; nothing where it is not known.
 [[nodiscard]] inline Value error_or_nothing(const Estimated& number) {
   return number.is_known() ? Value(rounded_up(number.error)) : Value();

@@ -31,8 +31,7 @@ Vector3 down_of(const Eigen::Quaterniond& attitude) { return -(attitude.conjugat
 
 /// The sweep of a box's attitudes by the same scene, to digits enough for a statistic; flags of the drop's own attitude
 /// stay out.
-/// @param rank_by  column; empty: as the sweep has it
-SweepRequest sweep_of(const ReportInput& input, const Attitudes& attitudes, const std::string& rank_by) {
+SweepRequest request_of(const ReportInput& input, const Attitudes& attitudes, const std::vector<FragilePart>& parts) {
   SweepRequest request{.file = input.scene.source,
                        .text = {},
                        .sets = {"drop.attitude=26", "run.digits=3"},
@@ -45,9 +44,8 @@ SweepRequest sweep_of(const ReportInput& input, const Attitudes& attitudes, cons
                        .columns = {},
                        .no_errors = true,
                        .summary = true,
-                       .parts = input.parts,
-                       .rank_by = rank_by};
-  if (request.file.empty()) request.text = "";
+                       .parts = parts,
+                       .rank_by = input.rank_by};
   for (const SceneOverride& given : overrides_of(input.scene)) {
     if (!turns_body(given.key) && given.key != "run.errors" && given.key != "run.digits")
       request.sets.push_back(given.key + "=" + given.text);
@@ -55,13 +53,13 @@ SweepRequest sweep_of(const ReportInput& input, const Attitudes& attitudes, cons
   return request;
 }
 
-std::string sweep_command_of(const SweepRequest& request) {
+std::string command_of(const SweepRequest& request, const std::string& rank_by) {
   std::string words = "clatter sweep" + (request.file.empty() ? "" : " " + shell_word(request.file)) + " --model " +
                       name_of(*request.model);
   for (const std::string& set : request.sets) words += " --set " + shell_word(set);
   for (const std::string& probe : request.probes) words += " --probe " + shell_word(probe);
   for (const FragilePart& part : request.parts) words += " --part " + shell_word(part_text(part));
-  if (!request.rank_by.empty()) words += " --rank-by " + shell_word(request.rank_by);
+  if (!rank_by.empty()) words += " --rank-by " + shell_word(rank_by);
   return words + fmt::format(" --random {} --scatter {} --no-errors --summary", *request.random, *request.scatter);
 }
 
@@ -167,60 +165,69 @@ Ranking ranking_of(std::string_view column, const std::vector<Probe>& probes, co
   return ranking;
 }
 
-std::optional<AllAttitudes> all_attitudes(const ReportInput& input, const Scene& given, const Attitudes& attitudes,
-                                          const std::string& rank_by, const CooperativeInterrupt& interrupt) {
-  const SweepRequest request = sweep_of(input, attitudes, rank_by);
-  SweepPlan plan = read_sweep_plan(request);
-  plan.packed = true;
-  const SweepBody body = plan.body_values.empty() ? make_sweep_body(plan, plan.scene) : SweepBody{};
-  Summary summary(plan.layout, plan.points);
+std::optional<AttitudeSweep> sweep_attitudes(const ReportInput& input, const Attitudes& attitudes,
+                                             const std::vector<FragilePart>& parts, RunProgress& progress,
+                                             long long before, const CooperativeInterrupt& interrupt) {
+  AttitudeSweep sweep;
+  sweep.request = request_of(input, attitudes, parts);
+  sweep.plan = read_sweep_plan(sweep.request);
+  sweep.plan.packed = true;
+  if (sweep.plan.body_values.empty()) sweep.body = make_sweep_body(sweep.plan, sweep.plan.scene);
+  RangeQueue queue({0, sweep.plan.points.count()}, range_size(sweep.plan));
+  SweepHooks hooks;
+  hooks.write = [&](const RangeRows& rows) {
+    sweep.rows += rows.text;
+    progress.tick(before + queue.taken());
+  };
+  hooks.tick = [] {};
+  hooks.stop = [&] { return interrupt.requested(); };
+  Ranks processes;
+  sweep.threads = thread_count(input.threads, processes);
+  run_on_threads(queue, sweep.threads, runners_of(sweep.plan, sweep.body), hooks);
+  if (interrupt.requested()) return std::nullopt;
+  return sweep;
+}
+
+std::optional<AllAttitudes> all_attitudes(const ReportInput& input, const Scene& given, const AttitudeSweep& sweep,
+                                          const std::string& rank_by) {
+  const SweepPlan& plan = sweep.plan;
+  RowLayout layout = plan.layout;
+  layout.rank_by = rank_by;
+  Summary summary(layout, plan.points);
   const std::optional<std::size_t> ranking = summary.ranking();
-  if (!ranking) return {};
+  if (!ranking) return std::nullopt;
   AllAttitudes all;
-  const std::vector<Column> columns = sweep_columns(plan.layout);
+  const std::vector<Column> columns = sweep_columns(layout);
   all.column = columns[*ranking];
   const auto place_of = [&](const std::string& name) {
     return static_cast<std::size_t>(std::ranges::find(columns, name, &Column::name) - columns.begin());
   };
   const std::string& by = all.column.name;
-  const Ranking ranks = ranking_of(by, plan.layout.probes, input);
+  const Ranking ranks = ranking_of(by, layout.probes, input);
   const std::string beyond = by.starts_with(of_landing) ? by.substr(of_landing.size()) : "";
   const std::size_t curve = place_of("curve_depth"), beyond_value = place_of(beyond),
                     beyond_impact = place_of(beyond + "_impact"),
-                    peak = plan.layout.probes.empty()
-                               ? columns.size()
-                               : place_of(std::string(peak_column) + plan.layout.probes[ranks.probe].name);
-  RangeQueue queue({0, plan.points.count()}, range_size(plan));
-  SweepHooks hooks;
-  Progress progress;
+                    peak = layout.probes.empty() ? columns.size()
+                                                 : place_of(std::string(peak_column) + layout.probes[ranks.probe].name);
   std::vector<PackedCell> row(columns.size());
   std::vector<double> values;
   const auto number = [&](std::size_t place) { return place < row.size() ? row[place].number : std::nan(""); };
-  hooks.write = [&](const RangeRows& rows) {
-    summary.add(rows.text);
-    for (PackedRows packed(rows.text); packed.next(row);) {
-      if (!std::isfinite(row[*ranking].number)) continue;
-      SweptDrop drop{.point = static_cast<long long>(row.front().number), .value = row[*ranking].number};
-      plan.points.at(drop.point, values);
-      std::copy_n(values.begin(), 4, drop.parameters.begin());
-      drop.down = down_of(Eigen::Quaterniond(values[0], values[1], values[2], values[3]));
-      drop.attitude = static_cast<int>(plan.points.attitude_of(drop.point));
-      drop.curve_depth = number(curve);
-      drop.peak_g = number(peak);
-      drop.beyond_value = number(beyond_value);
-      drop.beyond_impact = std::isfinite(number(beyond_impact)) ? static_cast<int>(number(beyond_impact)) : 0;
-      all.drops.push_back(drop);
-    }
-    const auto done = static_cast<std::size_t>(queue.taken()), of = static_cast<std::size_t>(plan.points.count());
-    progress.show(fmt::format("{}attitudes: {}{}", input.turn, progress_bar(done, of), progress.time_left(done, of)));
-  };
-  hooks.tick = [] {};
-  hooks.stop = [&] { return interrupt.requested(); };
-  Ranks processes;
-  const int threads = thread_count(input.threads, processes);
-  run_on_threads(queue, threads, runners_of(plan, body), hooks);
-  if (interrupt.requested() || all.drops.empty()) return {};
-  find_blows(plan, body, threads, ranks, all);
+  summary.add(sweep.rows);
+  for (PackedRows packed(sweep.rows); packed.next(row);) {
+    if (!std::isfinite(row[*ranking].number)) continue;
+    SweptDrop drop{.point = static_cast<long long>(row.front().number), .value = row[*ranking].number};
+    plan.points.at(drop.point, values);
+    std::copy_n(values.begin(), 4, drop.parameters.begin());
+    drop.down = down_of(Eigen::Quaterniond(values[0], values[1], values[2], values[3]));
+    drop.attitude = static_cast<int>(plan.points.attitude_of(drop.point));
+    drop.curve_depth = number(curve);
+    drop.peak_g = number(peak);
+    drop.beyond_value = number(beyond_value);
+    drop.beyond_impact = std::isfinite(number(beyond_impact)) ? static_cast<int>(number(beyond_impact)) : 0;
+    all.drops.push_back(drop);
+  }
+  if (all.drops.empty()) return std::nullopt;
+  find_blows(plan, sweep.body, sweep.threads, ranks, all);
   all.worst = *std::ranges::min_element(all.worst_of, [&](std::size_t one, std::size_t other) {
     return all.is_worse(all.drops[one].value, all.drops[other].value);
   });
@@ -238,7 +245,8 @@ std::optional<AllAttitudes> all_attitudes(const ReportInput& input, const Scene&
       all.report, [&](long long index) { return plan.command_of(index); },
       [&](long long place) { return plan.attitude_name(place); });
   all.report.commands.clear();
-  all.command = sweep_command_of(request);
+  all.is_sample = sweep.request.scatter > 0;
+  all.command = command_of(sweep.request, rank_by);
   return all;
 }
 
@@ -255,25 +263,25 @@ std::string ranked_words(const Column& ranking) {
 }
 
 std::vector<Column> attitude_columns() {
-  return {
-      word_column("attitude", "down", "part of the box that points down"),
-      {"off_deg", "off", "°", "how far its worst drop is off that"},
-      {"impact", "impact", "", "whose blow is the worst of that drop"},
-      {"peak_g", "peak", "g", "largest specific force at the probe in that blow"},
-      {"delta_v", "|ΔV|", "m/s", "change of the probe's velocity in it"},
-      pulse_column(),
-      {"margin", "margin", "", "of the part in it: at 1 and below it fails"},
-      word_column("decided_by", "by", "what decides the margin: change of velocity, peak, or the humps of its history"),
-      {"depth_mm", "depth", "mm", "of the body's deepest point in it"},
-      {"depth_percent", "of pad", "%", "the same in parts of the pad's thickness"},
-      {"worst", "worst", "", "what the drops are ranked by, of that drop"},
-      {"mildest", "mildest", "", "the same of the mildest of its drops"},
-      {"largest_peak_g", "any peak", "g", "largest specific force at the probe in any blow of any of them"},
-      {"drops", "drops", "", "of this attitude"},
-      {"attitude_q0", "q0", "", "Euler parameters of its worst drop at the touch-down, for --attitude", false},
-      {"attitude_q1", "q1", "", "the same", false},
-      {"attitude_q2", "q2", "", "the same", false},
-      {"attitude_q3", "q3", "", "the same", false}};
+  return {word_column("attitude", "down", "part of the box that points down"),
+          {"off_deg", "off", "°", "how far its worst drop is off that"},
+          {"impact", "impact", "", "whose blow is the worst of that drop"},
+          {"peak_g", "peak", "g", "largest specific force at the probe in that blow"},
+          {"delta_v", "|ΔV|", "m/s", "change of the probe's velocity in it"},
+          pulse_column(),
+          word_column("verdict", "", "whether the part survives it or fails"),
+          {"margin", "margin", "", "of the part in it: at 1 and below it fails"},
+          word_column("decided_by", "by", "what decides the margin: |ΔV|, peak, or the humps of its history"),
+          {"depth_mm", "depth", "mm", "of the body's deepest point in it"},
+          {"depth_percent", "of pad", "%", "the same in parts of the pad's thickness"},
+          {"worst", "worst", "", "what the drops are ranked by, of that drop"},
+          {"mildest", "mildest", "", "the same of the mildest of its drops"},
+          {"largest_peak_g", "any peak", "g", "largest specific force at the probe in any blow of any of them"},
+          {"drops", "drops", "", "of this attitude"},
+          {"attitude_q0", "q0", "", "Euler parameters of its worst drop at the touch-down, for --attitude", false},
+          {"attitude_q1", "q1", "", "the same", false},
+          {"attitude_q2", "q2", "", "the same", false},
+          {"attitude_q3", "q3", "", "the same", false}};
 }
 
 Grid attitudes_grid(const AllAttitudes& all) {
@@ -302,27 +310,18 @@ Grid attitudes_grid(const AllAttitudes& all) {
                    : column.name == "depth_mm"                              ? has_depth
                    : column.name == "depth_percent"                         ? has_share
                    : column.name == "worst"                                 ? !is_of_blow
+                   : column.name == "verdict"                               ? false  // which margins say
                    : column.name == "largest_peak_g"                        ? has_peaks && !all.is_ranked_by_peak()
                                                                             : column.shown;
   }
   std::vector<std::size_t> order(all.worst_of.size());
   std::iota(order.begin(), order.end(), 0U);
-  std::array<double, 4> worst_of_kind;
-  worst_of_kind.fill(std::nan(""));
-  const auto drop = [&](std::size_t i) -> const SweptDrop& { return all.drops[all.worst_of[i]]; };
-  for (const std::size_t i : order) {
-    double& so_far = worst_of_kind[axes_of_attitude(drop(i).attitude)];
-    if (!std::isfinite(so_far) || all.is_worse(drop(i).value, so_far)) so_far = drop(i).value;
-  }
   std::ranges::stable_sort(order, [&](std::size_t a, std::size_t b) {
-    const std::size_t one = axes_of_attitude(drop(a).attitude), other = axes_of_attitude(drop(b).attitude);
-    if (one != other && worst_of_kind[one] != worst_of_kind[other])
-      return all.is_worse(worst_of_kind[one], worst_of_kind[other]);
-    return one != other ? one < other : all.is_worse(drop(a).value, drop(b).value);
+    return all.is_worse(all.drops[all.worst_of[a]].value, all.drops[all.worst_of[b]].value);
   });
   for (const std::size_t i : order) {
     const std::optional<Blow>& blow = all.blows[i];
-    const SweptDrop& worst = drop(i);
+    const SweptDrop& worst = all.drops[all.worst_of[i]];
     double mildest = worst.value, largest_peak = std::nan("");
     const auto drops = all.count([&](const SweptDrop& one) { return one.attitude == worst.attitude; });
     for (const SweptDrop& one : all.drops) {
@@ -330,19 +329,20 @@ Grid attitudes_grid(const AllAttitudes& all) {
       if (all.is_worse(mildest, one.value)) mildest = one.value;
       largest_peak = std::fmax(largest_peak, one.peak_g);
     }
-    const auto cell = [&](bool there, double value) { return there ? Cell(value, 3) : Cell(); };
+    const auto cell = [&](bool there, double value) { return there ? said_cell(value) : Cell(); };
     const bool is_deep = blow && blow->depth, has_pulse = blow && blow->peak_g > 0 && blow->velocity > 0;
     grid.rows.push_back(
         {Cell(fmt::format("{} {}", part_names[axes_of_attitude(worst.attitude)], orientation_name(worst.attitude + 1))),
          Cell(degrees_off(all.scene, worst.attitude, worst.down), 2), blow ? Cell(blow->impact) : Cell(),
-         cell(blow && has_peaks, blow ? three_digits(blow->peak_g) : 0),
-         cell(blow && has_velocity, blow ? blow->velocity : 0),
-         has_pulse ? Cell(1e3 * equivalent_pulse(blow->velocity, blow->peak_g * standard_gravity).duration, 3) : Cell(),
+         cell(blow && has_peaks, blow ? blow->peak_g : 0), cell(blow && has_velocity, blow ? blow->velocity : 0),
+         has_pulse ? said_cell(1e3 * equivalent_pulse(blow->velocity, blow->peak_g * standard_gravity).duration)
+                   : Cell(),
+         blow && blow->margin ? Cell(blow->margin->verdict()) : Cell(),
          cell(blow && blow->margin, blow && blow->margin ? blow->margin->value : 0),
          blow && blow->margin ? deciding_cell(blow->margin->by) : Cell(),
          cell(is_deep, is_deep ? 1e3 * *blow->depth : 0),
-         cell(is_deep && has_share, is_deep && has_share ? 100 * *blow->depth / *pad : 0), Cell(worst.value, 3),
-         Cell(mildest, 3), cell(std::isfinite(largest_peak), three_digits(largest_peak)), Cell(static_cast<int>(drops)),
+         cell(is_deep && has_share, is_deep && has_share ? 100 * *blow->depth / *pad : 0), said_cell(worst.value),
+         said_cell(mildest), cell(std::isfinite(largest_peak), largest_peak), Cell(static_cast<int>(drops)),
          Cell(worst.parameters[0]), Cell(worst.parameters[1]), Cell(worst.parameters[2]), Cell(worst.parameters[3])});
   }
   return grid;

@@ -14,6 +14,7 @@
 #include "validation/report/report_input.hpp"
 #include "validation/report/verdict.hpp"
 #include "validation/sweep/rows.hpp"
+#include "validation/sweep/sweep_run.hpp"
 
 namespace clatter::validation {
 
@@ -42,6 +43,7 @@ struct SweptDrop {
 /// What the drops in all attitudes give.
 struct AllAttitudes {
   std::vector<SweptDrop> drops;
+  bool is_sample = true;  ///< else each attitude is exactly that
   std::size_t worst = 0;
   Column column;                           ///< by which they are ranked
   std::vector<std::size_t> worst_of;       ///< of each attitude that has a drop: its worst one
@@ -63,12 +65,27 @@ struct AllAttitudes {
 /// What the ranking of a sweep's column says of blows: of the probe that the column names, else of the first.
 [[nodiscard]] Ranking ranking_of(std::string_view column, const std::vector<Probe>& probes, const ReportInput& input);
 
+/// The drops of a scene in all attitudes, computed once for all parts.
+struct AttitudeSweep {
+  SweepRequest request;
+  SweepPlan plan;
+  SweepBody body;
+  std::string rows;  ///< packed
+  int threads = 1;
+};
+/// Nothing where it was interrupted.
+/// @param parts  at most one at each probe
+/// @param before  drops of other scenes that `progress` counted
+/// @throws BadInput as read_sweep_plan
+[[nodiscard]] std::optional<AttitudeSweep> sweep_attitudes(const ReportInput& input, const Attitudes& attitudes,
+                                                           const std::vector<FragilePart>& parts, RunProgress& progress,
+                                                           long long before, const CooperativeInterrupt& interrupt);
+
+/// What the drops give for one part; nothing where none has a number to rank it by.
 /// @param given  the drop whose attitude they change
 /// @param rank_by  column; empty: as the sweep has it
-/// @throws BadInput as read_sweep_plan; nothing if it was interrupted, or no drop has a number to rank it by.
 [[nodiscard]] std::optional<AllAttitudes> all_attitudes(const ReportInput& input, const Scene& given,
-                                                        const Attitudes& attitudes, const std::string& rank_by,
-                                                        const CooperativeInterrupt& interrupt);
+                                                        const AttitudeSweep& sweep, const std::string& rank_by);
 
 /// "margin of camera, first landing [g]": what drops are ranked by, for a reader.
 [[nodiscard]] std::string ranked_words(const Column& ranking);
@@ -76,7 +93,7 @@ struct AllAttitudes {
 /// The columns of the table of faces, edges and corners, whatever a report has of them.
 [[nodiscard]] std::vector<Column> attitude_columns();
 
-/// Each face, edge and corner by the worst blow of its worst drop, the worst kind first and in it the worst attitude.
+/// Each face, edge and corner by the worst blow of its worst drop, the worst first.
 [[nodiscard]] Grid attitudes_grid(const AllAttitudes& all);
 
 }  // namespace clatter::validation

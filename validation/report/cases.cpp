@@ -11,6 +11,7 @@
 
 #include "validation/output/bad_input.hpp"
 #include "validation/output/number.hpp"
+#include "validation/scene/floors.hpp"
 #include "validation/sweep/points.hpp"
 
 namespace clatter::validation {
@@ -34,37 +35,79 @@ std::vector<std::string> several_values(const Key& key, const std::string& text)
 
 bool is_restitution(const Key& key) { return std::string_view(key.name).ends_with(".restitution"); }
 bool is_floor(const Key& key) { return std::string_view(key.name) == "ground.floor"; }
+bool is_friction(const Key& key) { return std::string_view(key.name) == "ground.sliding_friction"; }
 
-bool differ(const std::vector<const ReportCase*>& cases, auto&& value) {
-  return std::ranges::any_of(cases, [&](const ReportCase* one) { return value(*one) != value(*cases.front()); });
+/// "e", "floor" or "sliding friction": a key as one says it.
+std::string words_of(const Key& key) {
+  if (is_restitution(key)) return "e";
+  std::string name = key.argument();
+  std::ranges::replace(name, '_', ' ');
+  return name;
 }
 
+/// "concrete", "pad on concrete", "half-space", "pad" or "springs"; empty without a ground.
+std::string floor_of(const Scene& scene) {
+  const numeric::Ground& ground = scene.world.ground;
+  const auto& floor = scene.half_space.floor;
+  const std::string name = floor ? floor_names()[*floor] : "";
+  if (ground.is_pad()) return floor ? "pad on " + name : "pad";
+  return floor ? name : ground.is_half_space() ? "half-space" : scene.has_ground() ? "springs" : "";
+}
+
+std::string part_text_of(const ReportCase& one) { return one.input.part() ? part_text(*one.input.part()) : ""; }
+
 std::vector<Column> columns_of_case() {
-  return {word_column("floor", "scene", "file whose drop it is, or its floor"),
+  return {word_column("scene", "scene", "file or name of the drop"),
+          word_column("floor", "floor", "its material, half-space, pad or springs"),
           {"restitution", "e", "", "that was given, of the ground or, without one, of impacts"},
+          {"friction", "μ", "", "coefficient of sliding friction on the ground"},
           word_column("given", "with", "its values of other flags that have several"),
           word_column("part", "part", "what bears it, as --part takes it")};
 }
 
 /// What tells a case from others, in these columns.
 Row cells_of_case(const ReportCase& one) {
-  const auto part = one.input.part();
+  const auto text = [](const std::string& words) { return words.empty() ? Cell() : Cell(words); };
+  const auto number = [](double value) { return Cell(value, shortest(value)); };
   const auto e = one.given_restitution();
-  const std::string words = one.varied_words();
-  return {Cell(one.floor()), e ? Cell(*e, shortest(*e)) : Cell(), words.empty() ? Cell() : Cell(words),
-          part ? Cell(part_text(*part)) : Cell()};
+  std::string given;
+  for (const auto& [key, value] : one.varied) {
+    if (!is_restitution(*key) && !is_floor(*key) && !is_friction(*key))
+      given += fmt::format("{}{} {}", given.empty() ? "" : ", ", words_of(*key), value);
+  }
+  return {text(one.scene()),
+          text(floor_of(one.given)),
+          e ? number(*e) : Cell(),
+          one.given.has_ground() ? number(one.given.world.ground.sliding_friction) : Cell(),
+          text(given),
+          text(part_text_of(one))};
 }
 
+/// Those that differ from case to case.
 void show_columns_of_case(const std::vector<const ReportCase*>& cases, Grid& grid) {
-  for (Column& column : grid.columns) {
-    if (column.name == "floor") column.shown = differ(cases, [](const ReportCase& one) { return one.floor(); });
-    if (column.name == "restitution")
-      column.shown = differ(cases, [](const ReportCase& one) { return one.given_restitution(); });
-    if (column.name == "given") column.shown = differ(cases, [](const ReportCase& one) { return one.varied_words(); });
-    if (column.name == "part")
-      column.shown =
-          differ(cases, [](const ReportCase& one) { return one.input.part() ? part_text(*one.input.part()) : ""; });
+  const std::size_t count = columns_of_case().size();
+  std::vector<Row> rows;
+  for (const ReportCase* one : cases) rows.push_back(cells_of_case(*one));
+  for (std::size_t i = 0; i < count; ++i)
+    grid.columns[i].shown =
+        std::ranges::any_of(rows, [&](const Row& row) { return shown_text(row[i]) != shown_text(rows.front()[i]); });
+}
+
+/// The parts of a scene in groups that have no probe in common: each is one sweep.
+std::vector<std::vector<FragilePart>> groups_of(const std::vector<FragilePart>& parts,
+                                                const std::vector<Probe>& probes) {
+  std::vector<std::vector<FragilePart>> groups;
+  for (const FragilePart& part : parts) {
+    const auto group = std::ranges::find_if(groups, [&](const std::vector<FragilePart>& others) {
+      return std::ranges::none_of(probes, [&](const Probe& probe) {
+        return part.is_at(probe.name) &&
+               std::ranges::any_of(others, [&](const FragilePart& other) { return other.is_at(probe.name); });
+      });
+    });
+    if (group == groups.end()) groups.push_back({part});
+    else group->push_back(part);
   }
+  return groups;
 }
 
 }  // namespace
@@ -87,67 +130,62 @@ std::vector<ReportCase> cases_of(const ReportInput& given) {
     varied.push_back(&key);
     multiply(values.size(), [&](std::size_t i, ReportInput& input) { input.scene.texts[key.flag] = values[i]; });
   }
-  std::vector<ReportInput> of_parts;
-  for (const ReportInput& input : inputs) {
-    const std::vector<FragilePart> parts = parts_of(input.parts, probes_of(input));
-    if (parts.empty()) of_parts.push_back(input);
-    for (const FragilePart& part : parts) of_parts.emplace_back(input).parts = {part};
-  }
-  if (of_parts.size() > most_cases)
-    throw BadInput(fmt::format("{} cases of scenes, values and parts: more than {}", of_parts.size(), most_cases));
-  const bool names_floor =
-      given.scenes.size() > 1 || std::ranges::any_of(varied, [](const Key* key) { return is_floor(*key); });
   std::vector<ReportCase> cases;
-  for (ReportInput& input : of_parts) {
+  const auto add = [&](ReportInput input, const std::vector<FragilePart>& group, bool is_first) {
     const bool is_turned = gives_attitude(input);
     if (!is_turned && looks_at_all(input)) input.scene.texts["--orientation"] = "1";  // some one: the sweep has its own
     const Scene scene = shock_scene(input);
     require_worst_attitudes(input, scene);
     if (!input.parts.empty() && probes_of(input).empty())
       throw BadInput("--part: needs --probe NAME:X,Y,Z, or [[probe]], where the part is");
-    ReportCase& one = cases.emplace_back(ReportCase{input, {}, view_of(input), is_turned, scene, names_floor});
+    ReportCase& one = cases.emplace_back(
+        ReportCase{.input = input, .varied = {}, .view = view_of(input), .is_turned = is_turned, .given = scene});
+    one.names_scene = given.scenes.size() > 1;
+    one.swept_with = group;
+    one.begins_sweep = is_first;
     for (const Key* key : varied) one.varied.emplace_back(key, input.scene.texts.at(key->flag));
+  };
+  std::size_t count = 0;
+  for (const ReportInput& input : inputs)
+    count += std::max<std::size_t>(parts_of(input.parts, probes_of(input)).size(), 1);
+  if (count > most_cases)
+    throw BadInput(fmt::format("{} cases of scenes, values and parts: more than {}", count, most_cases));
+  for (const ReportInput& input : inputs) {
+    const std::vector<Probe> probes = probes_of(input);
+    const std::vector<FragilePart> parts = parts_of(input.parts, probes);
+    if (parts.empty()) add(input, {}, true);
+    for (const std::vector<FragilePart>& group : groups_of(parts, probes)) {
+      for (const FragilePart& part : group) {
+        ReportInput of_part = input;
+        of_part.parts = {part};
+        add(of_part, group, part_text(part) == part_text(group.front()));
+        const auto rivals = std::ranges::count(parts, part.probe, &FragilePart::probe);
+        cases.back().part_name = !part.probe.empty() && rivals == 1 ? part.probe : words_of(part);
+      }
+    }
   }
   return cases;
 }
 
-std::string ReportCase::floor() const {
+std::string ReportCase::scene() const {
   const std::string& source = input.scene.source;
-  std::string words = source.substr(0, source.size() - (source.ends_with(".toml") ? 5 : 0));
-  for (const auto& [key, value] : varied) {
-    if (is_floor(*key)) words += (words.empty() ? "" : ", ") + value;
-  }
-  return words.empty() ? "the drop" : words;
+  return source.substr(0, source.size() - (source.ends_with(".toml") ? 5 : 0));
 }
 
-std::string ReportCase::varied_words() const {
-  std::string words;
+std::string ReportCase::name() const {
+  std::string words = names_scene ? scene() : "";
   for (const auto& [key, value] : varied) {
-    if (is_restitution(*key) || is_floor(*key)) continue;
-    std::string name = key->argument();
-    std::ranges::replace(name, '_', ' ');
-    words += fmt::format("{}{} {}", words.empty() ? "" : ", ", name, value);
+    words += words.empty() ? "" : ", ";
+    words += is_floor(*key) ? value : is_restitution(*key) ? "e = " + value : words_of(*key) + " " + value;
   }
   return words;
 }
 
-std::string ReportCase::name(const std::string& of_part, const char* between) const {
-  std::string words = names_floor ? floor() : "";
-  const auto add = [&](const std::string& more) { words += (words.empty() || more.empty() ? "" : ", ") + more; };
-  for (const auto& [key, value] : varied) {
-    if (is_restitution(*key)) add("e = " + value);
-  }
-  add(varied_words());
-  return words + (words.empty() || of_part.empty() ? "" : between) + of_part;
-}
-
-std::string ReportCase::name() const { return name(input.part() ? part_text(*input.part()) : "", ", "); }
-
 std::string ReportCase::heading() const {
-  const auto part = input.part();
-  if (!part) return name();
-  std::string words = name(words_of(*part), ": ");
+  std::string words = name();
+  if (!input.part()) return words;
   const std::optional<Blow>& blow = found.answer.blow;
+  words += (words.empty() ? "" : ": ") + words_of(*input.part());
   if (blow && blow->margin) words += fmt::format(" {}", blow->margin->verdict());
   if (words.starts_with("a part")) words.front() = 'A';
   return words;
@@ -165,19 +203,18 @@ Grid cases_grid(const std::vector<const ReportCase*>& cases) {
     const auto of = [&](const char* name, double unit = 1) {
       const Value* const value = answer.find(name);
       const double* const number = value ? value->number() : nullptr;
-      return !value ? Cell() : number ? Cell(unit * *number, 3) : Cell(*value);
+      return !value ? Cell() : number ? said_cell(unit * *number) : Cell(*value);
     };
     const auto& pad = one->found.scene.pad.thickness;
     Row row = cells_of_case(*one);
-    for (const char* name : {"verdict", "margin", "attitude", "probe", "impact", "peak_g", "delta_v"})
+    for (const char* name :
+         {"verdict", "margin", "failing", "drops", "attitude", "probe", "impact", "peak_g", "delta_v"})
       row.push_back(of(name));
     row.push_back(of("pulse_duration", 1e3));
     row.push_back(of("depth", 1e3));
     row.push_back(pad ? of("depth", 100 / *pad) : Cell());
     const auto& blow = one->found.answer.blow;
     row.push_back(blow && blow->margin ? deciding_cell(blow->margin->by) : Cell());
-    row.push_back(of("failing"));
-    row.push_back(of("drops"));
     grid.rows.push_back(std::move(row));
   }
   const auto any = [&](auto&& holds) {
@@ -185,13 +222,17 @@ Grid cases_grid(const std::vector<const ReportCase*>& cases) {
   };
   const bool has_part = any([](const ReportCase& one) { return one.input.part().has_value(); });
   for (Column& column : grid.columns) {
-    if (column.name == "part") column.shown = has_part;
+    if (column.name == "drops") column.shown = false;  // which the headings of others say
+    if (const auto& all = cases.front()->found.all; all && column.name == "failing")
+      column.heading = fmt::format("fail of {}", all->drops.size());
     if (column.name == "verdict" || column.name == "margin" || column.name == "decided_by" || column.name == "failing")
       column.shown = has_part;
     if (column.name == pulse_column().name)
       column.shown = any([](const ReportCase& one) { return one.found.ranking.has_peaks; });
     if (column.name == "probe")
-      column.shown = any([](const ReportCase& one) { return one.found.run.probes.size() > 1; });
+      column.shown = any([](const ReportCase& one) {
+        return one.found.run.probes.size() > 1 && (!one.input.part() || one.input.part()->probe.empty());
+      });
     if (column.name == "depth_mm")
       column.shown = any(
           [](const ReportCase& one) { return one.found.scene.world.ground.is_pad() || one.found.scene.pad.thickness; });
@@ -216,44 +257,79 @@ std::vector<const ReportCase*> ranked(const std::vector<ReportCase>& cases) {
 
 std::vector<const ReportCase*> worst_cases(const std::vector<const ReportCase*>& order) {
   std::vector<const ReportCase*> worst;
-  const auto part = [](const ReportCase* one) { return one->input.part() ? part_text(*one->input.part()) : ""; };
+  const auto floor = [](const ReportCase* one) { return std::pair(one->scene(), floor_of(one->given)); };
   for (const ReportCase* one : order) {
-    const bool is_known_floor =
-        std::ranges::any_of(worst, [&](const ReportCase* other) { return other->floor() == one->floor(); });
-    const bool is_known_part =
-        std::ranges::any_of(worst, [&](const ReportCase* other) { return part(other) == part(one); });
-    if (!is_known_floor || !is_known_part) worst.push_back(one);
+    const auto is_known = [&](auto&& of) {
+      return std::ranges::any_of(worst, [&](const ReportCase* other) { return of(other) == of(one); });
+    };
+    if (!is_known(floor) || !is_known([](const ReportCase* of) { return part_text_of(*of); })) worst.push_back(one);
   }
   return worst;
 }
 
-Report joined_report(const std::vector<const ReportCase*>& order) {
-  const Findings& worst = order.front()->found;
-  const Grid cases = cases_grid(order);
-  Report report = worst.report;
-  report.grid = cases;
-  report.head.insert(report.head.begin(), "The worst case:");
-  std::string words;
-  for (const ReportCase* one : worst_cases(order)) {
-    const std::optional<Blow>& blow = one->found.answer.blow;
-    words += (words.empty() ? "" : "; ") + one->name();
-    if (blow && blow->margin)
-      words += fmt::format(" {}, {} margin {}", blow->margin->verdict(),
-                           one->found.ranking.by == Ranking::By::margin ? "least" : "with", said(blow->margin->value));
-    else words += ": " + (blow ? one->found.lead : one->found.answer.words);
+namespace {
+
+/// The cases of each part, the worst part first.
+std::vector<std::vector<const ReportCase*>> by_part(const std::vector<const ReportCase*>& order) {
+  std::vector<std::vector<const ReportCase*>> parts;
+  for (const ReportCase* one : order) {
+    const auto part = std::ranges::find_if(
+        parts, [&](const auto& cases) { return part_text_of(*cases.front()) == part_text_of(*one); });
+    if (part == parts.end()) parts.push_back({one});
+    else part->push_back(one);
   }
-  if (const ReportCase& last = *order.back(); last.found.ranking.by == Ranking::By::margin &&
-                                              std::isfinite(last.value()) &&
-                                              said(last.value()) != said(order.front()->value()))
-    words += fmt::format("; from case to case the least margin goes from {} to {} ({})", said(order.front()->value()),
-                         said(last.value()), last.name());
-  report.notes = {fmt::format("Worst of {} cases: {}", order.size(), words), worst.lead};
-  if (const std::string fixed = fixed_words(order); !fixed.empty()) report.notes.push_back(fixed);
-  report.fields["message"] = report.notes.front();
-  report.fields["cases"] = row_objects(cases);
-  return report;
+  return parts;
 }
 
+bool has_margin(const ReportCase* one) { return one->found.answer.blow && one->found.answer.blow->margin; }
+
+/// "camera fails in 3 of 4 cases, least margin 0.12 (concrete, e = 0.7) to 1.3 (wood, e = 0.3)": of cases with margins.
+std::string margin_words(const std::vector<const ReportCase*>& cases) {
+  const ReportCase &worst = *cases.front(), &mildest = *cases.back();
+  const auto margin = [](const ReportCase& one) { return said(one.found.answer.blow->margin->value); };
+  const char* const which = worst.found.ranking.by == Ranking::By::margin ? "least margin" : "margin in its worst drop";
+  const auto failing =
+      std::ranges::count_if(cases, [](const ReportCase* one) { return !(one->found.answer.blow->margin->value > 1); });
+  if (cases.size() == 1) {
+    const std::string name = worst.name();
+    return fmt::format("{} {}, {} {}{}", worst.part_name, worst.found.answer.blow->margin->verdict(), which,
+                       margin(worst), name.empty() ? "" : " (" + name + ")");
+  }
+  const auto count = static_cast<std::ptrdiff_t>(cases.size());
+  std::string words = failing == 0 || failing == count
+                          ? fmt::format("{} {} in all {} cases", worst.part_name, failing ? "fails" : "survives", count)
+                          : fmt::format("{} fails in {} of {} cases", worst.part_name, failing, count);
+  words += fmt::format(", {} {} ({})", which, margin(worst), worst.name());
+  if (margin(mildest) != margin(worst)) words += fmt::format(" to {} ({})", margin(mildest), mildest.name());
+  return words;
+}
+
+/// How many times the value by which the cases of one part are ranked changes with each thing that is varied, all else
+/// the same: the largest ratio of all, the most decisive first.
+std::vector<std::pair<std::string, double>> influences(const std::vector<const ReportCase*>& cases) {
+  std::vector<std::pair<std::string, double>> times;
+  const std::size_t keys = cases.front()->varied.size();
+  const auto setting = [&](const ReportCase& one, std::size_t place) {
+    return place == keys ? one.scene() : one.varied[place].second;
+  };
+  for (std::size_t place = 0; place <= keys; ++place) {
+    if (place == keys && !cases.front()->names_scene) continue;
+    double most = 1;
+    for (const ReportCase* one : cases) {
+      for (const ReportCase* other : cases) {
+        bool is_same_else = true;
+        for (std::size_t i = 0; i <= keys; ++i)
+          is_same_else = is_same_else && (i == place || setting(*one, i) == setting(*other, i));
+        if (is_same_else) most = std::fmax(most, one->value() / other->value());
+      }
+    }
+    times.emplace_back(place == keys ? "scene" : words_of(*cases.front()->varied[place].first), most);
+  }
+  std::ranges::stable_sort(times, std::ranges::greater{}, &std::pair<std::string, double>::second);
+  return times;
+}
+
+/// What of the ground stays though e is ranged over; empty: nothing.
 std::string fixed_words(const std::vector<const ReportCase*>& cases) {
   const auto is_of_springs = [](const ReportCase* one) {
     const numeric::Ground& ground = one->given.world.ground;
@@ -263,6 +339,51 @@ std::string fixed_words(const std::vector<const ReportCase*>& cases) {
   if (std::ranges::none_of(cases, is_of_springs)) return "";
   return "k_G is the same at each e: where it was found from a contact time, that time is kept only at the e that was "
          "measured with it (clatter shock --ground --measured-e E gives k_G at another)";
+}
+
+}  // namespace
+
+Report joined_report(const std::vector<const ReportCase*>& order) {
+  const Findings& worst = order.front()->found;
+  const Grid cases = cases_grid(order);
+  const std::vector<std::vector<const ReportCase*>> parts = by_part(order);
+  Report report = worst.report;
+  report.grid = cases;
+  report.head.insert(report.head.begin(), "The worst case:");
+  std::string words = parts.size() == order.size() ? "" : fmt::format("{} cases: ", order.size());
+  for (const std::vector<const ReportCase*>& of_part : parts) {
+    words += &of_part == &parts.front() ? "" : "; ";
+    if (std::ranges::all_of(of_part, has_margin)) {
+      words += margin_words(of_part);
+      continue;
+    }
+    const ReportCase& one = *of_part.front();
+    const std::string name = one.name();
+    words += fmt::format("{}{}{}", name.empty() ? "" : "the worst is " + name + ": ",
+                         one.part_name.empty() ? "" : one.part_name + ": ",
+                         one.found.answer.blow ? one.found.lead : one.found.answer.words);
+  }
+  report.notes = {words, worst.lead};
+  Value::List moves;
+  std::string influence;
+  const std::vector<const ReportCase*>& first = parts.front();
+  for (const auto& [name, times] : influences(first)) {
+    moves.emplace_back(Value::Fields{{"name", name}, {"times", times}});
+    influence += fmt::format("{}{} {} times", influence.empty() ? "" : ", ", name, said(times));
+  }
+  if (moves.size() > 1) {
+    report.notes.push_back(
+        fmt::format("What moves {} most, all else the same: {}",
+                    first.front()->found.ranking.by == Ranking::By::margin
+                        ? "the least margin" + (parts.size() > 1 ? " of " + first.front()->part_name : "")
+                        : "the worst blow",
+                    influence));
+  }
+  if (const std::string fixed = fixed_words(order); !fixed.empty()) report.notes.push_back(fixed);
+  report.fields["message"] = words;
+  report.fields["moves"] = moves;
+  report.fields["cases"] = row_objects(cases);
+  return report;
 }
 
 std::vector<Column> case_attitude_columns() { return with_more(columns_of_case(), attitude_columns()); }
@@ -293,6 +414,8 @@ std::vector<Column> case_columns() {
       columns_of_case(),
       {word_column("verdict", "verdict", "whether the part survives all drops, or fails in one: by the margin"),
        {"margin", "margin", "", "the least of all drops: at 1 and below the part fails"},
+       {"failing", "failing", "", "drops that the part does not survive"},
+       {"drops", "drops", "", "of the case"},
        word_column("attitude", "down", "how the body is turned in that drop"),
        word_column("probe", "at", "name of the point"),
        {"impact", "impact", "", "whose blow has it"},
@@ -301,10 +424,7 @@ std::vector<Column> case_columns() {
        pulse_column(),
        {"depth_mm", "depth", "mm", "of the body's deepest point in it"},
        {"depth_percent", "of pad", "%", "the same in parts of the pad's thickness"},
-       word_column("decided_by", "by",
-                   "what decides the margin: change of velocity, peak, or the humps of its history"),
-       {"failing", "failing", "", "drops that the part does not survive"},
-       {"drops", "drops", "", "of the case"}});
+       word_column("decided_by", "by", "what decides the margin: |ΔV|, peak, or the humps of its history")});
 }
 
 }  // namespace clatter::validation

@@ -20,25 +20,23 @@ struct ReportCase {
   ShockView view;
   bool is_turned = false;  ///< whether the input says how the body is turned
   Scene given{};
-  bool names_floor = false;  ///< whether scenes are several
+  bool names_scene = false;               ///< whether scenes are several
+  std::string part_name{};                ///< "camera", or "a part of 500 Hz that bears 300 g"; empty: no part
+  std::vector<FragilePart> swept_with{};  ///< parts that share its drops in all attitudes
+  bool begins_sweep = false;              ///< whether it is the first of those
   Findings found{};
 
-  /// "phone", "wood" or "phone, wood": file and floor, as far as they tell it from other cases.
-  [[nodiscard]] std::string floor() const;
-  /// "sliding friction 0.3": what else flags with several values gave it, but the restitution.
-  [[nodiscard]] std::string varied_words() const;
-  /// "pad, e = 0.3, sliding friction 0.3, 500:300": what of it differs from other cases.
+  /// File or name of its scene.
+  [[nodiscard]] std::string scene() const;
+  /// "pad, wood, e = 0.3, sliding friction 0.3": what of it differs from other cases, but the part.
   [[nodiscard]] std::string name() const;
-  /// "pad, e = 0.3: a part of 500 Hz that bears 300 g survives".
+  /// "pad, e = 0.3: camera survives".
   [[nodiscard]] std::string heading() const;
   /// The restitution that was given for the model that runs; none: another number says it, or none does.
   [[nodiscard]] std::optional<double> given_restitution() const;
   [[nodiscard]] double value() const {
     return found.answer.blow ? found.answer.blow->value : std::numeric_limits<double>::quiet_NaN();
   }
-
- private:
-  [[nodiscard]] std::string name(const std::string& of_part, const char* between) const;
 };
 
 /// Every scene with every value of the flags that have several, and every part.
@@ -49,7 +47,7 @@ struct ReportCase {
 /// those by a change of velocity.
 [[nodiscard]] std::vector<const ReportCase*> ranked(const std::vector<ReportCase>& cases);
 
-/// The cases that are the worst of their floor or of their part, in the order of the cases.
+/// The cases that are the worst of their scene and floor or of their part, in the order of the cases.
 [[nodiscard]] std::vector<const ReportCase*> worst_cases(const std::vector<const ReportCase*>& order);
 
 /// One report of several cases: the fields of the worst, and all in a table, or the attitudes of each.
@@ -60,8 +58,6 @@ struct ReportCase {
 /// The attitudes of cases, each row behind what tells its case from others.  @throws BadInput for a body without them
 [[nodiscard]] Grid attitudes_of_cases(const std::vector<const ReportCase*>& cases);
 [[nodiscard]] std::vector<Column> case_attitude_columns();
-/// What of the ground stays though e is ranged over; empty: nothing.
-[[nodiscard]] std::string fixed_words(const std::vector<const ReportCase*>& cases);
 
 /// The columns of a table of several cases.
 [[nodiscard]] std::vector<Column> case_columns();

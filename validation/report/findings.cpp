@@ -134,17 +134,19 @@ std::vector<std::string> notes_of_all(const AllAttitudes& all, const Answer& ans
         all.is_least_worst() ? "least margin" : "largest", in_unit(all, beyond->beyond_value),
         name_of_drop(all.scene, beyond->attitude, beyond->down), beyond->beyond_impact));
   }
-  // How far the worst of a sample is from that of all is told by two samples of half the size.
+  // How far the worst of a sample is from that of all is told by two samples of half the size, of all attitudes each.
+  const auto half_of = [](const SweptDrop& drop) { return drop.point / orientation_count % 2; };
   double of_rest = std::nan("");
   for (const SweptDrop& one : all.drops) {
-    if (one.point % 2 == worst.point % 2) continue;
+    if (half_of(one) == half_of(worst)) continue;
     if (!std::isfinite(of_rest) || all.is_worse(one.value, of_rest)) of_rest = one.value;
   }
-  if (std::isfinite(of_rest) && of_rest != worst.value) {
-    notes.push_back(
-        fmt::format("{} drops are a sample: the worst of one half has {}, of the other {}; more of them "
-                    "(--drops) can find a worse one",
-                    all.drops.size(), in_unit(all, worst.value), in_unit(all, of_rest)));
+  if (all.is_sample && of_rest != worst.value) {
+    notes.push_back(fmt::format("{} drops are a sample{}; more of them (--drops) can find a worse one",
+                                all.drops.size(),
+                                std::isfinite(of_rest) ? fmt::format(": the worst of one half has {}, of the other {}",
+                                                                     in_unit(all, worst.value), in_unit(all, of_rest))
+                                                       : ", one of each face, edge and corner"));
   }
   constexpr double close = 0.02;  // of numbers to three digits whose errors were not looked for
   const auto place = std::ranges::find(all.worst_of, all.worst) - all.worst_of.begin();
@@ -197,7 +199,7 @@ void add_fields(const ReportInput& input, const ShockView& view, Findings& found
   fields[is_continuous ? "simulation" : "sequence"] = found.impacts.fields;
   found.commands.push_back((is_continuous ? "clatter simulate" : "clatter sequence") + words);
   fields["commands"] = found.commands;
-  found.report.head = {scene.summary(model_of(input))};
+  found.report.head = {scene.summary(model_of(input), found.all ? attitude_keys : KeyNames{})};
   found.report.grid = found.all ? attitudes_grid(*found.all) : found.impacts.grid;
   found.report.notes = {found.lead};
   found.report.notes.insert(found.report.notes.end(), found.notes.begin(), found.notes.end());
@@ -227,7 +229,7 @@ bool gives_attitude(const ReportInput& input) {
 bool looks_at_all(const ReportInput& input) { return is_of_box(input) && input.drops != 0; }
 
 std::optional<Findings> findings_of(const ReportInput& input, const Scene& given, bool is_turned,
-                                    const Attitudes& attitudes, const ShockView& view,
+                                    const AttitudeSweep* swept, const ShockView& view,
                                     const CooperativeInterrupt& interrupt) {
   const std::vector<Probe> probes = probes_of(input);
   const Model model = model_of(input);
@@ -241,8 +243,7 @@ std::optional<Findings> findings_of(const ReportInput& input, const Scene& given
   Findings found;
   found.ranking = ranking_of(rank_by, probes, input);
   const Ranking& ranking = found.ranking;
-  if (looks_at_all(input)) found.all = all_attitudes(input, given, attitudes, rank_by, interrupt);
-  if (interrupt.requested()) return {};
+  if (swept) found.all = all_attitudes(input, given, *swept, rank_by);
   found.scene = found.all ? found.all->scene : given;
   const Scene& scene = found.scene;
   const auto watch = [&](int, long) { return !interrupt.requested(); };
@@ -287,8 +288,9 @@ std::optional<Findings> findings_of(const ReportInput& input, const Scene& given
       ShockRequest plain = request_of(input);
       plain.sensitivity = false;
       const Answer own = answer_of(run_shock(given, probes, plain, {.progress = watch}), ranking);
-      const bool is_worse =
-          own.blow && found.answer.blow && ranking.is_worse(own.blow->value, found.answer.blow->value);
+      const bool is_worse = own.blow && found.answer.blow &&
+                            ranking.is_worse(own.blow->value, found.answer.blow->value) &&
+                            said(own.blow->value) != said(found.answer.blow->value);
       // An angle of the file is there for other commands, too.
       if (is_worse || types_attitude(input))
         found.lead += fmt::format(". The drop as given{}: {}", is_worse ? " is worse" : "", own.words);

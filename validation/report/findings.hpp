@@ -32,6 +32,9 @@ struct Findings {
   Report report;  ///< for other programs
 };
 
+/// Keys of which a report on a drop of many says nothing: its attitude has a name there.
+inline const KeyNames attitude_keys{"drop.attitude", "drop.angle_deg", "drop.orientation", "drop.tilt_deg"};
+
 /// Refuses options of the worst attitudes where the page has none.
 void require_worst_attitudes(const ReportInput& input, const Scene& scene);
 
@@ -44,8 +47,9 @@ void require_worst_attitudes(const ReportInput& input, const Scene& scene);
 /// Nothing where it was interrupted.
 /// @param given  the scene
 /// @param is_turned  whether the input says how the body is turned
+/// @param swept  its drops in all attitudes; null: the drop as given alone
 [[nodiscard]] std::optional<Findings> findings_of(const ReportInput& input, const Scene& given, bool is_turned,
-                                                  const Attitudes& attitudes, const ShockView& view,
+                                                  const AttitudeSweep* swept, const ShockView& view,
                                                   const CooperativeInterrupt& interrupt);
 
 }  // namespace clatter::validation

@@ -18,6 +18,7 @@
 #include "validation/run/scene_value.hpp"
 #include "validation/scene/body_properties.hpp"
 #include "validation/sequence/sequence_picture.hpp"
+#include "validation/shock/shock_history.hpp"
 
 namespace clatter::validation {
 namespace {
@@ -57,7 +58,8 @@ constexpr const char* page_style =
     "table{font-size:7.5pt}th,td{padding:.05rem .25rem;white-space:normal}figure.plot svg{max-height:9.6cm}"
     "h2.case{break-before:page;margin-top:0}p,ul,pre,figure{margin:.25rem "
     "0}ul{padding-left:1.2rem}p,li{max-width:none;line-height:1.3}"
-    ".brief figure svg{max-height:3.4cm}.lines,.wide p,figcaption,pre{font-size:7.5pt;line-height:1.25}.beside "
+    "h2.case{font-size:12pt}.notes li{font-size:8.5pt}.brief figure svg{max-height:3.2cm}.lines,.wide "
+    "p,figcaption,pre{font-size:7.5pt;line-height:1.25}.beside "
     "figure{flex-basis:16rem}"
     ".answer{font-size:13pt}}@page{margin:14mm}";
 
@@ -70,7 +72,6 @@ std::string svg_element(const std::string& svg) {
 
 /// The samples of contacts that `wanted` takes, over the time from `origin` on [s], a column for each probe in g.
 PicturePanel history_panel(const ShockRun& run, double origin, const auto& wanted) {
-  const BodyProperties body = body_properties(run.scene, Model::continuous);
   PicturePanel panel{.columns = {{"time", "s", "time"}}};
   panel.plot.x_factor = 1e3;
   panel.plot.x_label = "time after touch-down [ms]";
@@ -80,15 +81,8 @@ PicturePanel history_panel(const ShockRun& run, double origin, const auto& wante
     panel.columns.push_back({name, "g", probe.name});
     panel.plot.curves.push_back({.x = "time", .y = name, .legend = probe.name});
   }
-  for (const MotionPiece& piece : run.continuous->motion.pieces()) {
-    if (!wanted(piece.piece)) continue;
-    for (std::size_t j = 0; j < piece.samples.size(); ++j) {
-      std::vector<double> row{piece.begin() - origin + numeric::piece_point(static_cast<int>(j)) * piece.piece.length};
-      for (const Probe& probe : run.probes)
-        row.push_back(specific_force(piece.samples[j], probe.place - body.centre, body.mass).norm() / standard_gravity);
-      panel.rows.push_back(std::move(row));
-    }
-  }
+  panel.rows = felt_history(run, wanted);
+  for (std::vector<double>& row : panel.rows) row.front() -= origin;
   return panel;
 }
 
@@ -292,9 +286,6 @@ std::string accuracy_html(const Scene& scene, const ShockRun& run) {
   return handout_list(items);
 }
 
-/// Keys of which a page about a drop of many says nothing: its attitude has a name there.
-const KeyNames attitude_keys{"drop.attitude", "drop.angle_deg", "drop.orientation", "drop.tilt_deg"};
-
 /// How the body touches in an impact.
 Eigen::Quaterniond attitude_in(const ShockRun& run, int impact) {
   const Run impacts = run.continuous ? run_of(run.continuous->planned.run) : *run.discrete_run;
@@ -326,29 +317,33 @@ std::string notes_html(const std::vector<std::string>& notes) {
   return notes.empty() ? "" : "<div class=\"notes\">" + handout_list(notes) + "</div>\n";
 }
 
-/// The notes that all of some cases have.
-std::vector<std::string> shared_notes(const std::vector<const ReportCase*>& cases) {
-  std::vector<std::string> shared = cases.front()->found.notes;
-  std::erase_if(shared, [&](const std::string& note) {
-    return !std::ranges::all_of(cases, [&](const ReportCase* one) {
-      return std::ranges::find(one->found.notes, note) != one->found.notes.end();
-    });
-  });
+std::vector<std::string> summary_of(const ReportCase& one) {
+  return one.found.scene.summary(model_of(one.input), one.found.all ? attitude_keys : KeyNames{});
+}
+
+/// The sentences that all of some cases have.
+/// @param sentences  of a case
+std::vector<std::string> shared_by(const std::vector<const ReportCase*>& cases, auto&& sentences) {
+  std::vector<std::string> shared = sentences(*cases.front());
+  for (const ReportCase* one : cases) {
+    const std::vector<std::string> own = sentences(*one);
+    std::erase_if(shared, [&](const std::string& words) { return std::ranges::find(own, words) == own.end(); });
+  }
   return shared;
 }
 
-/// @param heading  of the case that the parts are of, where a page has several; empty: it has one
-/// @param shared   notes that the page has said already
-std::vector<HandoutPart> parts_of(const ReportInput& input, const Findings& found, const Attitudes& attitudes,
-                                  const ShockView& view, const std::string& heading,
-                                  const std::vector<std::string>& shared) {
+/// @param shared   what a page of several cases has said already; null: it has one
+std::vector<HandoutPart> parts_of(const ReportCase& one, const Attitudes& attitudes, bool is_short,
+                                  const std::vector<std::string>* shared) {
+  const Findings& found = one.found;
   const Scene& scene = found.scene;
-  const Model model = model_of(input);
+  const Model model = model_of(one.input);
+  const std::string heading = shared ? one.heading() : "";
   const auto& all = found.all;
   const numeric::Body body = scene.make_body();
   const Vector3 centre = body_properties(scene, Model::continuous).centre;
   const int impact = found.answer.blow ? found.answer.blow->impact : 1;
-  const bool is_brief = input.is_short && !heading.empty();  // one of several that are to stand on one page
+  const bool is_brief = is_short && shared;  // one of several that are to stand on one page
   std::string pictures = fmt::format(
       "<div class=\"beside{}\"><figure>{}<figcaption>The body as it touches in impact {}{}</figcaption></figure>\n",
       is_brief ? " brief" : "", body_picture(body, attitude_in(found.run, impact), found.run.probes, centre), impact,
@@ -360,23 +355,26 @@ std::vector<HandoutPart> parts_of(const ReportInput& input, const Findings& foun
         attitude_map(dots_of(*all), all->worst, ranked_words(all->column), all->is_least_worst()),
         scene.is_released() ? " at the release" : "");
   }
-  std::vector<std::string> notes = found.notes;
-  std::erase_if(notes, [&](const std::string& note) { return std::ranges::find(shared, note) != shared.end(); });
-  std::string answer =
-      fmt::format("<p{}>{}.</p>\n", is_brief ? "" : " class=\"answer\"", html_escaped(found.lead)) + notes_html(notes);
+  const auto own = [&](std::vector<std::string> sentences) {
+    if (shared)
+      std::erase_if(sentences, [&](const auto& words) { return std::ranges::find(*shared, words) != shared->end(); });
+    return sentences;
+  };
+  std::string answer = fmt::format("<p{}>{}.</p>\n", is_brief ? "" : " class=\"answer\"", html_escaped(found.lead)) +
+                       notes_html(own(found.notes));
   const KeyNames unsettled = all ? attitude_keys : KeyNames{};
-  if (!heading.empty()) {
+  if (shared) {
     answer += "<p class=\"lines\">";
-    for (const std::string& line : scene.summary(model, unsettled)) answer += html_escaped(line) + "<br>\n";
+    for (const std::string& line : own(summary_of(one))) answer += html_escaped(line) + "<br>\n";
     answer += "</p>\n";
   }
-  std::vector<HandoutPart> parts{{heading, answer + pictures + "</div>\n", !heading.empty() && !input.is_short}};
-  if (input.is_short) return parts;
+  std::vector<HandoutPart> parts{{heading, answer + pictures + "</div>\n", shared && !is_short}};
+  if (is_short) return parts;
   if (all) parts.push_back({"Attitudes", attitudes_html(*all, attitudes)});
   parts.push_back({"Shock at points of the body",
                    found.run.probes.empty() ? "<p>No probe was named: give --probe NAME:X,Y,Z, or [[probe]] in the "
                                               "scene file.</p>\n"
-                                            : peak_advice(scene, model) + shock_html(found.run, view, impact)});
+                                            : peak_advice(scene, model) + shock_html(found.run, one.view, impact)});
   parts.push_back({fmt::format("The impacts, {} model", name_of(model)),
                    handout_table(found.impacts) + legend_html(found.impacts.table()) +
                        (found.run.continuous ? "" : sequence_picture_html(scene))});
@@ -389,7 +387,7 @@ std::vector<HandoutPart> parts_of(const ReportInput& input, const Findings& foun
 
 }  // namespace
 
-std::string page_of(const std::vector<ReportCase>& cases, const Attitudes& attitudes) {
+std::string page_of(const std::vector<ReportCase>& cases, const Attitudes& attitudes, bool is_short) {
   const ReportCase& first = cases.front();
   const ReportInput& input = first.input;
   std::vector<std::string> lines;
@@ -399,24 +397,26 @@ std::string page_of(const std::vector<ReportCase>& cases, const Attitudes& attit
   }
   std::vector<HandoutPart> parts;
   if (cases.size() == 1) {
-    for (const std::string& line :
-         first.found.scene.summary(model_of(input), first.found.all ? attitude_keys : KeyNames{}))
-      lines.push_back(line);
-    parts = parts_of(input, first.found, attitudes, first.view, "", {});
+    for (const std::string& line : summary_of(first)) lines.push_back(line);
+    parts = parts_of(first, attitudes, is_short, nullptr);
   } else {
     const std::vector<const ReportCase*> order = ranked(cases);
     const Report joined = joined_report(order);
     Report table;
-    table.grid = cases_grid(order);
-    const std::string fixed = fixed_words(order);
-    const std::vector<const ReportCase*> shown = worst_cases(order);
-    const std::vector<std::string> shared = shared_notes(shown);
-    parts = {{"", fmt::format("<p class=\"answer\">{}.</p>\n", html_escaped(joined.notes.front())) +
-                      (fixed.empty() ? "" : fmt::format("<p>{}.</p>\n", html_escaped(fixed))) + notes_html(shared) +
+    table.grid = joined.grid;
+    std::vector<std::string> shared = shared_by(order, [](const ReportCase& one) { return one.found.notes; });
+    std::vector<std::string> notes(joined.notes.begin() + 2,
+                                   joined.notes.end());  // after the answer and the worst case
+    notes.insert(notes.end(), shared.begin(), shared.end());
+    for (const std::string& line : shared_by(order, summary_of)) {
+      lines.push_back(line);
+      shared.push_back(line);
+    }
+    parts = {{"", fmt::format("<p class=\"answer\">{}.</p>\n", html_escaped(joined.notes.front())) + notes_html(notes) +
                       handout_table(table) + legend_html(table.grid)}};
     std::set<std::string> said;  // what is said of one case is left out of the next
-    for (const ReportCase* one : shown) {
-      for (HandoutPart& part : parts_of(one->input, one->found, attitudes, one->view, one->heading(), shared)) {
+    for (const ReportCase* one : worst_cases(order)) {
+      for (HandoutPart& part : parts_of(*one, attitudes, is_short, &shared)) {
         if (said.insert(part.title + part.html).second) parts.push_back(std::move(part));
       }
     }

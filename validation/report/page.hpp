@@ -9,7 +9,9 @@
 
 namespace clatter::validation {
 
-/// HTML with all that it shows in itself.  @throws as run_gnuplot
-[[nodiscard]] std::string page_of(const std::vector<ReportCase>& cases, const Attitudes& attitudes);
+/// HTML with all that it shows in itself.
+/// @param is_short  it has the answers, the table of cases and a drawing of each worst drop alone
+/// @throws as run_gnuplot
+[[nodiscard]] std::string page_of(const std::vector<ReportCase>& cases, const Attitudes& attitudes, bool is_short);
 
 }  // namespace clatter::validation

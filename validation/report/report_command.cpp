@@ -12,6 +12,7 @@
 #include "validation/output/bad_input.hpp"
 #include "validation/output/gnuplot.hpp"
 #include "validation/output/interrupt.hpp"
+#include "validation/output/sink.hpp"
 #include "validation/report/page.hpp"
 
 namespace clatter::validation {
@@ -27,47 +28,100 @@ void require_date(const std::string& text) {
     throw BadInput(fmt::format("--date '{}': must be a date, YYYY-MM-DD", text));
 }
 
-int run_report(const ReportInput& input) {
-  const bool is_page = input.form == ReportInput::Form::html;
-  if (input.is_short && !is_page) throw BadInput("--short: is of the page; leave out --format");
-  if (is_page) {
-    if (input.row_form != ReportInput::RowForm::by_itself)
-      throw BadInput("--rows attitude: is of --format table, csv or markdown; the page has them");
-    if (input.output.empty()) throw BadInput("--output: required, the page's file");
-    if (!input.output.ends_with(".html")) throw BadInput(fmt::format("--output '{}': must end in .html", input.output));
-    require_gnuplot("report");
+using Form = ReportInput::Form;
+
+/// What a file beside --output has, by its ending.
+Form form_of(const std::string& path) {
+  for (const auto& [ending, form] : {std::pair{".html", Form::html},
+                                     {".csv", Form::csv},
+                                     {".json", Form::json},
+                                     {".md", Form::markdown},
+                                     {".txt", Form::table}}) {
+    if (path.ends_with(ending)) return form;
   }
+  throw BadInput(fmt::format("--also '{}': must end in .html, .csv, .json, .md or .txt", path));
+}
+
+/// What a run of the command writes.
+class Written {
+ public:
+  explicit Written(const ReportInput& input) : input_(input) {
+    const bool is_page = input.form == Form::html;
+    if (input.is_short && !is_page) throw BadInput("--short: is of the page; leave out --format");
+    if (is_page && input.output.empty()) throw BadInput("--output: required, the page's file");
+    if (is_page && !input.output.ends_with(".html"))
+      throw BadInput(fmt::format("--output '{}': must end in .html", input.output));
+    files_.push_back({{"--output", input.output}, input.form, input.is_short});
+    for (const std::string& path : input.further) files_.push_back({{"--also", path}, form_of(path), true});
+    if (input.row_form != ReportInput::RowForm::by_itself &&
+        std::ranges::all_of(files_, [](const File& one) { return one.form == Form::html || one.form == Form::json; }))
+      throw BadInput("--rows attitude: is of --format table, csv or markdown; the page has them");
+    for (const File& one : files_) {
+      note_written(one.file);
+      require_writable(one.file);
+      if (one.form == Form::html) require_gnuplot("report");
+    }
+  }
+
+  void write(const std::vector<ReportCase>& cases, const Attitudes& attitudes) const {
+    const std::vector<const ReportCase*> order = ranked(cases);
+    const bool is_one = cases.size() == 1;
+    const Report report = is_one ? cases.front().found.report : joined_report(order);
+    Report rows = report;
+    if (input_.row_form == ReportInput::RowForm::attitude) rows.grid = attitudes_of_cases(order);
+    for (const File& one : files_) {
+      constexpr Format formats[]{Format::json, Format::table, Format::csv, Format::json, Format::markdown};
+      const TextStyle style{.format = formats[static_cast<std::size_t>(one.form)], .bare = input_.is_bare};
+      if (&one == &files_.front() && one.form != Form::html) {
+        write_report({style, one.file.path}, rows);
+        continue;
+      }
+      Sink sink(one.file.path, one.file.option);
+      sink.write(one.form == Form::html ? page_of(cases, attitudes, one.is_short) : report_text(rows, style));
+      sink.commit();
+    }
+    if (!input_.output.empty())
+      say(fmt::format("{}: {}", input_.output, is_one ? cases.front().found.lead : report.notes.front()));
+  }
+
+ private:
+  struct File {
+    RunFile file;
+    Form form = Form::html;
+    bool is_short = false;
+  };
+  const ReportInput& input_;
+  std::vector<File> files_;
+};
+
+int run_report(const ReportInput& input) {
   require_date(input.date);
-  constexpr Format formats[]{Format::json, Format::table, Format::csv, Format::json, Format::markdown};
-  const OutputChoice choice{.style = {.format = formats[static_cast<std::size_t>(input.form)], .bare = input.is_bare},
-                            .path = input.output};
-  if (!is_page) check_files(choice);
-  std::optional<Sink> sink;
-  if (is_page) sink.emplace(input.output);
+  const Written written(input);
   const CooperativeInterrupt interrupt;
   Attitudes attitudes;
   attitudes.drops = input.drops.value_or(attitudes.drops);
   attitudes.scatter = input.scatter.value_or(attitudes.scatter);
   std::vector<ReportCase> cases = cases_of(input);
+  const auto sweeps =
+      std::ranges::count_if(cases, [](const ReportCase& one) { return one.begins_sweep && looks_at_all(one.input); });
+  RunProgress progress(0, sweeps * attitudes.drops, "drops");
+  std::optional<AttitudeSweep> swept;
+  long long before = 0;
   int status = 0;
-  for (std::size_t i = 0; i < cases.size(); ++i) {
-    ReportCase& one = cases[i];
-    if (cases.size() > 1) one.input.turn = fmt::format("case {} of {}, ", i + 1, cases.size());
-    auto found = findings_of(one.input, one.given, one.is_turned, attitudes, one.view, interrupt);
+  for (ReportCase& one : cases) {
+    if (!looks_at_all(one.input)) {
+      swept.reset();
+    } else if (one.begins_sweep) {
+      swept = sweep_attitudes(one.input, attitudes, one.swept_with, progress, before, interrupt);
+      if (!swept) return interrupted_status;
+      before += attitudes.drops;
+    }
+    auto found = findings_of(one.input, one.given, one.is_turned, swept ? &*swept : nullptr, one.view, interrupt);
     if (!found) return interrupted_status;
     one.found = std::move(*found);
     status = std::max(status, status_of(one.found.scene, one.found.run));
   }
-  if (!is_page) {
-    Report report = cases.size() == 1 ? cases.front().found.report : joined_report(ranked(cases));
-    if (input.row_form == ReportInput::RowForm::attitude) report.grid = attitudes_of_cases(ranked(cases));
-    write_report(choice, report);
-  } else {
-    sink->write(page_of(cases, attitudes));
-    sink->commit();
-    say(fmt::format("{}: {}", input.output,
-                    cases.size() == 1 ? cases.front().found.lead : joined_report(ranked(cases)).notes.front()));
-  }
+  written.write(cases, attitudes);
   return status;
 }
 
@@ -103,6 +157,14 @@ Command report_command() {
                  .type = "FILE",
                  .help = "the page, or its rows or JSON (stdout)",
                  .group = "Output"});
+    command.add({.name = "--also",
+                 .target = &input.further,
+                 .type = "FILE",
+                 .help =
+                     "another file from the same run: .html the page in short, .csv its rows, .json all of it, .md or "
+                     ".txt its table; again for more of them",
+                 .group = "Output",
+                 .repeats = true});
     command.add(choice_argument("--format", input.form, {"html", "table", "csv", "json", "markdown"},
                                 "the page (html), its table of faces, edges and corners, or all of it as JSON",
                                 "Output"));
@@ -116,7 +178,8 @@ Command report_command() {
         "crystal:-0.03,0,0 --part camera:300:500 --part crystal:1500g:0.5ms --floor-restitution 0.3:0.7:0.2 --drops 52 "
         "--format csv\n"
         "A number of the scene takes several values, 0.3:0.7:0.1 or 0.3,0.5, a name several names, --floor "
-        "concrete,wood: each is a case, and the answer says how far the margin goes from case to case.\n"
+        "concrete,wood: each is a case; the answer says for each part how far its margin goes, and what moves it "
+        "most.\n"
         "The page has all in itself, asks for nothing from anywhere and prints.  Needs gnuplot.";
   });
 }

@@ -18,9 +18,9 @@ struct ReportInput : ShockInput {
   std::string rank_by;              ///< column of the sweep
   std::vector<std::string> scenes;  ///< SCENE, of which there may be several
   std::string title, date;
+  std::vector<std::string> further;  ///< files beside --output, whose endings say what they have
   bool is_short = false;  ///< the page has headlines, the table of cases and a drawing of each worst drop alone
   bool is_bare = false;   ///< CSV without comments
-  std::string turn;       ///< "case 2 of 9, " before what tells how far it is; empty: there is one
   enum class RowForm { by_itself, attitude } row_form = RowForm::by_itself;
 
   /// The part of one case, which has no more than one.

@@ -50,16 +50,14 @@ Column pulse_column() {
   return {"pulse_ms", "pulse", "ms", "how long the half sine of this peak and change of velocity is"};
 }
 
-double three_digits(double value) {
+std::string said(double value) {
   const double unit = value > 0 ? std::pow(10.0, std::floor(std::log10(value)) - 2) : 1;
-  return unit < 1 ? std::round(value / unit) / std::round(1 / unit) : std::round(value / unit) * unit;
+  return shortest(unit < 1 ? std::round(value / unit) / std::round(1 / unit) : std::round(value / unit) * unit);
 }
-
-std::string said(double value) { return shortest(three_digits(value)); }
 
 Cell deciding_cell(BlowMargin::By by) {
   const auto place = static_cast<std::size_t>(by);
-  return {std::array{"delta_v", "peak", "history"}[place], std::array{"change of velocity", "peak", "humps"}[place]};
+  return {std::array{"delta_v", "peak", "history"}[place], std::array{"|ΔV|", "peak", "humps"}[place]};
 }
 
 namespace {

@@ -48,15 +48,16 @@ struct Blow {
 [[nodiscard]] std::optional<Blow> worst_blow(const std::vector<ShockRow>& rows, const Run& run, const Scene& scene,
                                              const Ranking& ranking);
 
-/// "delta_v", "peak" or "history", which tables call "change of velocity", "peak" and "humps".
+/// "delta_v", "peak" or "history", which tables call "|ΔV|", "peak" and "humps".
 [[nodiscard]] Cell deciding_cell(BlowMargin::By by);
 
 /// How long the half sine of a blow's peak and change of velocity is, in a table of blows.
 [[nodiscard]] Column pulse_column();
 
 /// Three digits, as one says them: 39000, not 39027.
-[[nodiscard]] double three_digits(double value);
 [[nodiscard]] std::string said(double value);
+/// The number with all its digits, of which a reader sees three.
+[[nodiscard]] inline Cell said_cell(double value) { return {value, said(value)}; }
 /// "camera takes 2660 g in impact 1, 7.52 m/s, as a half sine of 0.45 ms does; the part of 500 Hz answers with ...".
 [[nodiscard]] std::string blow_words(const Blow& blow, const std::string& probe, const Ranking& ranking);
 /// "19.5 mm deep, 244 % of the pad": empty without a pad.

@@ -16,6 +16,7 @@
 #include "validation/output/numeric_table.hpp"
 #include "validation/output/text_rows.hpp"
 #include "validation/shock/damage_boundary.hpp"
+#include "validation/shock/shock_history.hpp"
 #include "validation/shock/shock_pulses.hpp"
 
 namespace clatter::validation {
@@ -534,7 +535,7 @@ Grid blows_of(const MeasuredShock& shock, const ShockRun* simulated) {
     const TestPulse pulse = equivalent_pulse(blow.delta_v_size.value, blow.peak_size.value);
     Row row{Cell(i + 1), Cell(blow.time - shock.blows.front().time, 6), Cell(blow.time, 6)}, errors;
     const auto add = [&](const Estimated& number) {
-      row.push_back(known_cell(number, {shown_digits, 0}));
+      row.push_back(measured_cell(number, shown_digits));
       errors.emplace_back(error_or_nothing(number));
     };
     add(blow.delta_v_size);
@@ -589,7 +590,8 @@ Value record_value(const MeasuredShock& shock) {
                        {"findings", shock.findings}};
 }
 
-PicturePanel record_panel(const MeasuredShock& shock) {
+/// @param simulated  a drop whose first probe reads the same; null: none
+PicturePanel record_panel(const MeasuredShock& shock, const ShockRun* simulated) {
   const std::vector<double>& times = shock.record.times;
   PicturePanel panel{.columns = {{"time", "s", "after the first blow began"}}};
   panel.plot.x_label = "time after the first blow began [s]";
@@ -605,6 +607,24 @@ PicturePanel record_panel(const MeasuredShock& shock) {
     std::vector<double>& row = panel.rows.emplace_back(1, times[i] - begin);
     for (std::size_t axis = 0; axis < shock.record.axes.size(); ++axis)
       row.push_back(shock.record.values[i][static_cast<int>(axis)] / standard_gravity);
+  }
+  if (!simulated || !simulated->continuous) return panel;
+  // A sensor's axes may lie otherwise than the body's, so that sizes are what compares.
+  panel.columns.push_back({"simulated", "g", "size, simulated"});
+  panel.plot.curves.push_back(
+      {.x = "time", .y = "simulated", .legend = "size, simulated", .style = FigureCurve::Style::dashed});
+  for (std::vector<double>& row : panel.rows) row.push_back(no_number);
+  std::vector<std::vector<double>> felt = felt_history(*simulated, [](const numeric::HistoryPiece&) { return true; });
+  const double level = part_of_peak * simulated->rows().front().value.peak_size / standard_gravity;
+  const auto start = std::ranges::find_if(felt, [&](const std::vector<double>& row) { return row[1] > level; });
+  if (start == felt.end()) return panel;
+  const double first = start->front();
+  for (const std::vector<double>& row : felt) {
+    const double time = row[0] - first;
+    if (time < -room || time > end - begin + room) continue;
+    panel.rows.emplace_back(panel.columns.size(), no_number);
+    panel.rows.back().front() = time;
+    panel.rows.back().back() = row[1];
   }
   return panel;
 }
@@ -677,7 +697,7 @@ Picture measured_shock_picture(const MeasuredShock& shock, const ShockRequest& r
                                const ShockRun* simulated) {
   Picture picture{.what = fmt::format("A record and its response spectra, {}", quality_words(request.quality)),
                   .scene = {shock.record.path},
-                  .panels = {record_panel(shock)}};
+                  .panels = {record_panel(shock, simulated)}};
   for (PicturePanel& panel : spectrum_panels(named_spectra(shock, simulated), view.severity))
     picture.panels.push_back(std::move(panel));
   for (const FragilePart& part : view.parts) {

@@ -293,4 +293,20 @@ Grid shock_history_grid(const ShockRun& run, double rate) {
   return grid;
 }
 
+std::vector<std::vector<double>> felt_history(const ShockRun& run,
+                                              const std::function<bool(const numeric::HistoryPiece&)>& wanted) {
+  const BodyProperties body = body_properties(run.scene, Model::continuous);
+  std::vector<std::vector<double>> rows;
+  for (const MotionPiece& piece : run.continuous->motion.pieces()) {
+    if (!wanted(piece.piece)) continue;
+    for (std::size_t j = 0; j < piece.samples.size(); ++j) {
+      std::vector<double>& row =
+          rows.emplace_back(1, piece.begin() + numeric::piece_point(static_cast<int>(j)) * piece.piece.length);
+      for (const Probe& probe : run.probes)
+        row.push_back(specific_force(piece.samples[j], probe.place - body.centre, body.mass).norm() / standard_gravity);
+    }
+  }
+  return rows;
+}
+
 }  // namespace clatter::validation

@@ -85,7 +85,7 @@ Row pulse_row(const Pulse& pulse, int digits, const FragilePart* part) {
   Row row{Cell(pulse.probe), Cell(pulse.impact)}, errors;
   const auto add = [&](double value, double of_value) {
     const Estimated number{value, std::fabs(value) * of_value};
-    row.push_back(std::isfinite(value) ? known_cell(number, {digits, 0}) : Cell());
+    row.push_back(std::isfinite(value) ? measured_cell(number, digits) : Cell());
     errors.emplace_back(std::isfinite(value) ? error_or_nothing(number) : Value());
   };
   if (!pulse.predictable) row[1].shown = fmt::format("{}?", pulse.impact);

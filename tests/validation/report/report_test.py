@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """`clatter report`: the page has all in itself, its answer is the sweep's worst and what the commands beside it say."""
 
+import json
 import math
 import re
 import shlex
@@ -95,7 +96,11 @@ class Report(EmptyFolder):
         self.assertEqual((failing, found["answer"]["least"]), (sum(not margin > 1 for margin in margins), min(margins)))
         self.assertTrue(0 < failing < 52)
         self.assertIn(f"survives in {52 - failing} of 52 drops", found["message"])
+        halves = [min(margin for row, margin in zip(swept, margins) if int(row["index"]) // 26 == half) for half in (0, 1)]
+        self.assertIn("the worst of one half has {:.3g}, of the other {:.3g};".format(*sorted(halves)), " ".join(found["answer"]["notes"]))
+        self.assertEqual(*([one["margin"] for one in ranked] for ranked in (rows, sorted(rows, key=lambda row: float(row["margin"])))), "the worst first")
         for row in rows:
+            self.assertEqual(row["verdict"], "survives" if float(row["margin"]) > 1 else "fails")
             number = next(int(one["attitude"].split()[0]) for one in found["attitudes"] if f"({row['attitude'].split()[1]})" in one["attitude"])
             own = [one for one in swept if int(one["index"]) % 26 == number - 1]
             self.assertEqual(len(own), int(row["drops"]))
@@ -165,32 +170,38 @@ class Report(EmptyFolder):
         several = (*scenes, *options, "--floor-restitution", "0.4:0.6:0.2", "--part", "300:100", "--part", "300g")
         found = self.json_of("report", *several)
         cases = found["cases"]
-        self.assertEqual({(case["floor"], case["restitution"], case["part"]) for case in cases},
-                         {(floor, e, part) for floor in ("concrete", "pad") for e in (0.4, 0.6) for part in ("300:100", "300g")})
+        self.assertEqual({(case["scene"], case["floor"], case["restitution"], case["friction"], case["part"]) for case in cases},
+                         {(floor, floor, e, 0, part) for floor in ("concrete", "pad") for e in (0.4, 0.6) for part in ("300:100", "300g")})
         margins = [case["margin"] for case in cases]
         self.assertEqual(margins, sorted(margins))
         self.assertEqual(found["answer"]["margin"], margins[0])
         for case in (cases[0], cases[-1]):
-            alone = self.json_of("report", f"{case['floor']}.toml", *options, "--floor-restitution", str(case["restitution"]), "--part", case["part"])
+            alone = self.json_of("report", f"{case['scene']}.toml", *options, "--floor-restitution", str(case["restitution"]), "--part", case["part"])
             for name in ("margin", "attitude", "failing"):
                 self.assertEqual(alone["answer"][name], case[name], name)
         self.assertEqual([float(row["margin"]) for row in self.rows("report", *several)], margins)
         page = self.page(*several, "--title", "Handset <A>", "--date", "2026-11-29")
-        worst = "{floor}, e = {restitution}, {part} {verdict}, least margin {margin:.3g}".format(**cases[0])
-        for words in ("Handset &lt;A&gt;</h1>", ">2026-11-29, clatter ", f"Worst of 8 cases: {worst}; "):
+        for words in ("Handset &lt;A&gt;</h1>", ">2026-11-29, clatter "):
             self.assertIn(words, page)
+        # Each part has its own range, and tells in how many of its cases it fails.
+        for part, name in (("300:100", "a part of 300 Hz that bears 100 g"), ("300g", "a part that bears 300 g at its place")):
+            own = [case for case in cases if case["part"] == part]
+            failing = sum(case["verdict"] == "fails" for case in own)
+            verdict = f"fails in {failing} of 4 cases" if 0 < failing < 4 else f"{own[0]['verdict']} in all 4 cases"
+            ends = " to ".join("{margin:.3g} ({scene}, e = {restitution})".format(**case) for case in (own[0], own[-1]))
+            self.assertIn(f"{name} {verdict}, least margin {ends}", found["message"])
         floors, parts, headings = set(), set(), []
         for case in cases:  # the worst of each floor, and of each part
-            if case["floor"] not in floors or case["part"] not in parts:
-                headings.append(case["floor"])
-            floors.add(case["floor"]), parts.add(case["part"])
+            if case["scene"] not in floors or case["part"] not in parts:
+                headings.append(case["scene"])
+            floors.add(case["scene"]), parts.add(case["part"])
         self.assertEqual(re.findall(r'<h2 class="case">(\w+), e = [\d.]+: a part .* (?:fails|survives)</h2>', page), headings)
         self.assertEqual(page.count("What the model leaves out"), 1, "both floors have the same there")
         for wrong, words in ((("--date", "2026-02-30"), "--date"), (("--date", "tomorrow"), "--date"), (("--floor-restitution", "0.7:0.3:0.1"), "0.7:0.3:0.1"),
                              (("--floor-restitution", "0.5:1.5:0.5"), "--floor-restitution"), (("--part", "1:2", "--part", "1:2g"), "given twice")):
             self.refused(words, "report", *scenes, *options, *wrong, "--format", "json")
 
-    def test_each_value_of_a_flag_is_a_case_and_the_answer_says_how_far_the_margin_goes(self):
+    def test_each_value_of_a_flag_is_a_case_and_the_answer_says_what_moves_the_margin_most(self):
         scene = (*BOX, "--impacts", "1", *PROBE, *OPTIONS, "--part", "300:500")
         several = ("--floor", "concrete,wood", "--floor-restitution", "0.4,0.6", "--gravity", "9:10:1")
         cases = self.json_of("report", *scene, *several)["cases"]
@@ -200,13 +211,27 @@ class Report(EmptyFolder):
             alone = self.json_of("report", *scene, "--floor", case["floor"], "--floor-restitution", str(case["restitution"]),
                                  "--gravity", case["given"].split()[1])["answer"]
             self.assertEqual((alone["margin"], alone["attitude"]), (case["margin"], case["attitude"]))
-        page = self.page(*scene, *several, "--short")
-        self.assertRegex(page, f"from case to case the least margin goes from {cases[0]['margin']:.3g} to {cases[-1]['margin']:.3g} ")
+        times = {"floor": 1, "e": 1, "gravity": 1}
+        for one in cases:
+            for other in cases:
+                differ = [name for name, column in (("floor", "floor"), ("e", "restitution"), ("gravity", "given")) if one[column] != other[column]]
+                if len(differ) == 1:
+                    times[differ[0]] = max(times[differ[0]], one["margin"] / other["margin"])
+        found = self.json_of("report", *scene, *several)
+        self.assertEqual([move["name"] for move in found["moves"]], sorted(times, key=times.get, reverse=True))
+        for move in found["moves"]:
+            self.assertAlmostEqual(move["times"], times[move["name"]], delta=1e-9)
+        page = self.page(*scene, *several, "--short", "--also", "rows.csv", "--also", "short.html", "--also", "all.json")
+        self.assertIn(f"What moves the least margin most, all else the same: {found['moves'][0]['name']} ", page)
+        self.assertEqual(self.read("short.html"), page)
+        self.assertEqual(json.loads(self.read("all.json")), found)
+        self.assertEqual(self.read("rows.csv"), self.run_program("report", *scene, *several, "--format", "csv").stdout)
+        self.assertNotRegex(page.split("</ul>")[0], "Restitution of the first impact", "it is not the same in all")
         self.assertEqual(page.count("The body&#39;s surface is taken as abs") + page.count("The body's surface is taken as abs"), 1)
         bare = self.run_program("report", *scene, *several, "--format", "csv", "--bare").stdout
-        self.assertTrue(bare.startswith("floor,restitution,given,"), bare[:80])
+        self.assertTrue(bare.startswith("scene,floor,restitution,friction,given,"), bare[:80])
         for wrong, words in ((("--floor", "concrete,wodo"), "did you mean wood"), (("--gravity", "1:2:0"), "--gravity"),
-                             (("--gravity", "1:200:1"), "more than 100"), (("--digits", "2:12:1", "--gravity", "1:10:1"), "110 cases")):
+                             (("--gravity", "1:200:1"), "more than 100"), (("--digits", "2:12:1", "--gravity", "1:10:1"), "110 cases"), (("--also", "page.pdf"), "--also 'page.pdf': must end in")):
             self.refused(words, "report", *scene, *wrong, "--format", "json")
 
     def test_a_part_belongs_to_its_probe_by_flag_and_by_file(self):
@@ -217,7 +242,7 @@ class Report(EmptyFolder):
         options = (*OPTIONS, "--floor-restitution", "0.5")
         by_flag = self.json_of("report", "bare.toml", *options, "--part", "camera:300:500", "--part", "crystal:1500g:2ms")
         by_file = self.json_of("report", "full.toml", *options)
-        self.assertEqual(by_flag["cases"], [{**case, "floor": "bare"} for case in by_file["cases"]])
+        self.assertEqual(by_flag["cases"], [{**case, "scene": "bare"} for case in by_file["cases"]])
         self.assertEqual({case["part"]: case["probe"] for case in by_file["cases"]}, {"camera:300:500": "camera", "crystal:1500g:2ms": "crystal"})
         # Each is what it is at its place alone.
         for case in by_file["cases"]:
@@ -225,7 +250,8 @@ class Report(EmptyFolder):
             alone = self.json_of("report", "bare.toml", *options, "--probe", probe, "--part", part)["answer"]
             for name in ("margin", "verdict", "attitude", "failing", "peak_g"):
                 self.assertEqual(alone[name], case[name], name)
-            self.assertIn(f"{case['part']} {case['verdict']}, least margin", by_file["message"])
+            self.assertIn(f"{probe} {case['verdict']}, least margin {case['margin']:.3g}", by_file["message"])
+        self.assertNotRegex(by_file["message"], "cases| to ")
         for sweep, points in (("full.toml --set drop.attitude=26", ("camera", "crystal")),
                               ("bare.toml --part crystal:300g --set drop.angle_deg=3", ("crystal",))):
             columns = self.rows("sweep", *sweep.split(), "--set", "run.digits=3")[0]
@@ -251,14 +277,15 @@ class Report(EmptyFolder):
         options = (*PROBE, *OPTIONS, "--part", "300:500")
         rows = self.rows("report", "hard.toml", "soft.toml", *options, "--rows", "attitude")
         self.assertEqual(len(rows), 2 * 26)
-        self.assertEqual({(row["floor"], float(row["restitution"]), row["part"]) for row in rows}, {("hard", 0.4, "300:500"), ("soft", 0.6, "300:500")})
+        self.assertEqual({(row["scene"], float(row["restitution"]), row["part"]) for row in rows}, {("hard", 0.4, "300:500"), ("soft", 0.6, "300:500")})
         cases = self.rows("report", "hard.toml", "soft.toml", *options)
-        self.assertEqual({(case["floor"], float(case["restitution"])) for case in cases}, {("hard", 0.4), ("soft", 0.6)})
+        self.assertEqual({(case["scene"], float(case["restitution"])) for case in cases}, {("hard", 0.4), ("soft", 0.6)})
+        self.assertEqual({row["floor"] for row in rows}, {"concrete", "springs"})
         for case in cases:
-            own = [row for row in rows if row["floor"] == case["floor"]]
+            own = [row for row in rows if row["scene"] == case["scene"]]
             self.assertAlmostEqual(min(float(row["margin"]) for row in own) / float(case["margin"]), 1, delta=6e-3)
         # The springs go further than half the pad's thickness: headline, table and CSV say so.
-        soft = next(case for case in cases if case["floor"] == "soft")
+        soft = next(case for case in cases if case["scene"] == "soft")
         self.assertAlmostEqual(float(soft["depth_percent"]), float(soft["depth_mm"]) / 4 * 100, delta=1e-6 * float(soft["depth_percent"]))
         self.assertGreater(float(soft["depth_percent"]), 50)
         answer = self.json_of("report", "soft.toml", *options)
@@ -269,7 +296,7 @@ class Report(EmptyFolder):
         self.write("none.toml", body + "floor = 'concrete'\n[[probe]]\nname = 'camera'\nplace = [0.048, 0.016, 0.0045]\n")
         self.write("some.toml", self.read("none.toml") + "part = '300:500'\n")
         mixed = self.json_of("report", "none.toml", "some.toml", *OPTIONS, "--floor-restitution", "0.4:0.6:0.2")["cases"]
-        self.assertEqual([case["floor"] for case in mixed], ["some", "some", "none", "none"])
+        self.assertEqual([case["scene"] for case in mixed], ["some", "some", "none", "none"])
         self.assertLess(mixed[0]["margin"], mixed[1]["margin"])
         self.assertGreater(mixed[2]["peak_g"], mixed[3]["peak_g"])
         self.assertIn("k_G is the same at each e", self.page("soft.toml", *options, "--floor-restitution", "0.4,0.6", "--short"))
