@@ -41,7 +41,7 @@ Cell known_cell(const Estimated& number, const Shown& shown) {
 }
 
 Cell measured_cell(const Estimated& number, int digits) {
-  constexpr int least_digits = 3, most_decimals = 4;
+  constexpr int least_digits = 3, most_decimals = 6;
   Cell cell = known_cell(number, {digits, 0});
   if (!number.is_known() || known_digits(number.value, number.error) >= least_digits) return cell;
   const double error = rounded_up(number.error);

@@ -545,7 +545,10 @@ Grid blows_of(const MeasuredShock& shock, const ShockRun* simulated) {
     for (int axis = 0; axis < 3; ++axis) row.emplace_back(blow.peak[axis], shown_digits);
     row.emplace_back(blow.peak_time, shown_digits);
     add(width);
-    row.emplace_back(pulse.duration, blow.peak_size.is_known() ? shown_digits : 0);
+    const Estimated &v = blow.delta_v_size, &a = blow.peak_size;
+    const double of_both = std::fabs(v.error / v.value) + std::fabs(a.error / a.value);
+    row.push_back(
+        measured_cell({pulse.duration, a.is_known() ? pulse.duration * of_both : unknown_error}, shown_digits));
     row.emplace_back(std::string(1, covering_condition(blow.delta_v_size.value, blow.peak_size.value)));
     const ShockRow* const other = beside(simulated, i);
     for (const auto get : {+[](const ShockNumbers& n) { return n.delta_v_size; },

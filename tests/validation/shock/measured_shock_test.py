@@ -2,6 +2,7 @@
 """`clatter shock --measured`: records of loggers and drop towers, against closed forms and a digital filter."""
 
 import math
+import re
 
 import numpy as np
 from run_folder import EmptyFolder, json_of, printed, rows_of
@@ -110,6 +111,7 @@ class Measured(EmptyFolder):
             for word in words:
                 self.assertIn(word, table)
         self.assertIn("camera, impact 1, continuous", self.read("a.svg"))
+        self.assertIn(">size, simulated<", self.read("a.svg"))
         self.refused("--probe: required, where on the body the record was taken: a NAME of the scene's, or NAME:X,Y,Z, not 2 points: camera, crystal",
                      "shock", "--measured", "a.csv", "--against", "drop.toml")
 
@@ -137,6 +139,19 @@ class Measured(EmptyFolder):
                     self.assertIsNone(found["impacts"][0]["error_estimate"][name])
         keep = (times < 0.02) | (times > 0.03)
         self.assertIn("gaps: 1 ", " ".join(self.measure("t,a (g)\n" + rows(times[keep], pulse[keep]))["record"]["findings"]))
+
+    def test_numbers_of_few_digits_stand_in_tables_with_their_errors(self):
+        times, pulse = half_sine(5e3, 300, 2.5e-3, 0.05, 0.05)
+        self.write("a.csv", "t,a (g)\n" + rows(times, pulse + np.random.default_rng(1).normal(0, 1.5, len(times))))
+        (row,) = rows_of("shock", "--measured", "a.csv", cwd=self.folder)
+        shown = re.findall(r"(\d\S*)±(\S+)", printed("shock", "--measured", "a.csv", cwd=self.folder))
+        self.assertEqual(len(shown), 4, shown)
+        for name, exact, (number, error) in zip(("delta_v", "peak_g", "width"), (2 / math.pi * 300 * G * 2.5e-3, 300, None), shown):
+            unit = 10 ** -len(error.partition(".")[2])
+            self.assertLessEqual(abs(float(number) - float(row[name])), 0.501 * unit)
+            self.assertAlmostEqual(float(error), float(row[f"{name}_error"]), delta=1e-9)
+            if exact:
+                self.assertLessEqual(abs(float(number) - exact), float(error) + 0.5 * unit, name)
 
     def test_a_table_fits_a_terminal(self):
         self.write("a.csv", FILES["a header with units"][0])
