@@ -34,6 +34,19 @@ def rotated(q, v):
     return product(product(q, (0, *v)), (q[0], -q[1], -q[2], -q[3]))[1:]
 
 
+def turned_back(q, v):
+    return rotated((q[0], -q[1], -q[2], -q[3]), v)
+
+
+def runge_kutta(slope, y, h):
+    """A step of the classical method."""
+    a = slope(y)
+    b = slope([x + h / 2 * k for x, k in zip(y, a)])
+    c = slope([x + h / 2 * k for x, k in zip(y, b)])
+    d = slope([x + h * k for x, k in zip(y, c)])
+    return [x + h / 6 * (k + 2 * m + 2 * n + o) for x, k, m, n, o in zip(y, a, b, c, d)]
+
+
 def cross(a, b):
     return tuple(a[i - 2] * b[i - 1] - a[i - 1] * b[i - 2] for i in range(3))
 

@@ -134,10 +134,8 @@ class Drawn(unittest.TestCase):
         self.assertAlmostEqual(min(heights), top, delta=0.02)
 
     def test_the_zoom_windows_show_the_first_two_impacts(self):
-        for number, windows, ratio in ((17, [0, 0, 0, 0], None), (19, [1, 0], 2.26), (21, [1, 1], 2.29)):
+        for number, windows, ratio in ((19, [1, 0], 2.26), (21, [1, 1], 2.29)):
             self.assertEqual([len(axes.child_axes) for axes in self.all[number].axes], windows, number)
-            if ratio is None:
-                continue
             x, y = (np.asarray(values) for values in self.all[number].axes[0].child_axes[0].lines[0].get_data())
             first, second = y[x < 0.0025].max(), y[x > 0.0025].max()
             self.assertAlmostEqual(second / first, ratio, delta=0.01)
@@ -178,7 +176,7 @@ class ExtraPictures(unittest.TestCase):
         self.assertEqual(len(roots), 3)
         for root, expected in zip(roots, (beta[56], beta[57.5], FOLD_BETA)):
             self.assertAlmostEqual(root, expected, delta=1e-6)
-        trap = next(line for line in right.lines if line.get_label() == "θ = 58.473°: root, no change")
+        trap = line_named(right, "θ = 58.473°: root, no change")
         at_right_angle = np.interp(90, trap.get_xdata(), trap.get_ydata())
         self.assertGreater(at_right_angle, 0)
         self.assertLess(trap.get_ydata().min(), 0)
@@ -193,8 +191,7 @@ class ExtraPictures(unittest.TestCase):
 
     def test_the_map_of_extremes_hatches_what_has_no_number(self):
         rows = records((DATA / "figures" / "extremes.csv").read_text(encoding="utf-8"))
-        self.assertEqual({row["verdict"] for row in rows} - {"number", "bad-input", "ended-early", "not-computed", "outside-model"},
-                         set())
+        self.assertLessEqual({row["verdict"] for row in rows}, {"number", "bad-input", "ended-early", "not-computed", "outside-model"})
         for axes in figures.draw("extremes_map").axes:
             own = [row for row in rows if row["model"] == axes.get_title(loc="left")]
             widths = {False: 0, True: 0}
@@ -243,7 +240,3 @@ class Files(EmptyFolder):
                                    (3, "/bin/false", "--only", "regimes")):
             run = self.figures(*arguments)
             self.assertEqual((run.returncode, run.stdout, len(run.stderr.splitlines())), (status, "", 1), run.stderr)
-
-    def test_an_unknown_picture_is_refused(self):
-        with self.assertRaisesRegex(ValueError, "no picture 13; there are 7, 8"):
-            figures.draw(13)

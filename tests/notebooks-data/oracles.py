@@ -12,6 +12,7 @@ from statistics import NormalDist
 
 from mpmath import mp, mpf
 from run_folder import ROOT
+from space_folder import runge_kutta
 
 sys.path.insert(0, f"{ROOT}/validation/benchmark")
 import truth  # noqa: E402: it is in the folder just named
@@ -33,15 +34,6 @@ def largest(function, low, high):
         left, right = high - ratio * (high - low), low + ratio * (high - low)
         low, high = (low, right) if function(left) > function(right) else (left, high)
     return (low + high) / 2, function((low + high) / 2)
-
-
-def runge_kutta(slope, y, h):
-    """A step of the classical method."""
-    a = slope(y)
-    b = slope([x + h / 2 * k for x, k in zip(y, a)])
-    c = slope([x + h / 2 * k for x, k in zip(y, b)])
-    d = slope([x + h * k for x, k in zip(y, c)])
-    return [x + h / 6 * (k + 2 * m + 2 * n + o) for x, k, m, n, o in zip(y, a, b, c, d)]
 
 
 def rod_blow(c, e=1):

@@ -243,12 +243,10 @@ class ArraysOfAngles(unittest.TestCase):
         run = clatter.sequence(angle=10)
         self.assertIsNone(run.tail)
         self.assertGreater(clatter.sequence(angle=0, gravity=9.81, restitution=0.5, impacts=20).tail.end_time, 0)
-        self.assertEqual([impact.end for impact in run], ["a", "b", "a"])
-        self.assertEqual((len(run), run.outcome, run[-1].n, len(run[:2])), (3, "no-further-impact", 3, 2))
+        self.assertEqual(([impact.end for impact in run], run.outcome), (["a", "b", "a"], "no-further-impact"))
         np.testing.assert_allclose(run.column("impulse_normal").sum(), run.total_normal_impulse, rtol=1e-15)
         self.assertEqual(run.column("velocity_after").shape, (3, 3))
         self.assertTrue(np.isnan(run.column("peak_force")).all())
-        self.assertIsNone(run[0].peak_force)
 
     def test_a_history_is_what_the_program_writes(self):
         past = clatter.simulate("phone-damped", impacts=2, history=True).history
@@ -287,11 +285,8 @@ class ArraysOfAngles(unittest.TestCase):
         run = clatter.sequence(angle=10)
         self.assertEqual(repr(run) + "\n", run.to_text())
         html = run._repr_html_()
-        self.assertEqual(html.count("<tr>"), 1 + len(run))
-        self.assertIn("0.511569", html)
-        self.assertIn("Impact 2: end b", repr(run[1]))
-        self.assertEqual(run.to_text(ascii=True).encode("ascii").decode(), run.to_text(ascii=True))
-        self.assertIn("1000 values", repr(clatter.angles(count=1000)))
+        self.assertEqual((html.count("<tr>"), "0.511569" in html), (1 + len(run), True))
+        self.assertTrue(run.to_text(ascii=True).isascii())
 
     def test_long_results_show_their_ends(self):
         few, many = (clatter.sweep("rod-10", angle=np.linspace(1, 80, count), model="discrete") for count in (60, 500))
@@ -329,6 +324,7 @@ class Calls(unittest.TestCase):
                 "static_friction = 0.075: must be at least": lambda: clatter.simulate("phone-damped", sliding_friction=0.3),
                 "drop.angel_deg: unknown key": lambda: clatter.sweep("rod-10", {"drop.angel_deg": "1:2:1"}),
                 "did you mean impulse_normal_2, impulse_tangential_2": lambda: clatter.sweep("rod-10", angle=[5], model="discrete", columns="impulse_2"),
+                "only 'angel'": lambda: clatter.extremes(["angel"]), "seed -1": lambda: clatter.extremes(seed=-1),
                 "within '-1'": lambda: clatter.plan("rod-10", within=-1), "method: left out": lambda: clatter.plan("rod-10", method="rk4"),
                 "over": lambda: clatter.regimes("angle"), "digits '33'": lambda: clatter.compare("rod-45", digits=33),
                 "did you mean C1?": lambda: clatter.verify(["C1x"])}.items():
@@ -482,10 +478,6 @@ class Evidence(unittest.TestCase):
         with self.assertRaisesRegex(clatter.BadInput, "neither|cannot|not known"):
             clatter.measured_fit("no-such-drops")
 
-    def same(self, result, *arguments):
-        self.assertEqual(result.to_dict(), told(*arguments))
-        self.assertEqual(result.to_text(), printed(*arguments))
-
     def test_the_benchmark_scores_what_the_program_does(self):
         with tempfile.TemporaryDirectory() as folder:
             right, wrong = Path(folder, "right.csv"), Path(folder, "wrong.csv")
@@ -493,18 +485,12 @@ class Evidence(unittest.TestCase):
             right.write_text(printed("benchmark", "truth", "rod-10", "--format", "csv"), encoding="utf-8")
             wrong.write_text("\n".join(["# problem: rod-10", truth[0], re.sub(r",([^,]*)$", r",9\1", truth[1])]), encoding="utf-8")
             scored = clatter.benchmark_score([right, wrong], require="good")
-            self.same(scored, "benchmark", "score", right, wrong, "--require", "good")
-            self.assertFalse(scored.is_met)
-            self.assertTrue(clatter.benchmark_score(right, require="exact").is_met)
+            self.assertEqual((scored.is_met, clatter.benchmark_score(right, require="exact").is_met), (False, True))
             against = clatter.compare_against("rod-10", [right], gravity=0)
-            self.same(against, "compare", "rod-10", "--gravity", "0", "--against", right)
+            for result, *words in ((scored, "benchmark", "score", right, wrong, "--require", "good"), (against, "compare", "rod-10", "--gravity", "0", "--against", right)):
+                self.assertEqual((result.to_dict(), result.to_text()), (told(*words), printed(*words)))
         with self.assertRaisesRegex(clatter.BadInput, "did you mean"):
             clatter.benchmark_show("rod-1o")
-
-    def test_what_no_map_of_extremes_has_is_refused(self):
-        for refused in (dict(only=["angel"]), dict(seconds=float("nan")), dict(quick=True, only=["angle"]), dict(seed=-1)):
-            with self.assertRaises(clatter.BadInput):
-                clatter.extremes(**refused)
 
     def test_a_figure_has_the_numbers_of_its_file(self):
         with tempfile.TemporaryDirectory() as folder:
@@ -512,12 +498,6 @@ class Evidence(unittest.TestCase):
             self.assertEqual(clatter.figure(7).to_dict(), json.loads(Path(folder, "figure_07.json").read_text(encoding="utf-8")))
         with self.assertRaisesRegex(clatter.BadInput, "there are 7, 8"):
             clatter.figure(13)
-
-    def test_rows_are_those_of_csv_whatever_json_groups(self):
-        sweep = clatter.sweep("rod-10", {"drop.angle_deg": "5,10"}, model="discrete")
-        np.testing.assert_array_equal(sweep.column("drop.angle_deg"), [5, 10])
-        np.testing.assert_array_equal(sweep["drop.angle_deg"], [5, 10])
-        self.assertEqual([row["impacts"] for row in sweep], [row["impacts"] for row in sweep.to_dict()["rows"]])
 
     def test_every_long_call_tells_how_far_it_is_up_to_the_end(self):
         grid = {"drop": {"speed": 1}, "body": {"radius": 0.01}, "ground": {"stiffness": 1e9}, "run": {"impacts": 1},

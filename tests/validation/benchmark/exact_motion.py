@@ -8,11 +8,7 @@ import tempfile
 
 from run_folder import json_of as told
 from run_folder import printed
-from space_folder import product, rotated
-
-
-def turned_back(q, v):
-    return rotated((q[0], -q[1], -q[2], -q[3]), v)
+from space_folder import product, rotated, runge_kutta, turned_back
 
 
 def scored(*texts, options=()):
@@ -110,17 +106,10 @@ class Body:
             return [x / 2 for x in dq] + [(i[1] - i[2]) / i[0] * w[1] * w[2], (i[2] - i[0]) / i[1] * w[2] * w[0],
                                           (i[0] - i[1]) / i[2] * w[0] * w[1]]
 
-        y = [*q, *rates]
-        count = max(1, math.ceil(abs(time) / 5e-5))
-        h = time / count
+        y, count = [*q, *rates], max(1, math.ceil(abs(time) / 5e-5))
         for _ in range(count):
-            a = slope(y)
-            b = slope([u + h / 2 * v for u, v in zip(y, a)])
-            c = slope([u + h / 2 * v for u, v in zip(y, b)])
-            d = slope([u + h * v for u, v in zip(y, c)])
-            y = [u + h / 6 * (p + 2 * r + 2 * s + v) for u, p, r, s, v in zip(y, a, b, c, d)]
-        norm = math.sqrt(sum(x * x for x in y[:4]))
-        return tuple(x / norm for x in y[:4]), tuple(y[4:])
+            y = runge_kutta(slope, y, time / count)
+        return tuple(x / math.hypot(*y[:4]) for x in y[:4]), tuple(y[4:])
 
 
 def pull_of(world):

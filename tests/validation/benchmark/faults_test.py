@@ -2,7 +2,6 @@
 """Small faults, faults in lists and in the order of impacts: each is found by the score that should find it, with its cause and
 number, and no two look the same.  What is planted in every problem is in planted_test.py."""
 
-import math
 import unittest
 
 from exact_motion import Motion, answered, json, scored
@@ -33,31 +32,6 @@ def ratio(value):
     return lambda code, state, points, n: code.apply(state, points[0], *code.impulse(state, points[0], code.e, value))
 
 
-def heavy(code, state, points, n):
-    """The impulse for a moment of inertia 3 % too large, and its effect, too."""
-    true, code.moment = code.moment, code.moment * 1.03
-    after = ratio(code.friction)(code, state, points, n)
-    code.moment = true
-    return after
-
-
-def passes_through(n_missing):
-    def strike(code, state, points, n):
-        code.gone = n + 1 == n_missing
-        return state if code.gone else Code.strike(code, state, points, n)
-    return strike
-
-
-def gone(code, state, struck, latest):
-    return (None, []) if getattr(code, "gone", False) else Code.next_touch(code, state, struck, latest)
-
-
-def merges(code, state, points, n):
-    """Both ends at once, as a flat landing."""
-    code.gone = True
-    return state[:5] + [-state[5], 0.0]
-
-
 def thrown_down(at, impulse):
     """An impact more, at the high end, in the air or not."""
     def edit(code, rows):
@@ -68,28 +42,6 @@ def thrown_down(at, impulse):
             out.append(row if change is None else code.fly(change, row[0] - change[0]))
         return out
     return edit
-
-
-def decays(rate):
-    """Velocities that shrink by exp(-rate t), with the way that belongs to them."""
-    def fly(code, state, dt):
-        t, x, z, phi, vx, vz, w = state
-        f = math.exp(-rate * dt)
-        way = (1 - f) / rate
-        return [t + dt, x + vx * way, z + vz * way, phi + w * way, vx * f, vz * f, w * f]
-    return fly
-
-
-def moved(column, amount, after):
-    """A column moved from some time after the first touch on."""
-    return lambda code, rows: [[v + (amount if k == column and row[0] > code.touch + after else 0.0) for k, v in enumerate(row)]
-                               for row in rows]
-
-
-def started(problem, column, change):
-    code = Code(problem, 1)
-    code.state[column] = change(code.state[column])
-    return code.text(code.rows(STEP))
 
 
 def spun_up():
@@ -123,12 +75,8 @@ FAULTS = {
     "e = 1.01 at the first impact": (lambda: faulty("rod-10", strike=restitution(1.01, 1)), "law_error", "restitution", 1.01),
     "e = 0.99 at the second impact": (lambda: faulty("rod-10", strike=restitution(0.99, 2)), "law_error", "restitution", 0.99),
     "e = 0.99 at the third impact": (lambda: faulty("rod-10", strike=restitution(0.99, 3)), "law_error", "restitution", 0.99),
-    "e = 0.75 for 0.8": (lambda: faulty("clatter-08", strike=restitution(0.75)), "law_error", "restitution", 0.75),
     "e = 0.52 at the third impact": (lambda: faulty("clatter-05", strike=restitution(0.52, 3)), "law_error", "restitution", 0.52),
-    "inertia 3 % too large": (lambda: faulty("rod-45", strike=heavy), "law_error", "inertia", 1.03),
-    "friction 0.29": (lambda: faulty("friction-slip", strike=ratio(0.29)), "law_error", "friction", 0.29),
     "sticks beyond Coulomb's bound": (lambda: faulty("friction-slip", strike=ratio(0.6)), "law_error", "friction", 0.6),
-    "friction pushes on": (lambda: faulty("friction-slip", strike=ratio(-0.3)), "law_error", "friction-ratio", -0.3),
     "slips at the bound where it sticks": (lambda: faulty("friction-stick", strike=ratio(0.8)), "law_error", "friction-ratio", 0.8),
     "no reversal of slip": (lambda: faulty("friction-reversal", strike=ratio(-0.3)), "law_error", "friction-ratio", -0.3),
     "friction bounded by weight": (lambda: faulty("friction-slip-stick", strike=ratio(0.05)), "law_error", "friction-direction", 0.05),
@@ -139,26 +87,16 @@ FAULTS = {
     "swapped end at the third impact": (lambda: listed("rod-10", changed("place", other_end, 2)), "order"),
     "ends exchanged in a list": (lambda: listed("rod-10", changed("place", other_end)), "order", "ends-exchanged", None),
     "the second impact is not in the list": (lambda: listed("rod-10", lambda rows: [rows[0], rows[2]]), "order"),
-    "the second impact is missing": (lambda: faulty("rod-10", strike=passes_through(2), next_touch=gone), "order"),
-    "the grazing impact is missing": (lambda: faulty("fold-2-below", strike=passes_through(2), next_touch=gone), "order"),
     "an impact that should miss": (lambda: faulty("fold-2-above", edit=thrown_down(0.44, 0.05)), "order"),
-    "both ends at once": (lambda: faulty("rod-1", strike=merges, next_touch=gone), "order", "centre-alone", None),
-    "the run stops early": (lambda: faulty("rod-45", edit=lambda code, rows: rows[:len(rows) // 3]), "order", "cut-off", None),
     "second impact 0.15 ms late in a list": (lambda: listed("rod-10", changed("t", lambda t: t + 1.5e-4, 1)), "time_error"),
-    "drift of 1e-4": (lambda: faulty("rod-10", fly=decays(5e-4)), "energy_error", "damping", 5e-4),
     "V 2e-3 too large after the second impact in a list": (lambda: listed("rod-45", changed("V", lambda v: v + 2e-3, 1)), "velocity_error"),
     "Omega of the other sign in a list": (lambda: listed("rod-10", changed("Omega", lambda w: -w)), "angular_velocity_error", "omega-sign", None),
-    "pushed up by 1 mm in flight": (lambda: faulty("rod-10", edit=moved(2, 1e-3, 0.02)), "flight_error"),
-    "turned by 1 mrad in flight": (lambda: faulty("rod-45", edit=moved(3, 1e-3, 0.1)), "flight_error"),
     "omega of the other sign": (lambda: faulty("rod-45", edit=lambda code, rows: [[*row[:6], -row[6]] for row in rows]), "flight_error",
                                 "omega-sign", None),
     "spin about z kept too large": (spun_up, "law_error"),
-    "starts at 10.1 degrees": (lambda: started("rod-10", 3, lambda phi: phi * 1.01), "start_error", "start-angle", 10.1),
-    "starts with a spin": (lambda: started("rod-10", 6, lambda w: w + 0.05), "start_error", "start-spin", 0.05),
     "a heavier rod in a list": (lambda: listed("rod-10", changed("Pn", lambda p: 1.1 * p)), "impulse_error", "mass", 1.1),
     "an impulse 13 % too large in a list": (lambda: listed("rod-10", changed("Pn", lambda p: 1.13 * p, 0)), "impulse_error"),
 }
-SMALL = {"drift of 1e-4": 1e-4}  # a class of tolerance may pass it, the exact one does not
 
 
 class PlantedFaults(unittest.TestCase):
@@ -170,12 +108,12 @@ class PlantedFaults(unittest.TestCase):
         for name, (_, score, *_) in FAULTS.items():
             with self.subTest(name):
                 file = self.scored[name]
-                self.assertNotIn(file["verdict"], ("exact",) if name in SMALL else ("exact", "sharp"))
+                self.assertNotIn(file["verdict"], ("exact", "sharp"))
                 self.assertTrue(file["findings"])
                 if score == "order":
                     self.assertFalse(file["order_right"], file)
                 else:
-                    self.assertTrue(file[score] is None or file[score] > SMALL.get(name, 2e-4), (score, file))
+                    self.assertTrue(file[score] is None or file[score] > 2e-4, (score, file))
 
     def test_the_cause_of_a_fault_is_named_and_no_other(self):
         """One that is named beside it explains the same numbers as well."""

@@ -306,13 +306,9 @@ class Orders(EmptyFolder):
 
     def test_no_name_of_a_file_is_cut_and_details_come_in_the_order_of_the_table(self):
         files = self.files("friction-slip-stick", (2000, 250), law="newton moreau")
-        names = list(dict.fromkeys(re.findall(r"^  (\S+\.csv) ", printed("benchmark", "score", *files), re.M)))
-        self.assertEqual(names, [f"friction-slip-stick-{n}-s{gap}.csv" for n in (250, 2000) for gap in range(4)])
-        details = re.findall(r"^(\S+\.csv): ", printed("benchmark", "score", *files, "--details"), re.M)
-        self.assertEqual(list(dict.fromkeys(details)), names)
-
-    def test_the_table_tells_the_share_of_the_likely_cause(self):
-        self.assertRegex(printed("benchmark", "score", *self.files("rod-10", (250, 500))), r"  time-step \((9[5-9]|100) %\)\n")
+        for pattern, more in ((r"^  (\S+\.csv) ", ()), (r"^(\S+\.csv): ", ("--details",))):
+            names = list(dict.fromkeys(re.findall(pattern, printed("benchmark", "score", *files, *more), re.M)))
+            self.assertEqual(names, [f"friction-slip-stick-{n}-s{gap}.csv" for n in (250, 2000) for gap in range(4)])
 
     def test_a_line_has_the_causes_of_all_files_and_what_they_leave(self):
         files = self.files("box", (500, 1000))
@@ -328,17 +324,13 @@ class Orders(EmptyFolder):
         self.assertRegex(self.words(odd, other), r"causes in friction-slip: first-order-step in 2 of 2 files, normal-first in 2$")
 
     @unittest.skipUnless(shutil.which("gnuplot"), "no gnuplot here")
-    def test_the_picture_marks_steps_with_a_failed_file_and_labels_more_than_decades(self):
+    def test_the_picture_marks_steps_with_a_failed_file(self):
         files = self.files("fold-2-above", (30, 240, 1000), gaps=(1, 3))
         whole = StepCode("fold-2-above", 1, 1 / 240)
         files.append(self.write("cut.csv", Asked.text(whole, whole.rows(end=whole.touch + 0.01), step="1/240", engine="toy")))
         printed("benchmark", "score", *files, "--plot", self.path("p.svg"), "--plot-script")
-        script = self.read("p.gnuplot")
-        self.assertIn("set xtics (0.001, 0.002, 0.005, 0.01, 0.02)", script)
-        self.assertRegex(script, r"(?m)^0\.0333\d* 1$")
-        for words in ("impacts of a file wrong, missing, extra or cut off", "order of the mean", "of the worst start", ", 1 of 7 files incomplete"):
-            self.assertIn(words, script)
-        self.assertTrue({"dt 2", "dt 3"} <= set(re.findall(r"dt \d", script)))
+        self.assertRegex(self.read("p.gnuplot"), r"(?m)^0\.0333\d* 1$")
+        self.assertIn(", 1 of 7 files incomplete", self.read("p.gnuplot"))
 
 
 class Statements(unittest.TestCase):

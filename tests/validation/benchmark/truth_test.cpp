@@ -23,14 +23,12 @@ struct Sizes {
 };
 
 Sizes sizes_of(const std::vector<TruthRow>& truth) {
-  Sizes sizes;
-  for (const TruthRow& row : truth) {
-    sizes.impulse = std::max(sizes.impulse, row.impulse.norm());
-    sizes.velocity = std::max(sizes.velocity, row.velocity.norm());
-    sizes.angular = std::max(sizes.angular, row.angular_velocity.norm());
-    sizes.time = std::max(sizes.time, row.time);
-  }
-  return sizes;
+  const auto largest = [&](const auto& size) { return std::ranges::max(truth, {}, size); };
+  const auto of = [&](const auto& size) { return size(largest(size)); };
+  return {.impulse = of([](const TruthRow& row) { return row.impulse.norm(); }),
+          .velocity = of([](const TruthRow& row) { return row.velocity.norm(); }),
+          .angular = of([](const TruthRow& row) { return row.angular_velocity.norm(); }),
+          .time = of([](const TruthRow& row) { return row.time; })};
 }
 
 void check_close(const std::string& what, double difference, double size) {
@@ -169,21 +167,15 @@ BOOST_AUTO_TEST_CASE(the_simulator_confirms_the_truth_of_the_damped_phone_to_1e_
   }
 }
 
-BOOST_AUTO_TEST_CASE(the_benchmark_has_24_to_36_problems_each_with_its_statement_and_starting_gaps) {
-  const std::vector<Problem>& problems = benchmark_problems();
-  BOOST_TEST(problems.size() >= 24U);
-  BOOST_TEST(problems.size() <= 36U);
-  for (const Problem& problem : problems) {
+BOOST_AUTO_TEST_CASE(each_problem_has_starting_gaps_from_which_its_body_flies_to_the_first_touch) {
+  for (const Problem& problem : benchmark_problems()) {
     BOOST_TEST_CONTEXT(problem.id) {
-      for (const std::string& text : {problem.title, problem.motivation, problem.separates, problem.acceptance})
-        BOOST_TEST(!text.empty());
       // A block that rocks is on the ground before.
       const bool rocks = problem.id == "rock" || problem.id == "overhang";
       BOOST_TEST(problem.gaps.size() >= (rocks ? 1U : 3U));
       BOOST_TEST(std::is_sorted(problem.tolerances.begin(), problem.tolerances.end()));
       const Reference reference = reference_of(problem);
       for (const double gap : problem.gaps) {
-        // The release flies to the start at the first touch.
         const auto [state, time] = reference.release(gap);
         const auto touch = reference.flight(state).at(time);
         BOOST_TEST((touch.velocity - reference.start.velocity).norm() <= 1e-13 * reference.speed());

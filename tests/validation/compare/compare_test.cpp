@@ -92,32 +92,25 @@ BOOST_AUTO_TEST_CASE(a_second_touch_before_the_first_has_ended_is_said_and_agree
   BOOST_TEST(comparison.agrees());
 }
 
-BOOST_AUTO_TEST_CASE(what_cannot_be_predicted_in_space_is_said) {
-  Scene scene = box_scene(10, 4);
+BOOST_AUTO_TEST_CASE(what_cannot_be_predicted_in_space_and_friction_beyond_the_limit_of_painleve_are_said) {
+  Scene scene = box_scene(10, 4), jams = bare_case("rod-45", 1);
   scene.world.ground.stiffness = 1e9;
   const Comparison comparison = compared(scene);
   BOOST_TEST(comparison.impacts.at(2).reason.empty());
   BOOST_TEST(mentions(comparison.impacts.at(3).reason, "beyond the predictable"));
+  jams.angle_deg = 63.4;  // tan θ = 2, where a thin rod jams from 4/3 on
+  jams.world.ground.static_friction = jams.world.ground.sliding_friction = 1.5;
+  BOOST_TEST(mentions(compared(jams).impacts.at(0).reason, "jamming"));
 }
 
-BOOST_AUTO_TEST_CASE(friction_beyond_the_limit_of_painleve_is_named) {
-  Scene scene = bare_case("rod-45", 1);
-  scene.angle_deg = 63.4;  // tan θ = 2, where a thin rod jams from 4/3 on
-  scene.world.ground.static_friction = scene.world.ground.sliding_friction = 1.5;
-  BOOST_TEST(mentions(compared(scene).impacts.at(0).reason, "jamming"));
-}
-
-/// A deliberate disagreement: the continuous model on damped ground against an elastic discrete one.
-BOOST_AUTO_TEST_CASE(a_limit_that_misses_the_discrete_value_is_found) {
-  Scene scene = case_scene("phone-damped");
-  scene.request.impacts = 1;
-  Comparison comparison = compared(scene);
-  BOOST_TEST(comparison.agrees());
-  (*comparison.impacts.at(0).discrete)[normal_impulse_place] *= 1 + 1e-9;  // tens of bars
-  BOOST_TEST(!comparison.impacts[0].lands());
-  BOOST_TEST(!comparison.agrees());
-  (*comparison.impacts[0].discrete)[normal_impulse_place] = std::numeric_limits<double>::quiet_NaN();
-  BOOST_TEST(!comparison.agrees());
+BOOST_AUTO_TEST_CASE(a_deviation_has_the_errors_of_both_models) {
+  ComparedImpact one;
+  one.discrete.emplace()[0] = 1;
+  one.continuous.emplace()[0] = 3;
+  one.discrete_error[0] = 0.25;
+  one.continuous_error[0] = 0.5;
+  const Estimated deviation = NumberPair{one, 0}.deviation_number();
+  BOOST_TEST((deviation.value == 2 && deviation.error >= 0.75 && deviation.error < 0.75001));
 }
 
 /// The sequence that begins with a row is the rest of the sequence: mirrored or turned over, but with the same angles,
@@ -132,29 +125,29 @@ BOOST_AUTO_TEST_CASE(a_drop_that_begins_with_a_row_goes_on_like_the_sequence) {
                                 .velocity = {.normal = -1},
                                 .gravity = 9.81,
                                 .law = {}};
-  for (const analytic::Drop& drop : {rod, lopsided}) {
-    const analytic::Sequence whole = impact_sequence(drop, {.impacts = 4, .amplification = false});
+  const auto check = [](const auto& drop, double tolerance, const auto& same) {
+    const auto whole = impact_sequence(drop, {.impacts = 4, .amplification = false});
     for (std::size_t from = 1; from < 3; ++from) {
       const auto rest = impact_sequence(drop_at(drop, whole.rows.at(from)), {.impacts = 2, .amplification = false});
       for (std::size_t i = 0; i < 2; ++i) {
-        const analytic::ImpactRow &a = whole.rows.at(from + i), &b = rest.rows.at(i);
-        BOOST_TEST(b.contact_angle == a.contact_angle, boost::test_tools::tolerance(1e-11));
-        BOOST_TEST(b.impact.normal_impulse == a.impact.normal_impulse, boost::test_tools::tolerance(1e-11));
-        BOOST_TEST(std::fabs(b.start - (a.start - whole.rows[from].start)) <= 1e-12);
+        const auto &a = whole.rows.at(from + i), &b = rest.rows.at(i);
+        BOOST_TEST(std::fabs(b.start - (a.start - whole.rows[from].start)) <= tolerance);
+        same(a, b);
       }
     }
+  };
+  for (const analytic::Drop& drop : {rod, lopsided}) {
+    check(drop, 1e-12, [](const analytic::ImpactRow& a, const analytic::ImpactRow& b) {
+      BOOST_TEST(b.contact_angle == a.contact_angle, boost::test_tools::tolerance(1e-11));
+      BOOST_TEST(b.impact.normal_impulse == a.impact.normal_impulse, boost::test_tools::tolerance(1e-11));
+    });
   }
-  const auto corner = std::get<analytic::space::Drop>(discrete_drop(corner_scene()));
-  const analytic::space::Sequence whole = impact_sequence(corner, {.impacts = 4, .amplification = false});
-  for (std::size_t from = 1; from < 3; ++from) {
-    const auto rest = impact_sequence(drop_at(corner, whole.rows[from]), {.impacts = 2, .amplification = false});
-    for (std::size_t i = 0; i < 2; ++i) {
-      const analytic::space::ImpactRow &a = whole.rows.at(from + i), &b = rest.rows.at(i);
-      BOOST_TEST(b.corners.front().index == a.corners.front().index);
-      BOOST_TEST((b.impact.impulse - a.impact.impulse).norm() <= 1e-10 * a.impact.impulse.norm());
-      BOOST_TEST(std::fabs(b.start - (a.start - whole.rows[from].start)) <= 1e-11);
-    }
-  }
+  using analytic::space::ImpactRow;
+  check(std::get<analytic::space::Drop>(discrete_drop(corner_scene())), 1e-11,
+        [](const ImpactRow& a, const ImpactRow& b) {
+          BOOST_TEST(b.corners.front().index == a.corners.front().index);
+          BOOST_TEST((b.impact.impulse - a.impact.impulse).norm() <= 1e-10 * a.impact.impulse.norm());
+        });
 }
 
 /// All three effects are of the order of the contact time, T ∝ k^(−1/3) for an edge and k^(−1/4) for a corner: so are
@@ -227,21 +220,23 @@ BOOST_AUTO_TEST_CASE(random_drops_in_space_are_boxes_off_centre_boxes_tetrahedra
   }
 }
 
-/// A deliberate disagreement: the limit is that of another coefficient of friction.
-BOOST_AUTO_TEST_CASE(a_limit_in_space_that_misses_the_discrete_value_is_found_and_said) {
-  Comparison comparison = compared(corner_scene(1));
-  BOOST_TEST(comparison.agrees());
-  ComparedImpact& impact = comparison.impacts.at(0);
-  for (const std::size_t q : {std::size_t{3}, std::size_t{8}, std::size_t{10}}) {
-    const double was = (*impact.discrete)[q];
-    (*impact.discrete)[q] *= 1 + 1e-6;
-    BOOST_TEST(!impact.lands());
-    BOOST_TEST(!(impact.bars_off() <= 5));
-    (*impact.discrete)[q] = std::nan("");
-    BOOST_TEST(!comparison.agrees());
-    (*impact.discrete)[q] = was;
+/// Deliberate disagreements.
+BOOST_AUTO_TEST_CASE(a_limit_that_misses_the_discrete_value_is_found_in_the_plane_and_in_space) {
+  for (const bool in_space : {false, true}) {
+    Comparison comparison = compared(in_space ? corner_scene(1) : bare_case("phone-damped", 1));
+    BOOST_TEST(comparison.agrees());
+    ComparedImpact& impact = comparison.impacts.at(0);
+    for (const std::size_t q : in_space ? std::vector<std::size_t>{3, 8, 10} : std::vector{normal_impulse_place}) {
+      const double was = (*impact.discrete)[q];
+      (*impact.discrete)[q] *= 1 + (in_space ? 1e-6 : 1e-9);  // tens of bars
+      BOOST_TEST((!impact.lands() && !comparison.agrees()));
+      if (in_space) BOOST_TEST(!(impact.bars_off() <= 5));
+      (*impact.discrete)[q] = test::not_a_number;
+      BOOST_TEST(!comparison.agrees());
+      (*impact.discrete)[q] = was;
+    }
+    BOOST_TEST(comparison.agrees());
   }
-  BOOST_TEST(comparison.agrees());
 }
 
 /// In the limit the patch is a point: leaving out how slip varies over it changes nothing there.
@@ -297,17 +292,4 @@ BOOST_AUTO_TEST_CASE(an_edge_that_lands_level_agrees_in_space) {
   BOOST_TEST(impact.discrete_end == "-x-y-z +x-y-z");
   BOOST_REQUIRE(impact.has_landing());
   BOOST_TEST(impact.lands());
-}
-
-BOOST_AUTO_TEST_CASE(what_ends_the_limit_of_a_drop_in_space_is_said_for_each_impact_after_it) {
-  const Comparison comparison = compared(corner_scene(40));
-  bool lands = true;
-  int explained = 0;
-  for (const ComparedImpact& impact : comparison.impacts) {
-    if (impact.has_landing()) BOOST_TEST(lands);  // none after the first without a limit
-    lands = impact.has_landing();
-    if (!lands) BOOST_TEST(!impact.explanation.empty());
-    explained += lands ? 0 : 1;
-  }
-  BOOST_TEST(explained > 0);
 }

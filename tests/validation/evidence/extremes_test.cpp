@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <map>
+#include <set>
 
 #include "numeric/motion/free_rotation.hpp"
 #include "tests/support.hpp"
@@ -29,10 +30,6 @@ const ExtremesMap& whole_map() {
   return map;
 }
 
-ExtremeCase extreme(std::function<CellMeasure(const CellClock&)> work) {
-  return {{"angle", 1, "1", ModelLevel::discrete}, std::move(work)};
-}
-
 CellMeasure measured(double error, double bound) {
   return {.error = error, .bound = bound, .oracle = "", .outcome = ""};
 }
@@ -41,16 +38,8 @@ int status_of(const ExtremeCell& cell) {
   return map_status({.cells = {cell}, .regions = regions_of({cell}), .cell_seconds = 1});
 }
 
-Sequence sequence_of(const Drop& drop) {
-  return impact_sequence(drop, {.impacts = 6, .digits = 6, .amplification = false});
-}
-
-Drop rod_drop() {
-  return {.body = clatter::analytic::make_rod({}),
-          .inclination = Angle::from_degrees(20),
-          .velocity = {.normal = -1, .tangential = 0, .angular = 0},
-          .gravity = 9.81,
-          .law = {}};
+int status_after(std::function<CellMeasure(const CellClock&)> work) {
+  return status_of(fill_cell({{"angle", 1, "1", ModelLevel::discrete}, std::move(work)}, 1));
 }
 
 }  // namespace
@@ -64,21 +53,14 @@ BOOST_AUTO_TEST_CASE(every_cell_ends_with_a_number_and_its_error_or_a_typed_refu
   for (const ExtremeCell& cell : map.cells) BOOST_TEST((cell.has_number() || !cell.reason.empty()));
 }
 
-/// Of the axes that one model alone has.
-bool is_of_one_model(const std::string& axis) {
-  const char* const names[] = {"squares", "cubes", "disc", "needle", "slenderness", "bounces", "hops"};
-  return std::ranges::find(names, axis) != std::end(names);
-}
-
 BOOST_AUTO_TEST_CASE(every_axis_has_cells_of_both_continuous_models_and_of_the_discrete_one_where_it_has_the_quantity) {
+  const std::set<std::string> of_one_model{"squares", "cubes", "disc", "needle", "slenderness", "bounces", "hops"};
   for (const MapAxis& axis : map_axes()) {
-    if (is_of_one_model(axis.name)) continue;
+    if (of_one_model.contains(axis.name)) continue;
     for (const ModelLevel model : {ModelLevel::discrete, ModelLevel::planar, ModelLevel::spatial}) {
       if (axis.name == "ratio" && model != ModelLevel::discrete) continue;
-      const auto& cells = whole_map().cells;
-      const auto here = std::count_if(cells.begin(), cells.end(), [&](const ExtremeCell& cell) {
-        return cell.axis == axis.name && cell.model == model;
-      });
+      const auto here = std::ranges::count_if(
+          whole_map().cells, [&](const ExtremeCell& cell) { return cell.axis == axis.name && cell.model == model; });
       BOOST_TEST(here >= (axis.name == "long" ? 1 : static_cast<long>(axis.values.size())), axis.name);
     }
   }
@@ -120,21 +102,23 @@ BOOST_AUTO_TEST_CASE(regions_cover_all_cells_once_and_join_what_is_alike) {
 BOOST_AUTO_TEST_CASE(a_broken_cell_makes_status_1) {
   for (const auto& [error, bound, status] :
        {std::array{1e-16, 1e-15, 0.}, {1e-14, 1e-15, 1}, {none, 1, 1}, {0, none, 1}}) {
-    const auto work = [error = error, bound = bound](const CellClock&) { return measured(error, bound); };
-    BOOST_TEST(status_of(fill_cell(extreme(work), 1)) == status);
+    BOOST_TEST(status_after([error = error, bound = bound](const CellClock&) { return measured(error, bound); }) ==
+               status);
   }
-  const auto throws = [](const CellClock&) -> CellMeasure { throw std::runtime_error("of no type"); };
-  BOOST_TEST(status_of(fill_cell(extreme(throws), 1)) == 1);
-  const auto refuses = [](const CellClock&) -> CellMeasure { throw std::domain_error("angle = 91"); };
-  BOOST_TEST(status_of(fill_cell(extreme(refuses), 1)) == 0);
-  ExtremeCell slow = fill_cell(extreme([](const CellClock&) { return measured(0, 1); }), 1);
+  BOOST_TEST(status_after([](const CellClock&) -> CellMeasure { throw std::runtime_error("of no type"); }) == 1);
+  BOOST_TEST(status_after([](const CellClock&) -> CellMeasure { throw std::domain_error("angle = 91"); }) == 0);
+  ExtremeCell slow = whole_map().cells.front();
   slow.seconds = 1.5;
   BOOST_TEST(status_of(slow) == 1);
 }
 
 BOOST_AUTO_TEST_CASE(the_laws_of_motion_notice_a_row_that_is_off_by_1e_12) {
-  const Drop drop = rod_drop();
-  const Sequence good = sequence_of(drop);
+  const Drop drop{.body = clatter::analytic::make_rod({}),
+                  .inclination = Angle::from_degrees(20),
+                  .velocity = {.normal = -1, .tangential = 0, .angular = 0},
+                  .gravity = 9.81,
+                  .law = {}};
+  const Sequence good = impact_sequence(drop, {.impacts = 6, .digits = 6, .amplification = false});
   BOOST_TEST(retrace(drop, good).residual <= 1e-14);
   for (int what = 0; what < 7; ++what) {
     Sequence bad = good;

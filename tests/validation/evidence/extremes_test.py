@@ -3,18 +3,12 @@
 
 import xml.etree.ElementTree
 
-from run_folder import EmptyFolder, json_of, printed, rows_of
+from run_folder import EmptyFolder, json_of, rows_of
 
 PATIENCE = ["--seconds", "600"]  # so that no test depends on a time
 
 
 class Extremes(EmptyFolder):
-    def test_the_table_has_its_notes_and_help_its_quantities(self):
-        text = printed("verify", "--extremes", "--only", "angle", "restitution", "size", *PATIENCE)
-        self.assertIn("slowest cell", text)
-        self.assertIn("bad-input", text)
-        self.assertIn("angle, stiffness, damping, restitution", printed("verify", "--extremes", "--help"))
-
     def test_csv_and_json_have_every_cell(self):
         cells = json_of("verify", "--extremes", "--only", "angle", *PATIENCE)["cells"]
         rows = rows_of("verify", "--extremes", "--only", "angle", *PATIENCE)

@@ -2,7 +2,6 @@
 """`clatter compare`, `verify` and `figures` as their users meet them."""
 
 import csv
-import io
 import json
 import math
 import os
@@ -10,8 +9,9 @@ import re
 import tempfile
 import tomllib
 import unittest
+from pathlib import Path
 
-from run_folder import ROOT, EmptyFolder, case, run
+from run_folder import ROOT, EmptyFolder, run
 
 FIGURES = os.path.join(ROOT, "notebooks-data", "figures")
 # Under the sanitizers, which cost a factor of ten, other tests run the same code.
@@ -26,11 +26,6 @@ class Compare(EmptyFolder):
         for name, status in {"phone-corner": 0, "coin": 1, "cube": 1, "die": 1, "needle": 1, "tube": 1}.items():
             done = run("compare", name)
             self.assertEqual((done.returncode, "the law of [impact]" in done.stdout), (status, status == 1), name)
-
-    def test_what_the_discrete_model_cannot_represent_has_status_4(self):
-        with open(case("phone-corner"), encoding="utf-8") as file:
-            self.write("creeping.toml", file.read().replace("[ground]", '[ground]\nfriction_law = "regularised"\nregularisation_speed = 1e-3'))
-        self.refused("regularised", "compare", "creeping.toml", status=4)
 
 
 class Verify(EmptyFolder):
@@ -48,7 +43,6 @@ class Verify(EmptyFolder):
             self.assertIsInstance(checks[name]["number"], (int, float))
         for check in checks.values():
             self.assertLessEqual(check["measured_error"], check["tolerance"])
-            self.assertLessEqual(check["tolerance"], 5.000001 * check["seen"])
 
     def test_every_erratum_shows_the_printed_form_and_the_right_one_with_the_number_of_each(self):
         errata = {check["id"]: check for check in json.loads(self.quick.stdout)["checks"] if check["id"][0] == "E"}
@@ -70,9 +64,6 @@ class Verify(EmptyFolder):
             for key in ("place", "printed", "right", "compared"):
                 self.assertIn(check[key], said, name)
             self.assertEqual(check["printed_value"] is None, name == "E7")
-        self.assertIn("vₙ: -3.074 rad/s; right", said)
-        self.assertIn("vₙ: 3.074 rad/s", said)
-        self.assertIn("E1 sign of Ω in Eq. 9 misprint✓", said)
 
     @UNLESS_SLOW
     def test_every_command_in_the_table_runs(self):
@@ -92,21 +83,20 @@ class Verify(EmptyFolder):
 
 
 class Faults(unittest.TestCase):
-    def test_each_check_has_a_seeded_fault_that_turns_it_red(self):
-        def tables(*path):
-            with open(os.path.join(ROOT, *path), "rb") as file:
-                return tomllib.load(file)
-        checks = {check["id"] for check in tables("validation", "evidence", "checks.toml")["check"]}
-        faults = tables("tests", "seeded_faults", "faults.toml").values()
-        self.assertEqual({check for fault in faults for check in fault.get("turns_red", "").split()}, checks)
+    def test_each_check_and_figure_has_a_tolerance_with_a_reason_and_a_seeded_fault_that_turns_it_red(self):
+        checks, faults = (tomllib.loads(Path(ROOT, path).read_text(encoding="utf-8"))
+                          for path in ("validation/evidence/checks.toml", "tests/seeded_faults/faults.toml"))
+        ids = {check["id"] for check in checks["check"]}
+        self.assertEqual({check for fault in faults.values() for check in fault.get("turns_red", "").split()}, ids)
+        self.assertLessEqual({f"F{number}" for number in NUMBERS}, ids)
+        for check in checks["check"]:
+            self.assertTrue(0 < check["tolerance"] <= 5.000001 * check["seen"] and check["reason"], check["id"])
 
 
 def read_figure(path):
-    with open(path, encoding="utf-8") as file:
-        text = file.read()
-    head = [line for line in text.splitlines() if line.startswith("#")]
-    rows = list(csv.reader(io.StringIO("\n".join(line for line in text.splitlines() if not line.startswith("#")))))
-    return head, rows[0], [[float(cell) if cell else None for cell in row] for row in rows[1:]]
+    lines = Path(path).read_text(encoding="utf-8").splitlines()
+    names, *rows = csv.reader(line for line in lines if not line.startswith("#"))
+    return [line for line in lines if line.startswith("#")], names, [[float(cell) if cell else None for cell in row] for row in rows]
 
 
 class Figures(unittest.TestCase):
@@ -140,8 +130,7 @@ class Figures(unittest.TestCase):
                 head, names, rows = read_figure(self.path(number))
                 plots = [json.loads(line.removeprefix("# plot: ")) for line in head if line.startswith("# plot: ")]
                 self.assertEqual(len(plots), 4)
-                with open(os.path.join(folder, f"figure_{number}.json"), encoding="utf-8") as file:
-                    self.assertEqual(json.load(file)["plots"], plots)
+                self.assertEqual(json.loads(Path(folder, f"figure_{number}.json").read_text(encoding="utf-8"))["plots"], plots)
                 for plot in plots:
                     self.assertRegex(plot["x_label"] + plot["y_label"], r"^\S.* \[\S+\]\S.* \[\S+\]$")
                     for curve in plot["curves"]:

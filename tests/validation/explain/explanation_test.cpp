@@ -2,9 +2,10 @@
 // Explanations as structure: symbols, numbers and values of every formula, and the TeX written from it.
 #include <fmt/format.h>
 
-#include <cctype>
 #include <map>
+#include <regex>
 #include <set>
+#include <sstream>
 
 #include "analytic/base/errors.hpp"
 #include "tests/support.hpp"
@@ -28,11 +29,9 @@ struct Told {
 
 PreparedScene scene_of(const std::string& source, const std::string& flags) {
   std::vector<SceneOverride> overrides;
-  for (std::size_t at = 0; at < flags.size();) {
-    const std::size_t equals = flags.find('=', at), end = std::min(flags.find(' ', at), flags.size());
-    overrides.push_back({flags.substr(at, equals - at), "--set", flags.substr(equals + 1, end - equals - 1)});
-    at = end + 1;
-  }
+  std::istringstream words(flags);
+  for (std::string word; words >> word;)
+    overrides.push_back({word.substr(0, word.find('=')), "--set", word.substr(word.find('=') + 1)});
   return read_discrete_scene(scene_values(source), overrides);
 }
 
@@ -170,22 +169,14 @@ BOOST_AUTO_TEST_CASE(tex_has_balanced_braces_ascii_characters_and_commands_of_am
       "le",    "pi",    "infty",  "approx",       "pm",    "to",    "textbackslash"};
   for (const Told& one : told()) {
     const std::string all = explanation_text(one.explanation, {.format = Format::latex});
-    std::string tex;
-    for (std::size_t at = 0; at < all.size();) {  // without comments
-      const std::size_t end = std::min(all.find('\n', at), all.size());
-      if (all[at] != '%') tex += all.substr(at, end - at + 1);
-      at = end + 1;
-    }
+    const std::string tex = std::regex_replace(all, std::regex("(^|\n)%[^\n]*"), "$1");  // without comments
+    BOOST_TEST(std::ranges::all_of(tex, [](unsigned char c) { return c < 128; }), one.name);
+    const std::regex command(R"(\\([A-Za-z]+))");
+    for (std::sregex_iterator found(tex.begin(), tex.end(), command); found != std::sregex_iterator(); ++found)
+      BOOST_TEST(commands.contains((*found)[1]), one.name << ": " << (*found)[1]);
     int depth = 0;
-    for (std::size_t i = 0; i < tex.size(); ++i) {
-      BOOST_REQUIRE_MESSAGE(static_cast<unsigned char>(tex[i]) < 128,
-                            one.name << ": " << tex.substr(i > 40 ? i - 40 : 0, 60));
-      if (tex[i] == '\\' && std::isalpha(static_cast<unsigned char>(tex[i + 1])) != 0) {
-        std::size_t end = i + 1;
-        while (std::isalpha(static_cast<unsigned char>(tex[end])) != 0) ++end;
-        BOOST_TEST(commands.contains(tex.substr(i + 1, end - i - 1)), one.name << ": " << tex.substr(i, 20));
-      }
-      depth += (tex[i] == '{') - (tex[i] == '}');
+    for (const char c : tex) {
+      depth += (c == '{') - (c == '}');
       BOOST_REQUIRE(depth >= 0);
     }
     BOOST_TEST(depth == 0, one.name);
@@ -196,11 +187,8 @@ BOOST_AUTO_TEST_CASE(each_line_of_text_fits_80_columns_and_ascii_is_ascii) {
   for (const Told& one : told()) {
     const std::string text = explanation_text(one.explanation, {}),
                       ascii = explanation_text(one.explanation, {.ascii = true});
-    for (std::size_t at = 0; at < text.size();) {
-      const std::size_t end = text.find('\n', at);
-      BOOST_TEST(display_width(text.substr(at, end - at)) <= 80u, one.name << ": " << text.substr(at, end - at));
-      at = end + 1;
-    }
+    std::istringstream lines(text);
+    for (std::string line; std::getline(lines, line);) BOOST_TEST(display_width(line) <= 80u, one.name << ": " << line);
     BOOST_TEST(std::ranges::all_of(ascii, [](unsigned char c) { return c < 128; }), one.name);
   }
 }

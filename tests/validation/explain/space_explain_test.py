@@ -5,7 +5,7 @@ import math
 
 import mpmath
 from run_folder import printed
-from space_folder import CENTRE, INERTIA, MASS, SIZE, SpaceFolder, box_moments, rotated, times, words
+from space_folder import CENTRE, INERTIA, MASS, SIZE, SpaceFolder, box_moments, rotated, times, turned_back, words
 
 PHONE = ["--body", "box", "--size", "x".join(map(str, SIZE)), "--mass", str(MASS)]
 CORNER = [*PHONE, "--angle", "40", "--tilt", "25"]
@@ -13,10 +13,6 @@ CORNER = [*PHONE, "--angle", "40", "--tilt", "25"]
 
 def dot(a, b):
     return sum(x * y for x, y in zip(a, b))
-
-
-def inverse(q):
-    return (q[0], -q[1], -q[2], -q[3])
 
 
 class Explained(SpaceFolder):
@@ -32,7 +28,7 @@ class Explained(SpaceFolder):
             steps = self.values_of(2, *CORNER, *given)
             shown = steps["Rotation without torque"]
             first = self.rows(1, *CORNER, *given)[0]
-            rate = rotated(inverse(first["attitude"]), first["angular_velocity_after"])
+            rate = turned_back(first["attitude"], first["angular_velocity_after"])
             spin = times(INERTIA if given[:1] == ["--centre"] else [*box_moments(SIZE, MASS), 0, 0, 0], rate)
             energy, square = dot(rate, spin), dot(spin, spin)
             self.assertAlmostEqual(2 * shown["E_r"], energy, delta=1e-13 * energy)

@@ -5,7 +5,9 @@ touching point, so that the restitution and friction that are fitted must be tho
 import math
 import random
 
+import numpy as np
 from run_folder import Folder
+from space_folder import cross, product, rotated, runge_kutta, turned_back
 
 RATE, GRAVITY = 240, 9.81
 POSITION_NOISE, ROTATION_NOISE = 5e-5, 5e-4  # [m], [rad]
@@ -20,28 +22,8 @@ def dot(a, b):
     return sum(x * y for x, y in zip(a, b))
 
 
-def cross(a, b):
-    return (a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0])
-
-
 def times(m, v):
     return tuple(dot(row, v) for row in m)
-
-
-def transposed(m):
-    return tuple(zip(*m))
-
-
-def inverse(m):
-    """By the cross products of the rows."""
-    a, b, c = m
-    volume = dot(a, cross(b, c))
-    return transposed([tuple(x / volume for x in cross(*pair)) for pair in ((b, c), (c, a), (a, b))])
-
-
-def product(p, q):
-    w = p[0] * q[0] - dot(p[1:], q[1:])
-    return (w, *add(add(tuple(p[0] * x for x in q[1:]), p[1:], q[0]), cross(p[1:], q[1:])))
 
 
 def unit(v):
@@ -55,20 +37,14 @@ def turn_by(v):
     return (math.cos(angle / 2), *(factor * x for x in v))
 
 
-def matrix(q):
-    w, x, y, z = q
-    return ((1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)), (2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)),
-            (2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)))
-
-
 class Body:
     """Of mass 1; corners and inertia about the centre of mass."""
 
     def __init__(self, corners, inertia, radius=0.0):
-        self.corners, self.inertia, self.inverse, self.radius = corners, inertia, inverse(inertia), radius
+        self.corners, self.inertia, self.inverse, self.radius = corners, inertia, np.linalg.inv(inertia).tolist(), radius
 
     def arms(self, q):
-        return [times(matrix(q), corner) for corner in self.corners] or [(0, 0, -self.radius)]
+        return [rotated(q, corner) for corner in self.corners] or [(0, 0, -self.radius)]
 
     def lowest(self, q):
         return min(self.arms(q), key=lambda arm: arm[2])
@@ -78,21 +54,14 @@ class Body:
         def rate(y):
             return (*(x / 2 for x in product(y[:4], (0, *y[4:]))), *times(self.inverse, cross(times(self.inertia, y[4:]), y[4:])))
         y, steps = (*q, *spin), max(1, math.ceil(abs(time) * 480))
-        h = time / steps
         for _ in range(steps):
-            a = rate(y)
-            b = rate(add(y, a, h / 2))
-            c = rate(add(y, b, h / 2))
-            d = rate(add(y, c, h))
-            y = tuple(v + h / 6 * (k + 2 * m + 2 * n + p) for v, k, m, n, p in zip(y, a, b, c, d))
+            y = runge_kutta(rate, y, time / steps)
         return unit(y[:4]), y[4:]
 
     def struck(self, arm, q, velocity, spin, e, mu):
         """Velocity and angular velocity (world) after an impulse with Poisson's restitution, in small normal steps."""
         slip_scale = 1e-3  # [m/s]
-        a = matrix(q)
-        turning = [times(self.inverse, column) for column in a]
-        world = [tuple(dot(row, t) for t in turning) for row in a]  # A I⁻¹ Aᵀ
+        world = list(zip(*(rotated(q, times(self.inverse, turned_back(q, axis))) for axis in np.eye(3).tolist())))  # A I⁻¹ Aᵀ
 
         def slip_after(u, push):
             return add(u, add(push, cross(times(world, cross(arm, push)), arm)))
@@ -133,9 +102,9 @@ def track(body, e, mu, rng, spin_size, slip):
         return None
     after, spin_after = body.struck(arm, q, velocity, spin, e, mu)
     before_time, frames = 0.1 + rng.uniform(0, 1 / RATE), []
-    to_body, first_after = transposed(matrix(q)), math.ceil(before_time * RATE)
+    first_after = math.ceil(before_time * RATE)
     for samples, v, w in ((range(first_after - 1, -1, -1), velocity, spin), (range(first_after, 60), after, spin_after)):
-        time, motion = 0.0, (q, times(to_body, w))
+        time, motion = 0.0, (q, turned_back(q, w))
         for k in samples:
             t = k / RATE - before_time
             motion, time = body.flown(*motion, t - time), t
@@ -161,7 +130,7 @@ def tracks(count, body, e, mu, seed, spin_size=12.0, slip=(0.3, 1.5)):
 
 def table(drops, origin=(0, 0, 0)):
     """@param origin  what is tracked, from the centre of mass, body axes"""
-    rows = [",".join([str(number + 1), str(k), *(f"{x:.9f}" for x in (*add(place, times(matrix(q), origin)), *q))])
+    rows = [",".join([str(number + 1), str(k), *(f"{x:.9f}" for x in (*add(place, rotated(q, origin)), *q))])
             for number, drop in enumerate(drops) for k, place, q in drop]
     return "\n".join(["drop,sample,x_m,y_m,z_m,q0,q1,q2,q3", *rows, ""])
 

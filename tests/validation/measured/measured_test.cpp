@@ -66,7 +66,7 @@ class TrackMaker {
     }
     truth.flights.assign(truth.impact_times.size(), 0);
     Track track{.name = std::to_string(index_), .frames = {}};
-    for (int sample = 0; sample / recipe_.rate < end; ++sample) add_frame(drop, sequence, sample, before, track, truth);
+    for (int sample = 0; sample / recipe_.rate < end; ++sample) add_frame(sequence, sample, before, track, truth);
     return track;
   }
 
@@ -96,8 +96,7 @@ class TrackMaker {
     return drop;
   }
 
-  void add_frame(const analytic::space::Drop& drop, const analytic::space::Sequence& sequence, int sample,
-                 double before, Track& track, Truth& truth) {
+  void add_frame(const analytic::space::Sequence& sequence, int sample, double before, Track& track, Truth& truth) {
     const double time = sample / recipe_.rate, t = time - before;
     const double fate = uniform();
     Frame frame{.time = time};
@@ -133,7 +132,6 @@ class TrackMaker {
       ++truth.flights[static_cast<std::size_t>(flight)];
     }
     track.frames.push_back(frame);
-    static_cast<void>(drop);
   }
 
   void add_noise(Frame& frame) {
@@ -183,13 +181,23 @@ const Thousand& thousand() {
   return all;
 }
 
-/// The impact found at a true time, within a frame of 250 Hz.
-const Meeting* found_at(const MeasuredTrack& track, double time) {
-  const auto near = [&](const Meeting& meeting) {
+/// Whether an impact is found at a true time, within a frame of 250 Hz.
+bool is_found_at(const MeasuredTrack& track, double time) {
+  return std::ranges::any_of(track.meetings, [&](const Meeting& meeting) {
     return meeting.before.last() - 0.004 < time && time < meeting.after.first() + 0.004;
-  };
-  const auto found = std::find_if(track.meetings.begin(), track.meetings.end(), near);
-  return found == track.meetings.end() ? nullptr : &*found;
+  });
+}
+
+/// Poses at rest, each as flat(i) says, of a body whose axes are turned; the turn is found from them.
+void check_resting_poses(MeasuredFile file, int count, const std::function<Quaternion(int)>& flat) {
+  const Vector3 turn(0.01, -0.02, 0.015);
+  for (int i = 0; i < count; ++i) {
+    file.tracks.emplace_back();
+    file.tracks.back().rest = rotation_of(0.7 * i * Vector3::UnitZ()) * flat(i) * rotation_of(-turn);
+  }
+  const CalibrationResult rest = calibrate(file, all_of(file), {.axes = true, .inertia = false});
+  BOOST_TEST(rest.resting == static_cast<std::size_t>(count));
+  BOOST_TEST((rest.calibration.turn - turn).norm() < 2e-3);  // of the second order in the turn
 }
 
 }  // namespace
@@ -205,7 +213,7 @@ BOOST_AUTO_TEST_CASE(every_impact_with_six_frames_of_flight_on_both_sides_is_fou
         const int before = k == 0 ? truth.frames_before : truth.flights[k - 1];
         if (before < 6 || truth.flights[k] < 6) continue;
         ++expected;
-        if (found_at(thousand().files[f].tracks[i], truth.impact_times[k])) ++found;
+        if (is_found_at(thousand().files[f].tracks[i], truth.impact_times[k])) ++found;
       }
     }
   }
@@ -287,19 +295,9 @@ BOOST_AUTO_TEST_CASE(inertia_and_axes_of_a_body_that_is_not_as_described_are_fou
     BOOST_TEST(found.calibration.rounding <= 1e-3);
     BOOST_TEST(found.lever_after < 0.2 * found.lever_before);
   }
-  // Poses at rest on faces, of a body whose axes are turned.
-  const Vector3 turn(0.01, -0.02, 0.015);
-  Recipe recipe{.planar = false, .tracks = 0, .body = {}};
-  MeasuredFile file{.file = make(recipe).file, .model = {}, .tracks = {}};
-  for (int i = 0; i < 30; ++i) {
-    const Quaternion upright = Quaternion::FromTwoVectors(Vector3::Unit(i % 3), (i % 2 ? -1 : 1) * Vector3::UnitZ());
-    MeasuredTrack track;
-    track.rest = rotation_of(0.7 * i * Vector3::UnitZ()) * upright * rotation_of(-turn);
-    file.tracks.push_back(track);
-  }
-  const CalibrationResult rest = calibrate(file, all_of(file), {.axes = true, .inertia = false});
-  BOOST_TEST(rest.resting == 30u);
-  BOOST_TEST((rest.calibration.turn - turn).norm() < 2e-3);  // of the second order in the turn
+  check_resting_poses(
+      {.file = make({.planar = false, .tracks = 0, .body = {}}).file, .model = {}, .tracks = {}}, 30,
+      [](int i) { return Quaternion::FromTwoVectors(Vector3::Unit(i % 3), (i % 2 ? -1 : 1) * Vector3::UnitZ()); });
 }
 
 BOOST_AUTO_TEST_CASE(axes_of_a_mesh_are_found_from_poses_at_rest_on_its_faces) {
@@ -312,17 +310,9 @@ BOOST_AUTO_TEST_CASE(axes_of_a_mesh_are_found_from_poses_at_rest_on_its_faces) {
   MeasuredFile file;
   file.file.description = description_of({.planar = false, .body = {}});
   file.file.description.mesh = std::make_shared<const TrackedMesh>(mesh);
-  const Vector3 turn(0.01, -0.02, 0.015);
-  for (int i = 0; i < 40; ++i) {
-    const Quaternion flat =
-        analytic::space::turn_between(mesh.faces[static_cast<std::size_t>(i % 4)].normal, {0, 0, -1});
-    MeasuredTrack track;
-    track.rest = rotation_of(0.7 * i * Vector3::UnitZ()) * flat * rotation_of(-turn);
-    file.tracks.push_back(track);
-  }
-  const CalibrationResult rest = calibrate(file, all_of(file), {.axes = true, .inertia = false});
-  BOOST_TEST(rest.resting == 40u);
-  BOOST_TEST((rest.calibration.turn - turn).norm() < 2e-3);  // of the second order in the turn
+  check_resting_poses(file, 40, [&](int i) {
+    return analytic::space::turn_between(mesh.faces[static_cast<std::size_t>(i % 4)].normal, {0, 0, -1});
+  });
 }
 
 BOOST_AUTO_TEST_CASE(an_impact_on_two_corners_at_once_is_no_point_impact) {

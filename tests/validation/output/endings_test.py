@@ -14,9 +14,9 @@ LONG_RUN = ["angles", "--count", "50000000", "--format", "csv"]
 SWEEP = ["sweep", "rod-at-1ms", "--model", "discrete"]
 
 
-def heed_hangups():
+def hangups(action):
     """Also where the tests themselves are run under nohup."""
-    signal.signal(signal.SIGHUP, signal.SIG_DFL)
+    return lambda: signal.signal(signal.SIGHUP, action)
 
 
 def limited_to(size):
@@ -129,7 +129,7 @@ class Endings(Folder):
     def test_each_ends_the_run_with_130_and_leaves_nothing(self):
         for numbers in ((signal.SIGINT,), (signal.SIGTERM,), (signal.SIGHUP,), (signal.SIGTERM, signal.SIGINT)):  # the second does not wait
             with subprocess.Popen([PROGRAM, *LONG_RUN, "--output", "out", "--plot", "p.svg", "--plot-script"], cwd=self.folder,
-                                  stderr=subprocess.DEVNULL, preexec_fn=heed_hangups) as process:
+                                  stderr=subprocess.DEVNULL, preexec_fn=hangups(signal.SIG_DFL)) as process:
                 until(self.growing, process)
                 for number in numbers:
                     process.send_signal(number)
@@ -165,8 +165,7 @@ class Endings(Folder):
         self.assertGreater(told, 0)
 
     def test_nohup_keeps_a_run_going(self):
-        with subprocess.Popen([PROGRAM, *LONG_RUN, "--output", "out"], cwd=self.folder,
-                              preexec_fn=lambda: signal.signal(signal.SIGHUP, signal.SIG_IGN)) as process:
+        with subprocess.Popen([PROGRAM, *LONG_RUN, "--output", "out"], cwd=self.folder, preexec_fn=hangups(signal.SIG_IGN)) as process:
             until(self.growing, process)
             process.send_signal(signal.SIGHUP)
             size = self.growing()

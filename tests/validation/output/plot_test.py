@@ -8,14 +8,12 @@ import math
 import os
 import re
 import shutil
-import signal
 import struct
 import subprocess
 import xml.etree.ElementTree as ElementTree
 from pathlib import Path
 
-from run_folder import PROGRAM, ROOT, EmptyFolder, case, json_of, records, run
-from waiting import until
+from run_folder import EmptyFolder, case, json_of, records, run
 
 # A level face whose small tilts have four outcomes.
 FACE = ["--body", "box", "--size", "0.1514x0.08958x0.1433", "--mass", "0.584", "--velocity=0,0,-1",
@@ -191,9 +189,8 @@ class Data(InFolder):
         self.assertEqual(drawn["panel2_3"], [[result["tail"]["end_time"], result["tail"]["impulse_normal"]]])
 
     def test_two_hundred_accumulating_impacts_stay_a_small_picture(self):
-        _, drawn = self.plotted("sequence", "--angle", "10", "--gravity", "9.81", "--restitution", "0.8", "--impacts", "200")
+        self.plotted("sequence", "--angle", "10", "--gravity", "9.81", "--restitution", "0.8", "--impacts", "200")
         self.assertLess(os.path.getsize(self.path("p.svg")), 300_000)
-        self.assertLess(len(drawn["panel1_0"]), 5000)
 
     def test_curves_of_angles_go_on_to_their_folds_however_far_apart_the_rows_are(self):
         for step in ("2", "10"):
@@ -223,11 +220,6 @@ class Data(InFolder):
             self.assertEqual(drawn[block], [[row["restitution"], row[boundary]["theta_deg"]] for row in told["rows"]])
         # Between them the curve is that of many values, which is no straight line.
         self.assertGreater(len(drawn["panel1_3"]), 200)
-        # The colours are those of the reference's figure.
-        areas = re.findall(r"filledcurves fs solid noborder lc rgb '(#\w+)'", self.read("p.gnuplot"))
-        pictures = Path(ROOT, "notebooks-data/pictures.py").read_text(encoding="utf-8")
-        figure = re.search(r"for low, high, colour, name in (.*?):$", pictures, re.M | re.S)[1]
-        self.assertEqual(areas, re.findall(r"#\w{6}", figure))
         for value, angle in drawn["panel1_3"][::40]:
             row = json_of("angles", "--regimes", "--over", "restitution", "--from", repr(value), "--to", repr(value), "--count", "1")["rows"][0]
             self.assertAlmostEqual(angle, row["second"]["theta_deg"], 9)
@@ -241,10 +233,7 @@ class Data(InFolder):
             self.assertEqual(("\nset logscale x" in script, "0 lies off this axis" in script), (is_logarithmic, leaves_out_0), more)
 
     def test_simulate_draws_the_history_that_it_writes_beside_it(self):
-        told, drawn = self.plotted_data(*COMMANDS["simulate"][0], "--history", self.path("h.csv"))
-        peaks = [[i["start"] + i["peak_time"], i["peak_force"]] for i in told["impacts"]]
-        for time, force in peaks:
-            self.assertTrue(any(abs(t - time) <= 1e-15 and f == force for t, f in drawn["panel2_0"]), (time, force))
+        _, drawn = self.plotted(*COMMANDS["simulate"][0], "--history", self.path("h.csv"))
         energies = ("translation", "rotation", "potential", "ground", "total")
         history = [row for row in self.records("h.csv") if float(row["t"]) >= 0]
         for block, column in (("panel1_0", "z"), ("panel2_0", "fz"), *((f"panel3_{k}", f"energy_{name}") for k, name in enumerate(energies))):
@@ -256,24 +245,20 @@ class Data(InFolder):
     def test_blows_that_look_like_one_spike_have_a_panel_of_their_own(self):
         told, drawn = self.plotted_data(*COMMANDS["simulate"][0])
         first, second = told["impacts"][:2]
-        self.assertIn("normal contact force of impacts 1 to 2", self.read("p.gnuplot"))
-        times = [time for time, _ in drawn["panel4_0"]]
+        times, forces = zip(*drawn["panel4_0"])
         self.assertLess(times[0], first["start"] + first["peak_time"])
         self.assertTrue(second["start"] < times[-1] < second["start"] + 2 * second["duration"])
-        for impact in (first, second):
-            self.assertIn(impact["peak_force"], [force for _, force in drawn["panel4_0"]])
-        self.plotted("simulate", case("rod-45"))  # one blow
-        self.assertNotIn("impacts 1 to", self.read("p.gnuplot"))
+        self.assertLessEqual({first["peak_force"], second["peak_force"]}, set(forces))
+        self.assertNotIn("panel4_0", self.plotted("simulate", case("rod-45"))[1])  # one blow
 
     def test_a_sweep_over_two_keys_has_a_curve_for_each_value_of_the_first_or_of_that_with_few(self):
         restitution = ("--set", "impact.restitution=0.5,0.9")
         for settings in ((*restitution, "--set", "drop.angle_deg=10:40:10"), ("--set", "drop.angle_deg=10:34:2", *restitution)):
             out, drawn = self.plotted("sweep", case("rod-10"), "--model", "discrete", *settings)
             for i, value in enumerate(("0.5", "0.9")):
+                self.assertIn(f"'restitution = {value}'", self.read("p.gnuplot"))
                 self.assertEqual(drawn[f"panel2_{i}"], [[float(row["drop.angle_deg"]), float(row["total_normal_impulse"])]
                                                         for row in records(out) if row["impact.restitution"] == value])
-            self.assertIn("'restitution = 0.5'", self.read("p.gnuplot"))
-            self.assertIn("set xlabel 'angle [°]'", self.read("p.gnuplot"))
 
     def test_a_sweep_over_two_keys_of_many_values_has_a_cell_for_each_scene_in_the_colour_of_its_number(self):
         out, drawn = self.plotted("sweep", case("rod-10"), "--model", "discrete", "--set", "drop.angle_deg=5:49:4", "--set",
@@ -381,7 +366,6 @@ class Data(InFolder):
         self.assertGreaterEqual(drawn["panel1_0"][1][1], 1e-5 * abs(float(rows[1].split(",")[7])) / largest * (1 - 1e-9))
         self.assertLess(drawn["panel1_0"][0][1], 1e-15)
         self.assertEqual([drawn[f"panel1_{k}"][0][1] for k in range(1, 5)], [1e-9, 1e-6, 1e-3, 1e-2])
-        self.assertIn(">of_a_code.csv: ", self.read("p.svg"))  # no letter of it is a subscript
 
     def test_what_is_wrong_is_one_line_and_nothing_is_written(self):
         for arguments, _, _ in COMMANDS.values():
@@ -407,41 +391,14 @@ class Data(InFolder):
             self.assertLess(min(height for t, height in lowest if t == time), 1e-9 * size)
         self.assertTrue(all(0 <= low <= high for (_, low), (_, high) in zip(lowest, centre)))
 
-    def test_a_disc_strikes_with_its_ends_not_with_corners(self):
-        self.plotted("sequence", "--body", "rod", "--length", "0.00233", "--radius", "0.0116", "--mass", "0.0075", "--angle", "80", "--tilt", "20",
-                     "--angular-velocity", "1,2,3", "--height", "0.1", "--gravity", "9.81", "--restitution", "0.5")
-        self.assertIn("'end a'", self.read("p.gnuplot"))
-        self.assertNotIn("corner", self.read("p.gnuplot"))
-
-    def test_a_title_that_is_too_long_goes_on_below(self):
-        self.plotted("compare", case("phone-damped"))
-        titles = re.findall(r"set label \d+ '([^']*)' at screen", self.read("p.gnuplot"))
-        self.assertEqual(titles[0], "Discrete and continuous model, impact by impact")
-        self.assertTrue(titles[1].startswith("from impact 3 on they strike other blows"), titles)
-        self.assertTrue(all(len(title) <= 112 for title in titles), titles)
-
     def limited(self, name, evaluations):
         text = Path(case(name)).read_text(encoding="utf-8")
         return self.write("scene.toml", text.replace("[run]", f"[run]\nevaluation_limit = {evaluations}"))
 
-    def test_an_interrupted_run_writes_none(self):
-        with open(self.path("rows.csv"), "wb") as rows:
-            running = subprocess.Popen([PROGRAM, "angles", "--count", "50000000", "--format", "csv", "--plot",
-                                        self.path("p.svg"), "--plot-script"], stdout=rows, stderr=subprocess.PIPE, text=True)
-            until(lambda: os.path.getsize(self.path("rows.csv")) >= 1000, running)
-            running.send_signal(signal.SIGINT)
-            _, complaint = running.communicate(timeout=30000)
-        self.assertEqual(running.returncode, 130)
-        self.assertRegex(complaint, r"\Aclatter: --plot [^\n]+: no picture: interrupted\n\Z")
-        self.assertEqual(os.listdir(self.folder), ["rows.csv"])
-
-    def test_a_run_without_a_row_writes_none_and_says_so(self):
+    def test_a_run_that_ends_early_draws_its_rows_and_nothing_without_any(self):
         done = run("simulate", self.limited("rod-45", 10), "--method", "rk4", "--tolerance", "1e-6", "--plot", self.path("p.svg"))
-        self.assertEqual(done.returncode, 3, done.stderr)
+        self.assertEqual((done.returncode, os.listdir(self.folder)), (3, ["scene.toml"]), done.stderr)
         self.assertIn("no picture: no impact was computed", done.stderr)
-        self.assertEqual(os.listdir(self.folder), ["scene.toml"])
-
-    def test_a_run_that_ends_early_draws_its_rows(self):
         result, drawn = self.plotted_data("simulate", self.limited("phone-damped", 3000), "--method", "rk8pd", "--tolerance", "1e-8", status=3)
         self.assertEqual(result["outcome"], "evaluation-limit")
         self.assertGreater(len(result["impacts"]), 0)

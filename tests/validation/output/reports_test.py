@@ -94,6 +94,8 @@ class Forms(EmptyFolder):
             with self.subTest(command=command):
                 self.assertEqual(data_of(command)["clatter"], version())
                 self.assertRegex(in_form(command, "csv"), rf"\A# clatter {re.escape(version())}, {named(command)}( \w+)?: ")
+        printed(*PHONE, "--history", self.path("history.csv"))
+        self.assertRegex(self.read("history.csv"), rf"(?m)^# clatter {version()}")
 
     def test_csv_names_the_unit_of_each_column_that_has_one(self):
         units = next(line for line in in_form(PHONE, "csv").splitlines() if line.startswith("# units: "))
@@ -180,18 +182,13 @@ class Forms(EmptyFolder):
                     self.assertEqual(float(f"{error:.1e}"), error, key)
 
     def test_both_models_give_the_energy_loss_in_joule_in_tables_and_data(self):
-        # A flat landing with e < 1 loses (1 - e^2) of its kinetic energy m v^2/2.
-        flat = ["sequence", "--angle", "0", "--body", "box", "--size", "1x1x0.1", "--restitution", "0.5", "--mass", "2", "--speed", "3",
-                "--impacts", "1"]
-        simulated = data_of(PHONE)["impacts"][0]
-        self.assertAlmostEqual(simulated["energy_loss"], simulated["energy_before"] - simulated["energy_after"], delta=1e-5)
-        for command, loss in ((flat, (1 - 0.5 ** 2) * 2 * 3 ** 2 / 2), (PHONE, simulated["energy_loss"])):
-            self.assertAlmostEqual(data_of(command)["impacts"][0]["energy_loss"], loss)
-            lines = printed(*command).splitlines()
+        for command in (PLAIN, PHONE):
+            impact, lines = data_of(command)["impacts"][0], printed(*command).splitlines()
+            self.assertAlmostEqual(impact["energy_loss"], impact["energy_before"] - impact["energy_after"], delta=1e-5)
             head = next(i for i, line in enumerate(lines) if " loss" in line)
             self.assertTrue(lines[head + 1].rstrip().endswith("J"), lines[head + 1])
             shown = next(line for line in lines[head + 3:] if line.split()[0] == "1").split()[-1]
-            self.assertAlmostEqual(float(shown), loss, delta=2e-3 * loss)
+            self.assertAlmostEqual(float(shown) / impact["energy_loss"], 1, delta=2e-3)
 
     def test_figures_are_written_in_the_form_that_is_asked_for(self):
         for form, extension in (("csv", "csv"), ("json", "json"), ("markdown", "md"), ("latex", "tex"), ("table", "txt")):
@@ -200,13 +197,6 @@ class Forms(EmptyFolder):
         data, rows = json.loads(self.read("figure_07.json")), self.records("figure_07.csv")
         self.assertEqual((len(rows), list(rows[0])), (len(data["rows"]), list(data["rows"][0])))
         self.assertIn(f"# clatter {version()}", self.read("figure_07.csv"))
-
-    def test_columns_of_an_unknown_command_get_the_nearest(self):
-        self.refused("did you mean sequence?", "help", "columns", "--only", "sequnce")
-
-    def test_histories_carry_the_version_too(self):
-        printed(*PHONE, "--history", self.path("history.csv"))
-        self.assertRegex(self.read("history.csv"), rf"(?m)^# clatter {version()}")
 
 
 class Tables(unittest.TestCase):
@@ -274,10 +264,6 @@ class Help(EmptyFolder):
             self.assertEqual(too_long(text), [], name)
         for name, text in {**texts, "man": printed("man")}.items():
             self.assertNotRegex(text, r"\b(validation|notebooks-data|tests|analytic|numeric)/", name)
-
-    def test_the_bare_program_says_what_to_begin_with(self):
-        self.assertIn("clatter sequence --angle 10", printed())
-        self.assertLess(len(printed().splitlines()), 20)
 
     def test_a_plan_and_the_verification_name_commands_that_run_in_any_folder(self):
         line = re.search(r"Run it: clatter (.*)", re.sub(r"\n +", " ", printed("plan", "phone-damped", "--impacts", "1"))).group(1)

@@ -17,18 +17,12 @@ constexpr int random_scenes = CLATTER_TEST_SLOW_BUILD ? 16 : 60;
 
 /// Slope of the least-squares line through (x, y).
 double slope(const std::vector<double>& x, const std::vector<double>& y) {
-  const auto n = static_cast<double>(x.size());
-  double sx = 0, sy = 0, sxx = 0, sxy = 0;
-  for (std::size_t i = 0; i < x.size(); ++i) {
-    sx += x[i];
-    sy += y[i];
-    sxx += x[i] * x[i];
-    sxy += x[i] * y[i];
-  }
-  return (n * sxy - sx * sy) / (n * sxx - sx * sx);
+  using Array = Eigen::Map<const Eigen::ArrayXd>;
+  const auto n = static_cast<Eigen::Index>(x.size());
+  const Eigen::ArrayXd from_mean = Array(x.data(), n) - Array(x.data(), n).mean();
+  return (from_mean * Array(y.data(), n)).sum() / from_mean.square().sum();
 }
 
-/// The scene's plane and its first impacts.
 Scene planar_case(const char* name, int impacts) {
   Scene scene = case_scene(name);
   scene.request.impacts = impacts;
@@ -166,23 +160,15 @@ BOOST_AUTO_TEST_CASE(plan_within_a_time_takes_the_most_accurate_that_fits) {
   BOOST_TEST(plan_shortfall(hasty).empty());
 }
 
-BOOST_AUTO_TEST_CASE(plan_says_what_cannot_be_had) {
-  const Scene scene = case_scene("phone-elastic");
-  const Plan plan = make_plan(scene, {.digits = 12});
-  BOOST_TEST(!plan.serves);
-  BOOST_TEST(!plan_shortfall(plan).empty());
-  BOOST_TEST(plan.known_impacts < 6);
-  BOOST_TEST(plan.predictable_impacts <= 2);  // out of its plane the phone's spin is unstable
-}
-
 // The finer run that judges the others once ended before its first impact, and the plan with an exception.
-BOOST_AUTO_TEST_CASE(plan_says_so_if_its_runs_end_early) {
-  for (const char* limit : {"20", "300", "1000", "2500", "4000"}) {
-    Scene scene = case_scene("phone-damped");
-    scene.accuracy.evaluation_limit = std::atol(limit);
-    const Plan plan = make_plan(scene, {.digits = 6});
-    BOOST_TEST(plan.serves == plan_shortfall(plan).empty());
-    BOOST_TEST(!plan.serves);
+BOOST_AUTO_TEST_CASE(plan_says_what_cannot_be_had_and_if_its_runs_end_early) {
+  for (const long limit : {0, 20, 300, 1000, 2500, 4000}) {
+    Scene scene = case_scene(limit > 0 ? "phone-damped" : "phone-elastic");
+    if (limit > 0) scene.accuracy.evaluation_limit = limit;
+    const Plan plan = make_plan(scene, {.digits = limit > 0 ? 6 : 12});
+    BOOST_TEST((!plan.serves && !plan_shortfall(plan).empty()), limit);
+    // Out of its plane the elastic phone's spin is unstable.
+    if (limit == 0) BOOST_TEST((plan.known_impacts < 6 && plan.predictable_impacts <= 2));
   }
 }
 
@@ -204,7 +190,6 @@ BOOST_AUTO_TEST_CASE(plan_and_run_get_past_a_step_that_gets_too_small) {
 
 BOOST_AUTO_TEST_CASE(discrete_models_own_account_of_its_error_is_not_far_off) {
   int there = 0, covered = 0;
-  std::vector<double> ratios;
   for (int i = 0; i < random_scenes; ++i) {
     Scene scene = random_scene(19, i);
     scene.request.impacts = 2;
@@ -214,10 +199,8 @@ BOOST_AUTO_TEST_CASE(discrete_models_own_account_of_its_error_is_not_far_off) {
       if (level.level != ModelLevel::discrete || !std::isfinite(level.assumption_error) || !(level.error > 0)) continue;
       ++there;
       covered += level.error <= 3 * level.assumption_error ? 1 : 0;
-      ratios.push_back(level.assumption_error / level.error);
     }
   }
-  std::nth_element(ratios.begin(), ratios.begin() + static_cast<std::ptrdiff_t>(ratios.size() / 2), ratios.end());
   BOOST_TEST(there >= random_scenes / 2);
   // First-order effects of contact time: sizes, not bounds (a second corner may come down within the contact).
   BOOST_TEST(covered >= 0.9 * there);
@@ -230,15 +213,11 @@ BOOST_AUTO_TEST_CASE(same_plan_again) {
   BOOST_TEST(first.error == second.error);
 }
 
-BOOST_AUTO_TEST_CASE(command_line_of_a_plan_names_what_it_leaves_out) {
-  const Scene scene = case_scene("rod-45", {{"ground.sliding_friction", "--sliding-friction", "1e-9"}});
-  const std::string line = command_line(make_plan(scene, {.digits = 5}));
-  BOOST_TEST(line.find("--sliding-friction 0") != std::string::npos);
-  BOOST_TEST(line.find("--planar") != std::string::npos);
-  BOOST_TEST(line.find("--tolerance") != std::string::npos);
-}
-
-BOOST_AUTO_TEST_CASE(command_line_of_a_plan_repeats_the_flags_that_it_leaves_as_they_are) {
+BOOST_AUTO_TEST_CASE(command_line_of_a_plan_names_what_it_leaves_out_and_repeats_the_flags_that_it_leaves_as_they_are) {
+  const Scene slippery = case_scene("rod-45", {{"ground.sliding_friction", "--sliding-friction", "1e-9"}});
+  const std::string left_out = command_line(make_plan(slippery, {.digits = 5}));
+  for (const char* flag : {"--sliding-friction 0", "--planar", "--tolerance"})
+    BOOST_TEST(left_out.find(flag) != std::string::npos, flag);
   const auto line_of = [](const Scene& scene, const std::vector<SceneOverride>& given, int digits) {
     Plan plan = make_plan(scene, {.digits = digits});
     plan.given = given;

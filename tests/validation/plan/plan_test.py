@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """clatter plan, the runs that follow it, and clatter plan --tradeoff.  Costs are measured, not judged: no test depends on a time."""
 
+import collections
 import shlex
 import shutil
 import unittest
@@ -10,19 +11,8 @@ from space_folder import MASS, SIZE, SpaceFolder
 
 RUNGS = ["closed form", "discrete", "discrete 3D", "planar", "spatial"]
 CORNER = "corner.toml"
-TEXT = f"""[drop]
-angle_deg = 30
-tilt_deg = 40
-[body]
-shape = "box"
-size = {list(SIZE)}
-mass = {MASS}
-[ground]
-stiffness = 1e9
-[run]
-impacts = 2
-digits = 3
-"""
+TEXT = (f"[drop]\nangle_deg = 30\ntilt_deg = 40\n[body]\nshape = 'box'\nsize = {list(SIZE)}\nmass = {MASS}\n[ground]\nstiffness = 1e9\n"
+        "[run]\nimpacts = 2\ndigits = 3\n")
 
 
 class Plan(EmptyFolder):
@@ -38,36 +28,18 @@ class Plan(EmptyFolder):
             self.assertEqual(plan["simulate_evaluations"], run_alone["cost"]["force_evaluations"])
             self.assertGreater(plan["simulate_seconds"], 0)
 
-    def test_simulate_reports_achieved_against_asked(self):
-        self.assertRegex(run("simulate", "rod-10").stdout, r"asked 6 digits, achieved \d+\.\d")
-        self.assertRegex(run("sequence", "--angle", "10").stdout, r"asked 6 digits, achieved 1\d\.\d")
-
     def test_digits_out_of_reach_are_said_to_be(self):
         self.assertEqual(run("plan", "phone-damped", "--within", "0.02", "--digits", "9").returncode, 3)
         done = run("plan", case("phone-elastic"), "--digits", "12")
-        self.assertEqual(done.returncode, 3)
+        self.assertEqual((done.returncode, len(done.stderr.splitlines())), (3, 1))
         self.assertIn("12 digits", done.stderr)
-        self.assertEqual(len(done.stderr.splitlines()), 1)
-        self.assertIn("Not as asked", done.stdout)
 
     def test_a_tighter_run_that_a_limit_leaves_without_errors_does_not_take_the_place_of_a_looser_one(self):
-        self.write("stone.toml", """[drop]
-attitude = [0.3630246612905481, 0.35955313946746215, 0.6382444569842466, -0.5758286622970923]
-clearance = 0.8
-[body]
-shape = "box"
-size = [0.2, 0.1, 0.03]
-mass = 0.6
-centre = [0.005, 0, 0]
-[ground]
-floor = "concrete"
-restitution = 0.5
-sliding_friction = 0.3
-[run]
-impacts = 1
-evaluation_limit = 50000
-""")
-        self.assertLess(self.json_of("simulate", "stone.toml")["accuracy"]["achieved"], 1e-3)
+        self.write("limited.toml", "[run]\nevaluation_limit = 50000\n")
+        attitude = "0.3630246612905481,0.35955313946746215,0.6382444569842466,-0.5758286622970923"
+        found = self.json_of("simulate", "limited.toml", "--attitude", attitude, "--clearance", "0.8", "--body", "box", "--size", "0.2x0.1x0.03", "--mass",
+                             "0.6", "--centre", "0.005,0,0", "--floor", "concrete", "--floor-restitution", "0.5", "--sliding-friction", "0.3", "--impacts", "1")
+        self.assertLess(found["accuracy"]["achieved"], 1e-3)
 
     def test_bad_input_is_one_line(self):
         self.each_refused({f"plan rod-45 {option}": option.split()[0] for option in (
@@ -93,6 +65,7 @@ class InSpace(SpaceFolder):
             plan, rungs = self.rungs(CORNER, "--stiffness", stiffness, "--static-friction", "0.3", "--sliding-friction", "0.3", "--digits", "2")
             errors.append(rungs["discrete 3D"]["error"])
             chosen.append(plan["choice"]["model"])
+            self.assertEqual(self.run_program(*shlex.split(plan["choice"]["command"])[1:]).returncode, 0)
         # Contacts of a corner last 1/10 as long at 10⁴ times the stiffness, and so do the effects of their time.
         for stiff, stiffer in zip(errors, errors[1:]):
             self.assertAlmostEqual(stiff / stiffer, 10, delta=3)
@@ -116,13 +89,6 @@ class InSpace(SpaceFolder):
         self.assertIn("drop.tilt_deg turns it out of its plane", rungs["discrete"]["reason"])
         self.assertIsNone(rungs["discrete 3D"]["reason"])
 
-    def test_the_plan_s_command_runs_the_model_that_is_chosen(self):
-        self.write(CORNER, TEXT.replace("1e9", "1e19").replace("impacts = 2", "impacts = 1"))
-        plan, _ = self.rungs(CORNER, "--digits", "2")
-        self.assertEqual(plan["choice"]["model"], "discrete 3D")
-        done = self.run_program(*plan["choice"]["command"].split()[1:])
-        self.assertEqual(done.returncode, 0, done.stderr)
-
     def test_a_tradeoff_has_a_point_of_the_discrete_model_in_space_with_its_cost_and_error(self):
         all_points = self.json_of("plan", "--tradeoff", CORNER, "--stiffness", "1e15", "--impacts", "1")["points"]
         points = [p for p in all_points if p["model"] == "discrete 3D"]
@@ -136,24 +102,14 @@ class InSpace(SpaceFolder):
 
 
 class Tradeoff(unittest.TestCase):
-    @classmethod
-    def setUpClass(cls):
-        cls.result = json_of("plan", "--tradeoff", "rod-45")
-
-    def points(self, model, method=None):
-        return [p for p in self.result["points"] if (p["model"], p["method"]) == (model, method) and not p["mesh"]]
-
-    def test_every_model_and_five_methods_over_their_settings_are_there(self):
-        self.assertEqual(len(self.points("closed form")), 1)
-        self.assertEqual(len(self.points("discrete")), 1)
-        for model in ("planar", "spatial"):
-            for method in ("rk4", "rkf45", "rkck", "rk8pd"):
-                self.assertEqual(len(self.points(model, method)), 13, (model, method))
-            self.assertEqual(len(self.points(model, "tvd-rk3")), 11, model)
-        self.assertEqual(sum(1 for p in self.result["points"] if p["mesh"]), 4)
-
-    def test_nothing_beats_a_point_of_the_front(self):
-        points = [p for p in self.result["points"] if p["failure"] is None]
+    def test_every_model_and_five_methods_over_their_settings_are_there_and_nothing_beats_a_point_of_the_front(self):
+        points = json_of("plan", "--tradeoff", "rod-45")["points"]
+        counts = collections.Counter((p["model"], p["method"]) for p in points if not p["mesh"])
+        expected = {("closed form", None): 1, ("discrete", None): 1, ("planar", "tvd-rk3"): 11, ("spatial", "tvd-rk3"): 11}
+        expected |= {(model, method): 13 for model in ("planar", "spatial") for method in ("rk4", "rkf45", "rkck", "rk8pd")}
+        self.assertEqual({key: counts[key] for key in expected}, expected)
+        self.assertEqual(sum(1 for p in points if p["mesh"]), 4)
+        points = [p for p in points if p["failure"] is None]
         front = [p for p in points if p["front"]]
         self.assertGreater(len(front), 3)
         for point in front:

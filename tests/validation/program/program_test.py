@@ -28,7 +28,7 @@ OUT_OF_RANGE = {
     "1000001": "--impacts", "18": "--digits", "91": "--from", "90.5": "--to", "1e201": "--mass", "1e309": "--length"}
 REFUSED = {
     "sequence --angle 10 --angle 20": "twice", "sequence --angle": "value", "sequence --agle 10": "did you mean --angle",
-    "sequnce": "did you mean sequence", "tradeof rod-45": "did you mean plan --tradeoff?", "scene": "did you mean help scene?",
+    "sequnce": "did you mean sequence", "help columns --only sequnce": "did you mean sequence?", "tradeof rod-45": "did you mean plan --tradeoff?", "scene": "did you mean help scene?",
     "plan --tradeoff --tradeoff rod-45": "--tradeoff: unknown for plan --tradeoff", "plan --tradeoff=x rod-45": "--tradeoff: unknown for plan;",
     "help keys scene": "'scene': unexpected argument for help keys", "sequence --angle 10 --format jsn": "did you mean json",
     "sequence --angle 10 --restitution-law strong": "did you mean stronge", "angles 10": "unexpected",
@@ -93,12 +93,10 @@ class BadInput(EmptyFolder):
 
 
 class Output(unittest.TestCase):
-    def test_a_height_is_that_of_the_centre_of_mass_at_release(self):
+    def test_a_height_is_that_of_the_centre_of_mass_at_release_and_the_gravity_number_g_l_over_the_square_of_the_speed(self):
         impact = json_of("sequence", "--angle", "30", "--height", "2", "--gravity", "9.81")["impacts"][0]
         # It falls until the rod's end touches, L/2 sin 30° = 0.25 m below the centre.
         self.assertAlmostEqual(impact["approach_speed"], math.sqrt(2 * 9.81 * (2 - 0.25)), delta=1e-14)
-
-    def test_the_gravity_number_is_g_l_over_the_square_of_the_speed(self):
         number = json_of("angles", "--gravity", "9.81", "--length", "2", "--speed", "3", "--count", "1")["parameters"]["gravity_number"]
         self.assertAlmostEqual(number, 9.81 * 2 / 9, delta=1e-15)  # three roundings
 

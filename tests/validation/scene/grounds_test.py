@@ -68,27 +68,20 @@ class Floors(Folder):
         low, middle, high = (value_of("--floor", floor) for floor in ("wood", "asphalt", "steel"))
         self.assertTrue(low < middle < high < plane(*ABS))
 
-    def test_a_restitution_that_no_source_gives_is_told_as_a_range(self):
-        self.assertIn("no source gives a restitution", " ".join(printed("simulate", *FLAT, "--floor", "concrete").split()))
-        self.assertNotIn("no source", printed("simulate", *FLAT, "--floor", "concrete", "--dissipation", "0.2"))
-
     def test_a_restitution_of_the_first_impact_is_that_of_a_flat_landing_on_each_kind_of_ground(self):
         for ground in (("--floor", "concrete"), ("--stiffness", "1e9"), ("--curve", "[[0, 0], [0.1, 1e5], [0.6, 1e6]]", "--thickness", "0.01")):
             impact = json_of("simulate", *FLAT, *ground, "--floor-restitution", "0.4", "--digits", "8")["impacts"][0]
             self.assertAlmostEqual(impact["velocity_after"][2] / 2, 0.4, delta=1e-6, msg=ground)
-        head = " ".join(printed("simulate", *FLAT, "--floor", "concrete", "--floor-restitution", "0.4").split())
-        self.assertIn("e = 0.4 in the first impact (dissipation", head)
 
     def test_ground_prints_what_a_scene_and_flags_take(self):
         shown = json_of("shock", "--ground", "--floor", "concrete")
         self.assertEqual(len(shown["solutions"]), 3)
         for row, value in zip(shown["solutions"], concrete_under(ABS)):
             self.assertAlmostEqual(row["reduced_modulus"] / value, 1, delta=1e-14)
-        pad = ["--curve", "[[0, 0], [0.1, 2e4], [0.6, 2.5e4], [0.8, 2e5]]", "--thickness", "0.03"]
-        for ground in (["--floor", "concrete"], ["--ground-modulus", "1e9"], pad):
+        for ground in (["--floor", "concrete"], ["--ground-modulus", "1e9"], PAD):
             block, flags = printed("shock", "--ground", *FLAT, *ground, "--measured-e", "0.4").split("or as flags:")
             self.assertIn("dissipation = ", block.split("[ground]\n")[1])
-            after = json_of("simulate", *FLAT, *(pad if ground == pad else []), *flags.split())["impacts"][0]["velocity_after"]
+            after = json_of("simulate", *FLAT, *(PAD if ground == PAD else []), *flags.split())["impacts"][0]["velocity_after"]
             self.assertAlmostEqual(after[2] / 2, 0.4, delta=1e-5)
         found = printed("shock", "--ground", *FLAT, "--measured-e", "0.5", "--contact-time", "5e-4")
         self.assertIn("--stiffness", found.split("or as flags:")[1])
@@ -110,19 +103,15 @@ class HalfSpace(Folder):
         by_flags, by_file = self.json_of("simulate", *SLAB), self.json_of("simulate", file)
         self.assertEqual(by_file["impacts"], by_flags["impacts"])
         ground = by_flags["scene"]["ground"]
-        self.assertEqual((ground["modulus"], ground["dissipation"]), (1e9, 0.1))
-        for key in ("stiffness", "damping", "area"):
-            self.assertNotIn(key, ground)
+        self.assertEqual((ground["modulus"], ground["dissipation"], {"stiffness", "damping", "area"} & set(ground)), (1e9, 0.1, set()))
         springs = self.json_of("simulate", file, "--stiffness", "1e10")["scene"]["ground"]
-        self.assertNotIn("modulus", springs)
-        self.assertEqual(springs["damping"], 0)
+        self.assertEqual((springs["damping"], "modulus" in springs), (0, False))
 
     def test_springs_beside_it_and_dissipation_without_it_are_refused(self):
-        for flag, value in (("--stiffness", "1e9"), ("--damping", "1e6"), ("--area", "projected")):
-            self.refused("give one of them, not both", "simulate", *SLAB, flag, value)
-        self.refused("only for a ground with a modulus", "sequence", "--angle", "10", "--dissipation", "1")
-        self.refused("ground.modulus of an elastic half-space", "simulate", "--angle", "10", "--dissipation", "1")
-        self.refused("it is what is sought", "shock", "--ground", *SLAB, "--measured-e", "0.5", "--contact-time", "3e-4")
+        self.each_refused(dict.fromkeys(("--stiffness 1e9", "--damping 1e6", "--area projected"), "give one of them, not both"), "simulate", *SLAB)
+        self.each_refused({"sequence --angle 10 --dissipation 1": "only for a ground with a modulus",
+                           "simulate --angle 10 --dissipation 1": "ground.modulus of an elastic half-space",
+                           f"shock --ground {' '.join(SLAB)} --measured-e 0.5 --contact-time 3e-4": "it is what is sought"})
 
     def test_a_ball_s_peak_goes_like_the_modulus_to_two_fifths(self):
         ball = ("--body", "sphere", "--radius", "0.02", "--mass", "0.2", "--speed", "2", "--ground-modulus", "5e9")
@@ -162,12 +151,10 @@ class Pad(Folder):
         told = self.json_of("simulate", scene, "--impacts", "1")
         ground = told["scene"]["ground"]
         self.assertEqual((ground["curve"], ground["curve_units"]), (POINTS[1:], "1,Pa"))
-        self.assertEqual((ground["thickness"], ground["dissipation"], ground["area"]), (THICKNESS, 0.3, "projected"))
-        self.assertNotIn("stiffness", ground)
+        self.assertEqual((ground["thickness"], ground["dissipation"], ground["area"], "stiffness" in ground), (THICKNESS, 0.3, "projected", False))
         self.assertEqual(told["impacts"], self.impacts_of(*PHONE, *PAD, "--dissipation", "0.3"))
         springs = self.json_of("simulate", scene, "--impacts", "1", "--stiffness", "1e7")["scene"]["ground"]
-        self.assertEqual((springs["stiffness"], springs["damping"]), (1e7, 0))
-        self.assertNotIn("curve", springs)
+        self.assertEqual((springs["stiffness"], springs["damping"], "curve" in springs), (1e7, 0, False))
         swept = self.json_of("sweep", scene, "--model", "continuous", "--set", "run.impacts=1", "--set", "ground.thickness=0.03,0.06")
         peaks = [row["largest_peak_force"] for row in swept["rows"]]
         self.assertAlmostEqual(peaks[0] / told["impacts"][0]["peak_force"], 1, delta=1e-5)

@@ -45,17 +45,17 @@ class Sources(Folder):
             with self.subTest(command):
                 drop = (command, *FORMS[command], "--impacts", "2")
                 named, file = self.json_of(*drop, "phone-damped"), self.json_of(*drop, "mine.toml")
+                echoed = {key for key, _ in leaves(named["scene"]) if not key.startswith("discrete_law.")}
+                self.assertLessEqual(echoed - {"file"}, {key["key"] for key in self.keys()})
                 self.assertEqual(named["scene"].pop("file"), "validation/cases/phone-damped.toml")
                 self.assertEqual(file["scene"].pop("file"), "mine.toml")
                 flags = self.json_of(*drop, *self.flags_of(named["scene"]))
                 for part in ("scene",) if command == "plan" else named.keys() - {"times"}:  # a plan measures what a run takes
                     self.assertEqual((file[part], flags[part]), (named[part], named[part]), part)
 
-    def test_a_name_that_is_neither_a_file_nor_a_case_gets_the_nearest_case(self):
+    def test_a_name_that_is_neither_a_file_nor_a_case_gets_the_nearest_case_and_a_file_comes_before_a_case(self):
         for command in FORMS:
             self.refused("phone-dampd: neither a file nor a case; did you mean phone-damped?", command, *FORMS[command], "phone-dampd")
-
-    def test_a_file_comes_before_a_case_of_the_same_name(self):
         self.write("phone-damped", "[drop]\nangle_deg = 7\n")
         self.assertEqual(self.json_of("sequence", "phone-damped")["scene"]["drop"]["angle_deg"], 7)
 
@@ -69,12 +69,6 @@ class Sources(Folder):
         self.write("swept.toml", "[body]\nshape = 'box'\nsize = [1, 0.1, 0.1]\n[sweep]\nangle_deg = { from = 10, to = 20, step = 5 }\n")
         self.refused("give --angle", "sequence", "swept.toml")
         self.assertEqual(self.json_of("sequence", "swept.toml", "--angle", "12")["scene"]["drop"]["angle_deg"], 12)
-
-    def test_every_key_of_an_echo_is_a_row(self):
-        names = {key["key"] for key in self.keys()}
-        for name in ("phone-damped", "rod-10"):
-            scene = self.json_of("simulate", name, "--impacts", "1")["scene"]
-            self.assertLessEqual({key for key, _ in leaves(scene)} - {"file"}, names)
 
     def test_every_flag_of_simulate_that_is_a_key_s_is_in_its_help(self):
         for command in ("sequence", "simulate", "compare"):
@@ -97,10 +91,6 @@ class Sources(Folder):
         self.assertNotIn("--angle DEG", shock)
         self.refused("did you mean clatter sequence --angle", "--angle", "10")
 
-    def test_the_text_has_a_default_or_says_required(self):
-        for words in ("drop.angle_deg  --angle  (required)", "world.gravity  --gravity  (0)"):
-            self.assertIn(words, self.run_program("help", "keys").stdout)
-
     def test_the_file_runs_with_either_model(self):
         self.assertEqual(self.run_program("init", "new.toml").returncode, 0)
         self.refused("is there already", "init", "new.toml")
@@ -116,8 +106,7 @@ class Sources(Folder):
         for line in lines:
             self.write("one.toml", text.replace("# " + line, line))
             said = self.run_program("simulate", "one.toml", "--impacts", "1", "--digits", "3").stderr
-            self.assertNotIn("unknown", said, line)
-            self.assertNotIn("error while parsing", said.lower(), line)
+            self.assertNotRegex(said.lower(), "unknown|error while parsing", line)
 
     def test_its_probe_is_one_that_shock_takes(self):
         scene, probe = self.run_program("init").stdout.split("# [[probe]]")

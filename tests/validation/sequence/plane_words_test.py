@@ -16,10 +16,6 @@ def said(*arguments):
 
 
 class Words(EmptyFolder):
-    def test_the_sum_of_impulses_is_held_against_2_only_where_all_speed_returns(self):
-        for more, is_held in ((), True), (("--restitution", "0.5"), False), (("--gravity-number", "0.1"), False):
-            self.assertEqual("2 − ΣP" in run("angles", *more).stdout, is_held, more)
-
     def test_a_state_at_a_time_is_where_free_fall_and_the_slide_take_the_body(self):
         drop = ("sequence", "--body", "box", "--size", "0.2x0.1x0.1", "--angle", "0", "--gravity", "9.81", "--restitution", "0.4",
                 "--friction", "0.5", "--tangential-velocity", "6")
@@ -44,7 +40,6 @@ class Words(EmptyFolder):
         # m k² of a thin rod of 1 m and 1 kg is 1/12; P_t = μ P_n against a slip that has turned.
         normal = 1.5 / (1 + 0.75 / 4 * 12 - 0.3 * math.sqrt(3) / 16 * 12)
         self.assertAlmostEqual(moreau["impacts"][0]["impulse_normal"], normal, delta=1e-14)
-        self.assertGreater(abs(json_of("sequence", *drop)["impacts"][0]["impulse_normal"] - normal), 1e-3)
         self.assertIn(f"= {normal:.6f} N·s, normal impulse", run("explain", "1", *drop, "--impact-friction-law", "moreau").stdout)
         self.each_refused({"moreau --restitution-law poisson": "newton", "morea": "did you mean moreau"}, "sequence", *drop, "--impact-friction-law")
 
@@ -60,25 +55,17 @@ class Words(EmptyFolder):
     def test_a_time_before_the_first_impact_and_states_without_times_are_refused(self):
         self.each_refused({"--at=-1": "--at", "--rows states": "--rows states: needs --at or --rate"}, "sequence", "--angle", "10")
 
-    def test_the_impacts_that_are_counted_are_the_first_three(self):
-        self.assertIn("how many of the first three", said("angles"))
-        self.assertGreater(len(json_of("sequence", "--angle", "30", "--restitution", "0.2")["impacts"]), 3)
-        self.assertIn("of the first three impacts", said("angles", "--regimes", "--over", "restitution"))
-
     def test_where_a_later_impact_comes_the_table_says_that_it_counts_fewer(self):
         # Turned past upright the rod strikes again: end b, which angles does not count.
         drop = json_of("sequence", "--angle", "60", "--gravity", "0.1", "--impacts", "2")
         self.assertEqual(drop["impacts"][1]["end"], "b")
         self.assertGreater(drop["impacts"][1]["start"] * abs(drop["impacts"][0]["angular_velocity_after"][1]), math.radians(60 + 90))
         for more in ((), ("--as-printed",)):
-            for words in ("ends in turn and at contact angles up to 90°", "has turned past upright", "a later impact always comes", "1 value "):
-                self.assertIn(words, said("angles", "--from", "60", "--to", "60", "--gravity-number", "0.1", *more))
+            self.assertIn("a later impact always comes", said("angles", "--from", "60", "--to", "60", "--gravity-number", "0.1", *more))
         self.assertNotIn("always comes", run("angles").stdout)
         # Above an order line the same end strikes twice.
-        self.assertEqual(json_of("angles", "--regimes", "--gravity-number", "1.2")["rows"][0]["second"]["kind"], "order")
         self.assertEqual([impact["end"] for impact in json_of("sequence", "--angle", "88", "--gravity", "1.2", "--impacts", "2")["impacts"]], ["a", "a"])
-        for words in ("the end that struck last strikes again first, an impact that is not counted", "the boundary leaps"):
-            self.assertIn(words, said("angles", "--regimes"))
+        self.assertIn("the end that struck last strikes again first, an impact that is not counted", said("angles", "--regimes"))
 
     def test_windows_of_theta_between_two_rows_are_told(self):
         asked = ("angles", "--step", "2.5", "--gravity-number", "0.2")
@@ -92,13 +79,6 @@ class Words(EmptyFolder):
         self.assertNotIn("windows", run("angles", "--step", "0.05", "--gravity-number", "0.2").stdout)
         self.assertNotIn("γ, P₃", run(*asked, "--as-printed").stdout)
 
-    def test_impulses_of_a_rod_with_gravity_say_what_they_are_measured_in(self):
-        table = run("angles", "--from", "0", "--to", "0", "--gravity", "9.81", "--speed", "4.43").stdout
-        self.assertIn("g = 9.81 m/s², L = 1 m, |vₙ| = 4.43 m/s: G = 0.499875, e = 1", " ".join(table.split()))
-        self.assertNotIn("|vₙ| = 1,", table)
-        self.assertRegex(table, r"\n +° +° +° +m\|vₙ\| +m\|vₙ\| +m\|vₙ\|")
-        self.assertNotIn("|v_n|", run("angles").stdout + run("angles", "--regimes").stdout)
-
     def test_a_ratio_that_no_friction_gives_is_said_by_every_command(self):
         # The ratio that holds the end of the rod at 10 degrees is 3sc/(1 + 3s²) = 0.4705.
         for ratio, pushes in (("0.46", False), ("0.48", True), ("-0.1", True)):
@@ -110,34 +90,18 @@ class Words(EmptyFolder):
         # With loss the energy still falls, but the impulse pushes along the slip.
         lossy = run("sequence", "--angle", "10", "--impulse-ratio=-0.01", "--restitution", "0.5", "--impacts", "1").stderr
         self.assertIn("pushes the contact along its slip", lossy)
-        self.assertEqual(run("sequence", "--angle", "10", "--friction", "0.9", "--impacts", "1").stderr, "")
         found = re.search(r"below θ = ([\d.]+)° and above ([\d.]+)°, and creates energy there", said("angles", "--impulse-ratio", "0.48"))
         for angle in map(float, found.groups()):
             s, c = math.sin(math.radians(angle)), math.cos(math.radians(angle))
             self.assertAlmostEqual(3 * s * c / (1 + 3 * s * s), 0.48, delta=3e-3)
-        self.assertIn("creates energy where e = 1", said("angles", "--regimes", "--over", "impulse-ratio"))
-        self.assertIn("Stronge's law (--restitution-law stronge)", run("sequence", "--angle", "10", "--friction", "0.9").stderr)
-
-    def test_equation_9_is_shown_where_an_impulse_ratio_is_given(self):
-        for more, is_shown in ((("--impulse-ratio", "0.2"), True), ((), False)):
-            self.assertEqual("Eq. 9: the same in closed form" in run("explain", "1", "--angle", "30", *more).stdout, is_shown)
-
-    def test_contact_angles_have_the_names_of_the_paper_and_then_numbers(self):
-        for asked, there, absent in (("2 --angle 10", {"θ", "β"}, set()), ("3 --angle 10", {"β", "γ"}, {"θ"}),
-                                     ("4 --angle 30 --restitution 0.2", {"γ", "θ₄"}, set())):
-            symbols = set(re.findall(r"^ *(\S+) = ", run("explain", *asked.split()).stdout, re.MULTILINE))
-            self.assertEqual((symbols & there, symbols & absent), (there, set()), asked)
 
     def test_a_contact_slips_where_the_ratio_that_would_hold_it_is_above_friction(self):
         for friction, slips in (("0.46", True), ("0.48", False)):  # |B|/C = 0.4705 at 10 degrees
             told = run("explain", "1", "--angle", "10", "--friction", friction).stdout
-            self.assertEqual("r₀ = |B|/C" in told, slips, told)
-            for words in ("mode is " + ("slip" if slips else "stick"), f"μ = {friction}"):
-                self.assertIn(words, told)
+            self.assertEqual(("r₀ = |B|/C" in told, "mode is slip" in told), (slips, slips), told)
         # Slip that stops: |B|/C decides whether it sticks then or goes on the other way.
-        for friction, mode, words in (("0.1", "reverse-slip", "more than μ = 0.1"), ("0.6", "slip-stick", "at most μ = 0.6")):
-            told = said("explain", "1", "--angle", "10", "--friction", friction, "--tangential-velocity", "0.01")
-            self.assertTrue("mode is " + mode in told and words in told, told)
+        for friction, mode in (("0.1", "reverse-slip"), ("0.6", "slip-stick")):
+            self.assertIn("mode is " + mode, said("explain", "1", "--angle", "10", "--friction", friction, "--tangential-velocity", "0.01"))
 
     def test_why_they_differ_is_said_and_how_long_the_contact_is(self):
         contact = json_of("simulate", "phone-damped", "--impacts", "1")["impacts"][0]
@@ -146,13 +110,6 @@ class Words(EmptyFolder):
                           said("compare", "phone-damped", "--impacts", "2"))
         self.assertAlmostEqual(float(found[1]), 1e3 * contact["duration"], delta=5e-3)
         self.assertAlmostEqual(float(found[2]), 1e3 * flight, delta=5e-3)
-
-    def test_a_plan_tells_what_it_keeps_from_what_it_leaves_out(self):
-        self.assertIn("Kept, with the error that to leave it out would bring: friction", run("plan", "phone-damped", "--digits", "4").stdout)
-
-    def test_figures_says_what_it_wrote_and_what_draws_it(self):
-        done = run("verify", "--figures", "--only", "7", "8", "--output", self.path("new"))
-        self.assertEqual(done.stdout, f"2 files in {self.path('new')}; clatter verify --html FILE draws the figures\n")
 
     def test_the_example_of_the_reference_reads_json(self):
         path = os.path.dirname(PROGRAM) + os.pathsep + os.environ["PATH"]

@@ -3,16 +3,11 @@
 height of the peak and the speed of approach.
 
 The boxes are rigid and their patch is seen along the ground's normal, as Boussinesq's theory has it; there is neither
-friction nor damping.  This is held, the error of the grid counted against the program:
-- force in the pose of its peak: flats up to 10 times as long as wide within 3 %, the phone's narrowest side, 18 times, within
-  3.5 %; a cube's corner within 11 %, the phone's, on the diagonal and 10 degrees off, within 22 %; edges of 90 degrees up
-  to 50 times as long as the depth within 25 %.  Longer ones lack ever more, as a logarithm of the length: the phone's of
-  71 mm and 146 mm, dropped from 1 m, 27 % and 31 %; 32 % is held.  Corners and edges are never too hard;
-- the impact, by an integration of the free body, which may turn: peak force and duration within the root of that, which is
-  what a force in proportion to the depth makes of it, one that grows faster less; after a corner's the speed within 1 % of
-  that before, and the speed of turning within 2 %;
-- peaks in order: corner, edges by their length, faces.
-The grid errs by 0.05 % of a flat's force, 0.1 % of a cube's corner's, 0.9 % at most; the integration in time by 0.1 %.
+friction nor damping.  The error of the grid, 0.05 % of a flat's force, 0.1 % of a cube's corner's, 0.9 % at most, counts
+against the program; that of the integration in time is 0.1 %.  Corners and edges are never too hard.  Edges lack ever
+more as a logarithm of their length: the phone's of 71 mm and 146 mm, dropped from 1 m, 27 % and 31 %.  Peak force and
+duration of the impact, by an integration of the free body, which may turn, are held within the root of what the force
+is, which is what a force in proportion to the depth makes of it, one that grows faster less.
 
 The ground sinks by u under a pressure p as Boussinesq says; where the box touches it u is the depth g of the box below the
 ground at rest, elsewhere p = 0 and u > g.  The pressure is constant over each of a grid of equal rectangles; Love's closed

@@ -9,7 +9,7 @@ import re
 from pathlib import Path
 
 from run_folder import EmptyFolder, case, run, stl
-from space_folder import MASS, SIZE, box_faces, box_moments, product, rotated, turn
+from space_folder import MASS, SIZE, box_faces, box_moments, product, rotated, turn, turned_back
 
 SCENE = "[drop]\nangle_deg = 10\nspeed = 1\n[ground]\nstiffness = 1e8\n[run]\nimpacts = 2\n"
 GROUND, DROP = "[ground]\nstiffness = 1\n", "[drop]\nangle_deg = 1\n"
@@ -65,10 +65,13 @@ class Input(Folder):
             "rod-friction-sweep --sliding-friction 0.2": "--sliding-friction", "scene.toml --speed 1 --height 1": "not both",
             "scene.toml --height 0.001": "0.0"}, "simulate")
 
-    def test_a_flag_takes_the_place_of_its_key(self):
+    def test_a_flag_takes_the_place_of_its_key_and_one_friction_coefficient_is_both(self):
         scene = self.json(self.scene(), "--angle", "20", "--digits", "8", "--damping", "1e5", "--impacts", "1", "--planar")["scene"]
         self.assertEqual((scene["drop"]["angle_deg"], scene["ground"]["damping"]), (20, 1e5))
         self.assertEqual([scene["run"][key] for key in ("digits", "impacts", "planar")], [8, 1, True])
+        for flag in ("--static-friction", "--sliding-friction"):
+            ground = self.json(self.scene(), flag, "0.3", "--impacts", "1")["scene"]["ground"]
+            self.assertEqual((ground["static_friction"], ground["sliding_friction"]), (0.3, 0.3), flag)
 
     def test_height_and_speed_replace_each_other(self):
         drop = self.json(self.scene(), "--height", "2", "--impacts", "1")
@@ -76,11 +79,6 @@ class Input(Folder):
         self.assertIsNone(drop["scene"]["drop"]["speed"])
         touch = 0.5 * math.sin(math.radians(10)) + 0.01 * math.cos(math.radians(10))
         self.assertAlmostEqual(drop["impacts"][0]["approach_speed"], math.sqrt(2 * 9.81 * (2 - touch)), places=12)
-
-    def test_one_friction_coefficient_is_both(self):
-        for flag in ("--static-friction", "--sliding-friction"):
-            ground = self.json(self.scene(), flag, "0.3", "--impacts", "1")["scene"]["ground"]
-            self.assertEqual((ground["static_friction"], ground["sliding_friction"]), (0.3, 0.3), flag)
 
     def test_a_box_that_lies_askew_in_its_file_falls_like_the_box_that_it_is(self):
         # Turned in the file by what the drop's angle and tilt then take back, in mm.
@@ -122,8 +120,8 @@ class Input(Folder):
     def test_the_angular_velocity_is_along_the_axes_of_the_world(self):
         def momentum_of(row):
             """About the centre of mass, A I Aᵀ ω with the attitude's rotation A."""
-            b, *c = attitude = [row[f"beta{i}"] for i in range(4)]
-            spin = rotated((b, *(-x for x in c)), (row["wx"], row["wy"], row["wz"]))
+            attitude = [row[f"beta{i}"] for i in range(4)]
+            spin = turned_back(attitude, (row["wx"], row["wy"], row["wz"]))
             return rotated(attitude, [m * s for m, s in zip(box_moments(SIZE, MASS), spin)])
 
         path = self.scene("[drop]\nangle_deg = 20\ntilt_deg = 30\nspeed = 4\n[ground]\nstiffness = 1e8\n"

@@ -2,33 +2,14 @@
 """On which face bodies come to lie: by geometry, by symmetry, and by both models."""
 
 import collections
-import unittest
 
 from run_folder import EmptyFolder, json_of, rows_of, run
 
 # A block of 0.1 m x 0.05 m that stands on its edge, hardly moving, falls to the side of its centre of mass: its diagonal
 # stands upright at atan(2), 63.4 degrees.
-BLOCK = """
-[drop]
-angle_deg = 60
-speed = 0.01
-[world]
-gravity = 9.81
-[body]
-shape = "box"
-size = [0.1, 0.05, 0.05]
-mass = 0.3
-[impact]
-restitution = 0.2
-friction = 0.5
-[ground]
-stiffness = 1e7
-damping = 1e8
-static_friction = 0.5
-sliding_friction = 0.5
-[run]
-impacts = 100
-"""
+BLOCK = ("[drop]\nangle_deg = 60\nspeed = 0.01\n[world]\ngravity = 9.81\n[body]\nshape = 'box'\nsize = [0.1, 0.05, 0.05]\nmass = 0.3\n"
+         "[impact]\nrestitution = 0.2\nfriction = 0.5\n[ground]\nstiffness = 1e7\ndamping = 1e8\nstatic_friction = 0.5\nsliding_friction = 0.5\n"
+         "[run]\nimpacts = 100\n")
 COLUMNS = ("--columns", "rest_face,rest_time,rest_known")
 
 
@@ -43,11 +24,9 @@ class RestFace(EmptyFolder):
                 with self.subTest(model=model, angle=row["drop.angle_deg"]):
                     self.assertEqual(row["rest_face"], "-z" if float(row["drop.angle_deg"]) < 63.4 else "-x")
                     self.assertEqual(row["rest_known"], "true")
-        out = self.path("map.csv")
         run("map", self.block, "--over", "drop.angle_deg=40:80", "--over", "drop.speed=0.01:0.02", "--quantity", "rest_face",
-            "--size", "8x2", "--output", out)
-        words = self.read("map.csv")
-        self.assertEqual((words.count("-z"), words.count("-x")), (10, 6))
+            "--size", "8x2", "--output", self.path("map.csv"))
+        self.assertEqual([self.read("map.csv").count(face) for face in ("-z", "-x")], [10, 6])
 
     def test_followed_to_rest_it_is_the_same_face_with_its_time(self):
         (row,) = rows_of("sweep", self.block, "--set", "run.until_rest=true", "--model", "discrete")
@@ -85,7 +64,3 @@ class RestFace(EmptyFolder):
         rod = ("sequence", "--angle", "30", "--gravity", "9.81", "--restitution", "0.5", "--friction", "0.3")
         self.assertEqual(json_of(*rod, "--until-rest")["rest"]["face"], "side")
         self.assertNotIn("rest", json_of(*rod))
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -136,19 +136,8 @@ BOOST_AUTO_TEST_CASE(a_logarithmic_grid_has_clean_decades_and_both_its_ends) {
 
 BOOST_AUTO_TEST_CASE(a_list_is_taken_value_by_value) {
   const SweepAxis list = read_grid_axis("k", "20,10,45.5", false);
-  BOOST_TEST(list.count == 3);
-  BOOST_TEST((list.at(0) == 20 && list.at(1) == 10 && list.at(2) == 45.5));
+  BOOST_TEST((list.count == 3 && list.at(0) == 20 && list.at(1) == 10 && list.at(2) == 45.5));
   BOOST_TEST((list.first == 10 && list.last == 45.5));  // the ends are what the scene is checked at
-}
-
-BOOST_AUTO_TEST_CASE(the_last_axis_of_a_grid_varies_fastest) {
-  const SweepPoints points({read_grid_axis("a", "1:3:1", false), read_grid_axis("b", "10:40:10", false)});
-  BOOST_TEST(points.count() == 12);
-  BOOST_TEST(values_of(points, 0) == (std::vector<double>{1, 10}));
-  BOOST_TEST(values_of(points, 1) == (std::vector<double>{1, 20}));
-  BOOST_TEST(values_of(points, 4) == (std::vector<double>{2, 10}));
-  BOOST_TEST(values_of(points, 11) == (std::vector<double>{3, 40}));
-  BOOST_TEST(SweepPoints(std::vector<SweepAxis>{}).count() == 1);
 }
 
 BOOST_AUTO_TEST_CASE(axes_that_make_no_sense_are_refused_by_name) {
@@ -359,24 +348,6 @@ BOOST_AUTO_TEST_CASE(every_number_of_a_scene_can_be_put_where_the_reader_puts_it
   BOOST_TEST(put >= 30);
 }
 
-BOOST_AUTO_TEST_CASE(only_the_discrete_model_takes_a_scene_without_ground) {
-  const SceneValues bare("scene.toml", "[drop]\nangle_deg = 10\n", scene_keys());
-  BOOST_CHECK_EXCEPTION(static_cast<void>(read_scene(bare, {}, Model::continuous)), BadInput,
-                        mentions("ground.stiffness: required"));
-  BOOST_TEST(scene_value(read_scene(bare, {}, Model::discrete)).at("ground").at("stiffness").is_nothing());
-}
-
-BOOST_AUTO_TEST_CASE(a_thin_rod_is_meshed_with_a_hundredth_of_its_length_as_radius) {
-  const SceneValues grounded("scene.toml", "[drop]\nangle_deg = 10\n[body]\nlength = 3\n[ground]\nstiffness = 1\n",
-                             scene_keys());
-  const Scene scene = read_scene(grounded, {}, Model::continuous);
-  BOOST_TEST(scene.body.radius == 0);
-  double across = 0;
-  const clatter::numeric::Body body = scene.make_body();
-  for (const clatter::numeric::Vector3& vertex : body.facets().vertices) across = std::max(across, vertex.z());
-  BOOST_TEST(std::fabs(across - 0.03) <= 1e-15);
-}
-
 BOOST_AUTO_TEST_CASE(rows_that_come_in_any_order_are_taken_in_that_of_their_scenes) {
   RangeQueue queue({3, 25}, 10);
   const SceneRange a = *queue.hand_out(), b = *queue.hand_out(), c = *queue.hand_out();
@@ -415,28 +386,7 @@ BOOST_AUTO_TEST_CASE(nothing_is_handed_out_while_too_many_rows_wait_for_a_slow_s
   BOOST_TEST(queue.hand_out().has_value());
 }
 
-BOOST_AUTO_TEST_CASE(any_number_of_threads_writes_the_same_and_what_they_throw_is_thrown_on) {
-  const auto written = [](int threads) {
-    RangeQueue queue({0, 1000}, 7);
-    std::string text;
-    const SweepHooks hooks{[&](const RangeRows& rows) { text += rows.text; }, [] {}, [] { return false; }};
-    run_on_threads(
-        queue, threads,
-        [](const auto&) {
-          return [](const SceneRange& range) {
-            RangeRows rows;
-            for (; rows.scenes < range.count; ++rows.scenes)
-              rows.text += std::to_string(range.first + rows.scenes) + "\n";
-            return rows;
-          };
-        },
-        hooks);
-    return text;
-  };
-  std::string expected;
-  for (int i = 0; i < 1000; ++i) expected += std::to_string(i) + "\n";
-  for (const int threads : {1, 2, 3, 16}) BOOST_TEST(written(threads) == expected);
-
+BOOST_AUTO_TEST_CASE(what_threads_throw_is_thrown_on) {
   RangeQueue queue({0, 1000}, 7);
   const SweepHooks hooks{[](const RangeRows&) {}, [] {}, [] { return false; }};
   const MakeCompute fails = [](const auto&) {
@@ -497,7 +447,7 @@ BOOST_AUTO_TEST_CASE(a_part_of_another_sweep_is_refused_and_kept) {
   const auto refused = [](const std::string& text, const char* why) {
     const Folder folder;
     write_text(folder.at("x.part"), text);
-    BOOST_CHECK_EXCEPTION(SweepFile(folder.at("x"), form, false), BadInput, mentions(why));
+    CHECK_REFUSED_SAYING(SweepFile(folder.at("x"), form, false), BadInput, why);
     BOOST_TEST(text_of(folder.at("x.part")) == text);
   };
   refused("# other\nindex,x\n0,1\n", "('# other' there, '# head' here)");
