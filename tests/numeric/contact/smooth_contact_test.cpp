@@ -27,8 +27,6 @@ ContactLoad load_of(const SmoothShape& shape, const Ground& ground, const Ground
 
 void check_close(double value, double expected, double bound) { BOOST_TEST(std::fabs(value - expected) <= bound); }
 
-}  // namespace
-
 BOOST_AUTO_TEST_CASE(a_ball_presses_with_the_volume_of_its_cap_or_the_depth_over_its_surface) {
   Random random(1);
   for (int i = 0; i < 300; ++i) {
@@ -172,8 +170,6 @@ BOOST_AUTO_TEST_CASE(load_rates_and_friction_are_those_of_ever_finer_facets) {
   }
 }
 
-namespace {
-
 /// ∫f v/√(v² + v_r²) over a cap, f the pressure times the measure: heights by Gauss's rule, places around by
 /// trapezoids.
 SlipLoad summed(const SmoothShape& shape, const Ground& ground, const GroundView& view, const SlipField& field) {
@@ -203,7 +199,14 @@ SlipLoad summed(const SmoothShape& shape, const Ground& ground, const GroundView
   return load;
 }
 
-}  // namespace
+void check_rubbing(const SmoothShape& shape, const Ground& ground, const GroundView& view, const SlipField& field,
+                   double tolerance) {
+  const auto surface = contact_surface(body_of(shape), ground);
+  const double force = surface->load(view).force;
+  const SlipLoad load = surface->slip_load(view, field), sum = summed(shape, ground, view, field);
+  check_close(load.east, sum.east, tolerance * force);
+  check_close(load.north, sum.north, tolerance * force);
+}
 
 BOOST_AUTO_TEST_CASE(a_cap_that_spins_rubs_as_the_sum_over_its_surface_wherever_nothing_slips) {
   constexpr double tolerance = 1e-10, spin = 10;
@@ -222,13 +225,8 @@ BOOST_AUTO_TEST_CASE(a_cap_that_spins_rubs_as_the_sum_over_its_surface_wherever_
       const AreaMeasure area = part < 1 ? AreaMeasure::projected : AreaMeasure::surface;
       const Ground ground = with_friction({.stiffness = 1, .damping = 0.1, .area = area}, 1);
       const SlipField field{.kind = SlipField::Kind::points, .digits = 11, .regularisation = 0.03 * spin * width};
-      const auto surface = contact_surface(body_of(shape), ground);
-      const double force = surface->load(view).force;
-      const SlipLoad load = surface->slip_load(view, field), sum = summed(shape, ground, view, field);
-      BOOST_TEST_CONTEXT("semiaxes " << semiaxes.transpose() << ", nothing slips at " << part << " of the width") {
-        check_close(load.east, sum.east, tolerance * force);
-        check_close(load.north, sum.north, tolerance * force);
-      }
+      BOOST_TEST_CONTEXT("semiaxes " << semiaxes.transpose() << ", nothing slips at " << part << " of the width")
+      check_rubbing(shape, ground, view, field, tolerance);
     }
   }
 }
@@ -249,18 +247,11 @@ BOOST_AUTO_TEST_CASE(a_cap_that_rolls_and_hardly_spins_rubs_as_the_sum_over_its_
     const Vector3 slip = rolling * depth * (random(-1, 1) * across + 0.3 * random(-1, 1) * along);
     view.east_speed = (slip - lowest).dot(view.east);
     view.north_speed = (slip - lowest).dot(view.north);
-    const Ground ground{.stiffness = 1,
-                        .damping = 0,
-                        .static_friction = 1,
-                        .sliding_friction = 1,
-                        .area = i % 4 < 2 ? AreaMeasure::projected : AreaMeasure::surface};
+    const AreaMeasure area = i % 4 < 2 ? AreaMeasure::projected : AreaMeasure::surface;
+    const Ground ground = with_friction({.stiffness = 1, .area = area}, 1);
     const SlipField field{.kind = SlipField::Kind::points, .digits = 11, .regularisation = 0.05 * rolling * depth};
-    const auto surface = contact_surface(body_of(shape), ground);
-    const double force = surface->load(view).force;
-    const SlipLoad load = surface->slip_load(view, field), sum = summed(shape, ground, view, field);
-    BOOST_TEST_CONTEXT("case " << i) {
-      check_close(load.east, sum.east, tolerance * force);
-      check_close(load.north, sum.north, tolerance * force);
-    }
+    BOOST_TEST_CONTEXT("case " << i) check_rubbing(shape, ground, view, field, tolerance);
   }
 }
+
+}  // namespace

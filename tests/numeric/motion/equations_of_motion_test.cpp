@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "numeric/motion/equations_of_motion.hpp"
 
-#include <Eigen/LU>
-
 #include "numeric/contact/contact_system.hpp"
 #include "tests/numeric/bodies.hpp"
 #include "tests/numeric/support.hpp"
@@ -12,17 +10,18 @@ namespace {
 using namespace clatter::numeric;
 using namespace clatter::numeric::test;
 
-/// Inertia of a cloud of eight points about their centre.
-BodyInertia random_body(Random& random) {
-  Vector3 points[8], centre = Vector3::Zero();
+/// Eight unit masses about their centre.
+std::array<Vector3, 8> random_cloud(Random& random) {
+  std::array<Vector3, 8> points;
+  Vector3 centre = Vector3::Zero();
   for (Vector3& point : points) centre += (point = random.vector()) / 8;
-  BodyInertia result;
-  for (const Vector3& point : points) {
-    const Matrix3 arm = skew(point - centre);
-    result.inertia += arm.transpose() * arm;
-    result.mass += 1;
-  }
-  return result;
+  for (Vector3& point : points) point -= centre;
+  return points;
+}
+BodyInertia inertia_of(const std::array<Vector3, 8>& points) {
+  BodyInertia body{.mass = 8};
+  for (const Vector3& u : points) body.inertia += u.squaredNorm() * Matrix3::Identity() - u * u.transpose();
+  return body;
 }
 
 MotionState random_state(Random& random) {
@@ -31,8 +30,6 @@ MotionState random_state(Random& random) {
           .velocity = random.vector(),
           .angular_velocity = random.vector(10)};
 }
-
-}  // namespace
 
 BOOST_AUTO_TEST_CASE(the_matrices_of_the_euler_parameters_have_their_properties) {
   Random random(5);
@@ -70,7 +67,7 @@ BOOST_AUTO_TEST_CASE(the_paper_s_equations_are_those_of_newton_and_euler) {
   constexpr double tolerance = 1e-12;
   Random random(5);
   for (int i = 0; i < 500; ++i) {
-    BodyInertia body = random_body(random);
+    BodyInertia body = inertia_of(random_cloud(random));
     const MotionState state = random_state(random);
     const double size = i % 4 == 0 ? 1e-13 : 1;  // a light and small body is solved as well
     body.mass *= size;
@@ -121,18 +118,14 @@ BOOST_AUTO_TEST_CASE(a_body_in_contact_is_accelerated_as_the_paper_s_equations_s
 BOOST_AUTO_TEST_CASE(the_mass_matrix_and_velocity_force_are_the_paper_s_integrals) {
   // The integrals over a cloud of unit masses, summed as they are printed (with ω̃′ω̃′ for ω̃′ω̃′ᵀ).
   Random random(5);
-  Vector3 points[8], centre = Vector3::Zero();
-  for (Vector3& point : points) centre += (point = random.vector()) / 8;
-  BodyInertia body;
+  const std::array<Vector3, 8> points = random_cloud(random);
+  const BodyInertia body = inertia_of(points);
   const MotionState state = random_state(random);
   const Vector4 beta = euler_parameters(state.attitude);
   const Matrix3 a = state.attitude.toRotationMatrix(), w = skew(state.angular_velocity);
   Matrix7 mass_matrix = Matrix7::Zero();
   Vector7 velocity_force = Vector7::Zero();
-  for (const Vector3& point : points) {
-    const Vector3 u = point - centre;
-    body.mass += 1;
-    body.inertia += u.squaredNorm() * Matrix3::Identity() - u * u.transpose();
+  for (const Vector3& u : points) {
     Eigen::Matrix<double, 3, 7> row;
     row << Matrix3::Identity(), -a * skew(u) * rate_matrix(beta);
     mass_matrix += row.transpose() * row;
@@ -150,3 +143,5 @@ BOOST_AUTO_TEST_CASE(a_body_without_mass_or_inertia_is_refused) {
   for (const Matrix3& inertia : {Matrix3(-unit), Matrix3(0 * unit), Matrix3(unit * not_a_number)})
     BOOST_CHECK_THROW(NewtonEuler(1, inertia), std::domain_error);
 }
+
+}  // namespace

@@ -61,8 +61,6 @@ struct Scene {
   MotionState start;
 };
 
-}  // namespace
-
 /// Nothing slips and nothing tips: P = 2 m v and no more.  The pressure centre's way was once divided by the force that
 /// fades.
 BOOST_AUTO_TEST_CASE(a_flat_or_upright_landing_with_friction_is_the_plain_rebound) {
@@ -261,17 +259,6 @@ BOOST_AUTO_TEST_CASE(a_body_of_any_size_moves_like_one_of_a_metre) {
     BOOST_TEST((turning(size) - one).norm() <= 1e-8 * one.norm());
 }
 
-/// The contact of a body that slides without friction never ends.
-BOOST_AUTO_TEST_CASE(a_body_that_nothing_stops_slides_on_and_the_run_ends_with_that) {
-  const Body body = box_body({0.3, 0.2, 0.1}, 1);
-  const Ground ground{.stiffness = 1e6, .damping = 1e7, .area = AreaMeasure::projected};
-  const Simulation run =
-      simulate(body, {.ground = ground}, touching_state(body, {.velocity = {0.7, 0, -0.5}}), plain_impacts(100));
-  BOOST_TEST((run.outcome == Outcome::sustained_contact));
-  BOOST_TEST(run.final_state.velocity.x() == 0.7, boost::test_tools::tolerance(1e-9));
-  BOOST_TEST(0.05 - run.final_state.centre.z() == 9.81 / (1e6 * 0.06), boost::test_tools::tolerance(1e-4));
-}
-
 /// What a contact costs at a loose tolerance is the search for its events: bisecting them would take twice as many.
 BOOST_AUTO_TEST_CASE(few_evaluations_find_where_a_damped_contact_ends) {
   const Body body = phone();
@@ -303,3 +290,5 @@ BOOST_AUTO_TEST_CASE(random_scenes_with_friction_end_in_numbers) {
     }
   }
 }
+
+}  // namespace
