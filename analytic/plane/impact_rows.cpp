@@ -108,13 +108,29 @@ void Drop::validate() const {
   law.validate();
   require(law.ratio_direction == Eigen::Vector2d::UnitX(), "impulse ratio's direction along x", law.ratio_direction.x(),
           "1 in the plane");
+  // What was assigned member by member may be no angle: one of them alone would be taken.
+  const auto is_near = [](double one, double other) {
+    return std::fabs(one - other) <= 1e-15 * std::fmax(1, std::fabs(other));
+  };
+  if (!is_near(inclination.sine, std::sin(inclination.radians)) ||
+      !is_near(inclination.cosine, std::cos(inclination.radians)) ||
+      !is_near(inclination.degrees, inclination.radians * degrees_per_radian))
+    throw std::domain_error(
+        "inclination: its members are those of different angles; Angle::from_degrees and from_radians make one");
   require(std::fabs(inclination.radians) <= pi, "inclination", inclination.degrees, "from -180 to 180 degrees");
   require(gravity >= 0 && std::isfinite(gravity), "gravity", gravity, "at least 0 and finite");
   require(std::isfinite(gravity_along), "gravity along the ground", gravity_along, "finite");
   require(std::isfinite(velocity.normal), "normal velocity", velocity.normal, "finite");
   require(std::isfinite(velocity.tangential), "tangential velocity", velocity.tangential, "finite");
   require(std::isfinite(velocity.angular), "spin", velocity.angular, "finite");
-  require(body.vertex_count >= 1, "vertex count", body.vertex_count, "at least 1");
+  require(body.vertex_count >= 1 && body.vertex_count <= max_vertices, "vertex count", body.vertex_count,
+          "from 1 to 4");
+  require(body.mass > 0 && std::isfinite(body.mass), "mass", body.mass, "greater than 0 and finite");
+  for (int i = 0; i < body.vertex_count; ++i) {
+    const Vertex& vertex = body.vertices[static_cast<std::size_t>(i)];
+    require(std::isfinite(vertex.x) && std::isfinite(vertex.z), "vertex", std::isfinite(vertex.x) ? vertex.z : vertex.x,
+            "finite");
+  }
   // k² of lengths beyond 1e±150 m overflows or loses its digits.
   require(std::isnormal(body.gyration_square) && body.gyration_square > 0, "gyration radius squared",
           body.gyration_square, "a positive double that is not subnormal");

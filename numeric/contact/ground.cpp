@@ -33,8 +33,10 @@ double Ground::pressed_depth(double depth) const {
 void Ground::validate() const {
   using detail::require;
   require(modulus >= 0, "ground.modulus", modulus, "finite and at least 0");
-  if (has_dissipation()) require(dissipation >= 0, "ground.dissipation", dissipation, "finite and at least 0");
-  else require(damping >= 0, "ground.damping", damping, "finite and at least 0");
+  require(dissipation >= 0, "ground.dissipation", dissipation, "finite and at least 0");
+  require(damping >= 0, "ground.damping", damping, "finite and at least 0");
+  if (has_dissipation()) require(damping == 0, "ground.damping", damping, "0: this ground has dissipation");
+  else require(dissipation == 0, "ground.dissipation", dissipation, "0: this ground has damping");
   if (!is_half_space()) require(stiffness > 0, "ground.stiffness", stiffness, "finite and greater than 0");
   require_rising(kinks);
   require(sliding_friction >= 0, "ground.sliding_friction", sliding_friction, "finite and at least 0");

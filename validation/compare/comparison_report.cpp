@@ -389,7 +389,7 @@ Report comparison_report(const Scene& scene, const Comparison& comparison) {
   add_comparison(comparison, {}, report.fields, report.grid);
   if (const std::string facets = facet_words(scene, comparison.run); !facets.empty()) {
     report.head.push_back(facets);
-    report.fields["message"] = verdict_words(comparison) + "; " + facets;
+    report.fields["message"] = verdict_words(comparison) + " " + facets;
   }
   const bool in_space = comparison.discrete.in_space;
   report.digest->columns = {{"n", "n", ""},

@@ -200,6 +200,18 @@ BOOST_AUTO_TEST_CASE(what_is_no_drop_or_no_request_is_refused) {
   recedes.velocity.angular = 10;
   CHECK_REFUSED(impact_sequence(recedes, {}), std::domain_error);
   CHECK_REFUSED(impact_sequence(rod_drop(30), {.impacts = 0}), std::domain_error);
+  const auto with = [](auto&& change) {
+    Drop drop = rod_drop(30);
+    change(drop);
+    return impact_sequence(drop, {});
+  };
+  CHECK_REFUSED_SAYING(with([](Drop& drop) { drop.inclination.degrees = 40; }), std::domain_error, "inclination");
+  CHECK_REFUSED_SAYING(with([](Drop& drop) { drop.inclination.radians = 0.5; }), std::domain_error, "inclination");
+  CHECK_REFUSED_SAYING(with([](Drop& drop) { drop.inclination.sine = 0.6; }), std::domain_error, "inclination");
+  CHECK_REFUSED_SAYING(with([](Drop& drop) { drop.body.vertex_count = 5; }), std::domain_error, "vertex count");
+  for (const double mass : {0.0, -1.0, not_a_number})
+    CHECK_REFUSED_SAYING(with([&](Drop& drop) { drop.body.mass = mass; }), std::domain_error, "mass");
+  CHECK_REFUSED_SAYING(with([](Drop& drop) { drop.body.vertices[1].z = not_a_number; }), std::domain_error, "vertex");
   CHECK_REFUSED(impact_sequence(rod_drop(30), {.digits = 16}), std::domain_error);
   for (const double degrees : {181.0, -200.0}) CHECK_REFUSED(symmetric_scenes[0].run(degrees, 1), std::domain_error);
   // Bodies whose k² overflows or vanishes; their rows had wrong impulses and energies that are no numbers.

@@ -493,6 +493,16 @@ BOOST_AUTO_TEST_CASE(a_flat_drop_goes_as_deep_as_the_curve_takes_its_energy_up) 
   }
 }
 
+BOOST_AUTO_TEST_CASE(a_number_that_the_ground_would_not_use_is_refused) {
+  Ground{.damping = 0, .modulus = 1e9, .dissipation = 0.1}.validate();
+  Ground{.stiffness = 1e8, .damping = 1e5}.validate();
+  CHECK_REFUSED_SAYING((Ground{.damping = 1e5, .modulus = 1e9}.validate()), std::domain_error, "ground.damping");
+  CHECK_REFUSED_SAYING((Ground{.stiffness = 1e8, .dissipation = 0.1}.validate()), std::domain_error,
+                       "ground.dissipation");
+  CHECK_REFUSED_SAYING((Ground{.stiffness = 1e8, .damping = 1, .kinks = {{0.01, 2}}}.validate()), std::domain_error,
+                       "ground.damping");
+}
+
 BOOST_AUTO_TEST_CASE(curves_that_fall_or_go_back_are_refused) {
   const auto with = [](std::vector<Kink> kinks) { return Ground{.stiffness = 1e6, .kinks = std::move(kinks)}; };
   with({{0.01, -1}, {0.02, 3}}).validate();
