@@ -200,7 +200,7 @@ void Sink::open_temporary() {
 
 void Sink::fail(const char* what) const {
   const int error = errno;
-  if (path_.empty()) throw std::runtime_error(fmt::format("standard output: {} ({})", what, std::strerror(error)));
+  if (path_.empty()) throw BadInput("standard output: {} ({})", what, std::strerror(error));
   throw BadInput("{} {}: {} ({})", option_, path_, what, std::strerror(error));
 }
 

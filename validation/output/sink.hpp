@@ -70,7 +70,7 @@ class Sink {
   Sink(const Sink&) = delete;
   Sink& operator=(const Sink&) = delete;
 
-  /// Both throw BadInput naming the file, or std::runtime_error naming stdout, if it cannot be written; ReaderGone.
+  /// Both throw BadInput naming the file or stdout if it cannot be written; ReaderGone.
   void write(std::string_view text);
   void commit();
   /// Whether nothing can be seen of what is written before commit().

@@ -100,6 +100,12 @@ const Argument* find_option(const Command& command, const std::string& name) {
   for (const Argument& argument : command.arguments) {
     if (argument.name == name && argument.is_option()) return &argument;
   }
+  if (command.name.empty() && name == "--mpi") {
+    throw BadInput(
+        "--mpi: is of ./clatter in the sources, which builds clatter-mpi; installed beside clatter, mpirun -n N "
+        "clatter "
+        "takes it");
+  }
   const auto is_flag_of_scenes = [&](const Key& key) { return key.flag == name; };
   if (command.name.empty() && std::any_of(all_keys().begin(), all_keys().end(), is_flag_of_scenes))
     throw BadInput("{}: a command comes first; did you mean clatter sequence {}?", name, name);

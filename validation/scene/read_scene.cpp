@@ -281,9 +281,16 @@ void check_start(const SceneValues& values, const Scene& scene, Model model) {
     values.refuse("drop.velocity", "along the ground with drop.start = \"rest\"");
 }
 
-void check_drop(const SceneValues& values, Scene& scene) {
+/// Whether a motion that cannot be refuses the scene, or is left to whoever runs it.
+enum class Motion { required, left_open };
+
+void check_drop(const SceneValues& values, Scene& scene, Motion of_scene) {
   const bool swept = scene.sweep && scene.sweep->quantity == SceneSweep::Quantity::angle_deg;
-  scene.settle();
+  try {
+    scene.settle();
+  } catch (const BadInput&) {
+    if (of_scene == Motion::required || !scene.topple) throw;
+  }
   if (!scene.attitude.empty()) {
     const char* const key = scene.release.attitude.empty() ? "drop.attitude" : "drop.release.attitude";
     if (!is_attitude(scene.attitude)) values.refuse(key, key_named(key).allowed());
@@ -367,7 +374,8 @@ void make_room_for_mesh(SceneValues& values, const std::vector<SceneOverride>& o
   values.set("body.shape", "--mesh", "mesh");
 }
 
-Scene read_values(SceneValues values, const std::vector<SceneOverride>& overrides, Model model) {
+Scene read_values(SceneValues values, const std::vector<SceneOverride>& overrides, Model model,
+                  Motion of_scene = Motion::required) {
   values.call_by(key_flags());
   for (const Alternative& pair : alternatives()) refuse_both(overrides, pair.instead_of, pair.key);
   refuse_both(overrides, "run.tolerance", "run.step");
@@ -396,14 +404,14 @@ Scene read_values(SceneValues values, const std::vector<SceneOverride>& override
   put_values(values, scene, model);
   check_sweep(values, scene);
   check_start(values, scene, model);
-  check_drop(values, scene);
+  check_drop(values, scene, of_scene);
   check_accuracy(values, scene.accuracy);
   values.exclude("impact.impulse_ratio", "impact.friction");
   check_body(values, scene.body);
   check_ground(values, scene, model);
   check_impact(values, scene);
   if (model == Model::continuous && std::isfinite(scene.request.until)) scene.request.impacts = scene.most_impacts();
-  scene.settle_restitution();
+  if (of_scene == Motion::required) scene.settle_restitution();
   std::ranges::sort(scene.times);
   if (!scene.times.empty() && scene.times.front() < 0 && !scene.is_released())
     values.refuse("run.at", "times from 0 on: the motion begins with the first impact where there is no drop.release");
@@ -494,6 +502,15 @@ std::string name_of_source(const std::string& path) {
 
 Scene read_scene(const SceneValues& values, const std::vector<SceneOverride>& overrides, Model model) {
   return read_values(values, overrides, model);
+}
+
+Scene read_scene_of_any_motion(const SceneValues& values, const std::vector<SceneOverride>& overrides, Model model) {
+  Scene scene = read_values(values, overrides, model, Motion::left_open);
+  try {
+    scene.settle_restitution();
+  } catch (const BadInput&) {  // which the run will tell
+  }
+  return scene;
 }
 
 Scene read_scene(const std::string& source, const std::vector<SceneOverride>& overrides, Model model) {

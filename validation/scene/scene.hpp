@@ -247,6 +247,10 @@ struct TouchMotion {
 
 /// @throws BadInput with one line "file:line:column: key ..." or "--flag ...".
 [[nodiscard]] Scene read_scene(const SceneValues& values, const std::vector<SceneOverride>& overrides, Model model);
+/// The same for one of many scenes, which is itself to say that it topples too far or that its first contact does not
+/// come down: then its ground has no damping from ground.restitution.
+[[nodiscard]] Scene read_scene_of_any_motion(const SceneValues& values, const std::vector<SceneOverride>& overrides,
+                                             Model model);
 [[nodiscard]] Scene read_scene(const std::string& source, const std::vector<SceneOverride>& overrides,
                                Model model = Model::continuous);
 

@@ -43,26 +43,18 @@ toml::table parse(const std::string& path, std::string_view text) {
   }
 }
 
-/// The text of a file, or of a pipe, which has no length and may not end.
-std::string text_of(const std::string& path) {
-  constexpr std::size_t longest = 16 << 20;
-  std::ifstream file(path, std::ios::binary);
-  std::string text;
-  std::array<char, 1 << 16> block;
-  while (file.read(block.data(), block.size()), file.gcount() > 0) {
-    text.append(block.data(), static_cast<std::size_t>(file.gcount()));
-    if (text.size() > longest) throw BadInput("{}: longer than any scene, 16 MB", path);
-  }
-  if (!file.is_open() || file.bad()) throw BadInput("{}: cannot be read", path);
-  return text;
-}
-
 /// Refuses what is plainly of another kind, about which the parser would only say at which byte it gave up.
 void refuse_other_files(const std::string& path, std::string_view text) {
   const std::string_view begin = text.substr(0, 4096);
   const auto is_control = [](char c) { return (c >= 0 && c < ' ' && (c < '\t' || c > '\r')) || c == '\x7f'; };
   if (std::any_of(begin.begin(), begin.end(), is_control))
     throw BadInput("{}: is a binary file; a scene is a text (TOML), as clatter init writes it", path);
+  if (begin.starts_with("# clatter ") && begin.find("\n# scene: {") != std::string_view::npos) {
+    throw BadInput(
+        "{}: is what clatter computed, no scene; --summary sums drops up as they are computed: give the sweep's own "
+        "SCENE and keys",
+        path);
+  }
   std::istringstream lines{std::string(begin)};
   for (std::string line; std::getline(lines, line);) {
     const std::size_t first = line.find_first_not_of(" \t\r\xEF\xBB\xBF");
@@ -72,6 +64,22 @@ void refuse_other_files(const std::string& path, std::string_view text) {
     if (is_table) throw BadInput("{}: is a table of values (CSV); a scene is TOML, as clatter init writes it", path);
     return;
   }
+}
+
+/// The text of a file, or of a pipe, which has no length and may not end.
+std::string text_of(const std::string& path) {
+  constexpr std::size_t longest = 16 << 20;
+  std::ifstream file(path, std::ios::binary);
+  std::string text;
+  std::array<char, 1 << 16> block;
+  while (file.read(block.data(), block.size()), file.gcount() > 0) {
+    text.append(block.data(), static_cast<std::size_t>(file.gcount()));
+    if (text.size() <= longest) continue;
+    refuse_other_files(path, text);
+    throw BadInput("{}: longer than any scene, 16 MB", path);
+  }
+  if (!file.is_open() || file.bad()) throw BadInput("{}: cannot be read", path);
+  return text;
 }
 
 toml::table parse(const std::string& path) {

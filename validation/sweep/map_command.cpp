@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <fmt/format.h>
 
+#include <filesystem>
+#include <fstream>
 #include <optional>
 
 #include "validation/command/command.hpp"
@@ -54,6 +56,7 @@ class PixelValues {
     return plan.counts() ? "" : fmt::format("all pixels have the same {}: {}", plan.quantity->name, value_);
   }
 
+  [[nodiscard]] long long count() const { return count_; }
   /// The exit status: 3 if a pixel that is one drop could not be computed, which is said, else 0.
   [[nodiscard]] int status() const {
     if (not_computed_ == 0) return 0;
@@ -85,6 +88,26 @@ class MapOutput {
   }
 
   [[nodiscard]] int status() const { return values_.status(); }
+
+  /// Whether FILE is there already, of this very map and whole, and none is being made anew.
+  /// @throws BadInput if another file is there; a picture or an array does not say of which map it is
+  [[nodiscard]] bool is_done() {
+    std::error_code error;
+    if (const auto size = std::filesystem::file_size(file_.path(), error); error || size == 0) return false;
+    if (!is_csv()) {
+      throw BadInput("--output {}: is there already, and does not say of which map; --restart overwrites it", path_);
+    }
+    std::ifstream file(file_.path(), std::ios::binary);
+    if (!is_own_file(path_, file, csv_head(plan_.report(), false)) || first() > 0) return false;
+    PixelValues found;
+    for (std::string row; std::getline(file, row) && !file.eof();) found.add(read_map_row(row).at(2).value);
+    if (found.count() != plan_.columns * plan_.rows) {
+      say(fmt::format("{} is not whole after {} pixels, and is computed anew", path_, found.count()));
+      return false;
+    }
+    values_ = found;
+    return true;
+  }
 
   /// The part goes last: a picture that fails to be drawn or written needs it again.
   void commit() {
@@ -139,8 +162,12 @@ void check_map_output(const MapInput& input) {
 int write_map(const MapInput& input, const MapPlan& plan, int threads, const MakeCompute& make, Ranks& ranks) {
   const CooperativeInterrupt interrupt;
   MapOutput output(input, plan);
+  if (!input.restart && output.is_done()) {
+    say(fmt::format("{} is complete, nothing is left to do; --restart computes it anew", input.output));
+    return output.status();
+  }
   RangeQueue queue({output.first(), plan.rows - output.first()}, map_range(plan));
-  if (output.first() > 0) say(fmt::format("goes on at row {} of {}", output.first() + 1, plan.rows));
+  if (output.first() > 0) say(fmt::format("goes on after {} of {} rows", output.first(), plan.rows));
   RunProgress progress(output.first(), plan.rows, "rows");
   SweepHooks hooks;
   hooks.write = [&](const RangeRows& rows) { output.write(rows); };
@@ -183,7 +210,9 @@ constexpr const char* map_footer =
     "that rounding or a fold leaves open is marked and counted, in NPY nan; infinitely many impacts are inf there.\n"
     "With --samples N each pixel is the part of N drops that are of the class, random in what --set KEY=LOW:HIGH "
     "leaves open; CSV and\n"
-    "NPY have Wilson's interval beside it. An interrupted map goes on when the same command is given again.";
+    "NPY have Wilson's interval beside it. An interrupted map goes on when the same command is given again.\n"
+    "Any other FILE that is not empty is refused without --restart; so is a whole picture or array, which does not\n"
+    "say of which map it is.";
 
 }  // namespace
 

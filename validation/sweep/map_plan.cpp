@@ -135,6 +135,7 @@ SweepRequest sweep_request(const MapRequest& request) {
   sweep.random = 1;
   sweep.seed = request.seed;
   sweep.model = Model::discrete;
+  sweep.takes_other_model = false;
   return sweep;
 }
 

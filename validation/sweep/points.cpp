@@ -231,13 +231,22 @@ SweepAxis read_attitude_axis(const std::string& key, const std::string& text) {
   return axis;
 }
 
-SceneRange read_scene_range(const std::string& text, long long count) {
-  const std::size_t colon = std::min(text.find(':'), text.size());
-  long long from = 0, to = 0;
-  if (!read_integer(text.substr(0, colon), from) || !read_integer(text.substr(std::min(colon + 1, text.size())), to) ||
-      !(0 <= from && from <= to && to < count))
-    throw BadInput(fmt::format("--scenes '{}': must be FROM:TO, whole numbers from 0 to {}", text, count - 1));
-  return {from, to - from + 1};
+PickedScenes read_scenes(const std::string& text, long long count) {
+  const auto refuse = [&](const std::string& why) { throw BadInput(fmt::format("--scenes '{}': {}", text, why)); };
+  std::vector<long long> numbers;
+  for (std::size_t begin = 0; begin <= text.size();) {
+    const std::size_t end = std::min(text.find(':', begin), text.size());
+    if (!read_integer(text.substr(begin, end - begin), numbers.emplace_back())) numbers.back() = -1;
+    begin = end + 1;
+  }
+  if (numbers.size() == 2) numbers.push_back(1);
+  const bool are_scenes =
+      numbers.size() == 3 && 0 <= numbers[0] && numbers[0] < count && 0 <= numbers[1] && numbers[1] < count;
+  if (!are_scenes || numbers[2] < 1)
+    refuse(fmt::format("must be FROM:TO or FROM:TO:STEP, whole numbers, FROM and TO from 0 to {}, STEP from 1",
+                       count - 1));
+  if (numbers[0] > numbers[1]) refuse("FROM must not be greater than TO");
+  return {.first = numbers[0], .count = (numbers[1] - numbers[0]) / numbers[2] + 1, .step = numbers[2]};
 }
 
 SweepPoints::SweepPoints(std::vector<SweepAxis> grid) : axes_(std::move(grid)) {

@@ -33,8 +33,17 @@ using SweptAttitude = std::array<double, 4>;
 struct SceneRange {
   long long first = 0, count = 0;
 };
-/// FROM:TO, both taken, of `count` scenes.  @throws BadInput naming what was given and what is allowed
-[[nodiscard]] SceneRange read_scene_range(const std::string& text, long long count);
+/// Scenes first, first + step, ..., `count` of them.
+struct PickedScenes {
+  long long first = 0, count = 0, step = 1;
+
+  /// The number of the scene at a place, from 0.
+  [[nodiscard]] long long at(long long place) const { return first + place * step; }
+  [[nodiscard]] long long last() const { return at(count - 1); }
+};
+/// FROM:TO, both taken, or FROM:TO:STEP, from FROM by STEP as far as TO, of `count` scenes.
+/// @throws BadInput naming what was given and what is allowed
+[[nodiscard]] PickedScenes read_scenes(const std::string& text, long long count);
 
 /// The values that one key takes: numbers or attitudes.
 struct SweepAxis {

@@ -163,6 +163,11 @@ std::vector<Column> result_columns(const RowLayout& layout) {
   const bool of_impacts = layout.rows == RowKind::impact;
   std::vector<Column> columns = of_impacts ? columns_of_impacts(layout) : scene_columns(layout);
   if (of_impacts) columns.push_back(outcome_column());
+  if (layout.warns) {
+    columns.push_back(word_column("warning", "warning",
+                                  "what the law does that no contact does: it creates energy, or an impulse ratio "
+                                  "pushes along the slip"));
+  }
   columns.push_back(
       word_column("reason", "reason", "why it has no numbers, or fewer impacts or digits than asked for"));
   return columns;
@@ -283,6 +288,21 @@ void append_part_of(CellWriter& out, const Entry& entry, std::size_t part, Writt
   std::visit(append, entry);
 }
 
+/// Takes the last cell and the comma before it off a row of CSV.  @returns it without its quotes
+std::string_view take_last_cell(std::string_view& row) {
+  const bool is_quoted = row.ends_with('"');
+  std::size_t begin = is_quoted ? row.size() - 1 : row.rfind(',') + 1;
+  while (is_quoted) {  // a quote within the text is doubled
+    begin = row.rfind('"', begin - 1);
+    if (begin == 0 || row[begin - 1] != '"') break;
+    --begin;
+  }
+  std::string_view cell = row.substr(begin);
+  row.remove_suffix(cell.size() + (begin > 0 ? 1 : 0));
+  if (is_quoted) cell = cell.substr(1, cell.size() - 2);
+  return cell;
+}
+
 /// Place of the impact with the largest normal impulse, the first of equal ones.
 std::size_t hardest_of(const std::vector<Impact>& impacts) {
   const auto is_softer = [](const Impact& one, const Impact& other) {
@@ -314,15 +334,21 @@ void append_asked(const RowForm& form, const Run& run, bool of_errors) {
   }
 }
 
-/// Ends a row of an impact.
-void append_ending(const RowForm& form, const char* outcome) {
-  form.out.word(outcome);
+/// Ends a row.
+void append_ending(const RowForm& form) {
+  if (form.layout.warns) form.out.word(form.warning);
   form.out.word(form.reason);
   form.out.end_row();
 }
 
+/// Ends a row of an impact.
+void append_ending(const RowForm& form, const char* outcome) {
+  form.out.word(outcome);
+  append_ending(form);
+}
+
 void append_empty_row(const RowForm& form, std::optional<int> impacts, const char* outcome) {
-  const std::size_t columns = result_columns(form.layout).size();
+  const std::size_t columns = result_columns(form.layout).size() - (form.layout.warns ? 1 : 0);
   form.out.copy(form.prefix);
   if (form.layout.rows == RowKind::impact) {
     form.out.nothing(columns - 2);
@@ -332,8 +358,7 @@ void append_empty_row(const RowForm& form, std::optional<int> impacts, const cha
   else form.out.nothing();
   form.out.word(outcome);
   form.out.nothing(columns - 3);
-  form.out.word(form.reason);
-  form.out.end_row();
+  append_ending(form);
 }
 
 /// The numbers of the probes, empty where nothing struck.
@@ -386,8 +411,7 @@ void append_scene_row(const RowForm& form, const Run& run) {
       append_error(shock.impact > 0 ? (shock.*number.value).error : unknown_error);
     });
   }
-  form.out.word(form.reason);
-  form.out.end_row();
+  append_ending(form);
 }
 
 }  // namespace
@@ -510,7 +534,7 @@ void append_rows(const RowForm& form, const Run& run) {
 
 void append_failure(const RowForm& form, const char* outcome) { append_empty_row(form, {}, outcome); }
 
-ShortfallCount::ShortfallCount(const RowLayout& layout, bool packed) : packed_(packed) {
+ShortfallCount::ShortfallCount(const RowLayout& layout, bool packed) : packed_(packed), warns_(layout.warns) {
   const std::vector<Column> columns = sweep_columns(layout);
   while (columns.at(outcome_).name != "outcome") ++outcome_;
   cells_.resize(columns.size());
@@ -518,7 +542,10 @@ ShortfallCount::ShortfallCount(const RowLayout& layout, bool packed) : packed_(p
 
 void ShortfallCount::add(std::string_view rows) {
   for (PackedRows packed(rows); packed_ && packed.next(cells_);) {
-    count(std::to_string(static_cast<long long>(cells_.front().number)), cells_[outcome_].text, cells_.back().text);
+    count(std::to_string(static_cast<long long>(cells_.front().number)),
+          {.outcome = cells_[outcome_].text,
+           .warning = warns_ ? cells_[cells_.size() - 2].text : std::string_view(),
+           .reason = cells_.back().text});
   }
   while (!packed_ && !rows.empty()) {
     const std::size_t end = std::min(rows.find('\n'), rows.size());
@@ -528,7 +555,12 @@ void ShortfallCount::add(std::string_view rows) {
   }
 }
 
-void ShortfallCount::count(std::string_view index, std::string_view outcome, std::string_view reason) {
+void ShortfallCount::count(std::string_view index, const Words& row) {
+  const auto& [outcome, warning, reason] = row;
+  if (!warning.empty() && index != last_warned_) {
+    last_warned_ = index;
+    ++warned_;
+  }
   if (outcome == outcome_name(analytic::Outcome::impact_limit) && index != last_cut_) {
     last_cut_ = index;
     ++cut_;
@@ -540,13 +572,12 @@ void ShortfallCount::count(std::string_view index, std::string_view outcome, std
 }
 
 void ShortfallCount::add_row(std::string_view row) {
-  std::string_view rest = row;
-  for (std::size_t i = 0; i < outcome_; ++i) rest.remove_prefix(rest.find(',') + 1);
-  const bool is_quoted = row.back() == '"';
-  const std::size_t begin = is_quoted ? row.find('"') : row.rfind(',');
-  std::string_view reason = row.substr(begin + 1);
-  if (is_quoted) reason.remove_suffix(1);
-  count(row.substr(0, row.find(',')), rest.substr(0, rest.find(',')), reason);
+  const std::string_view index = row.substr(0, row.find(','));
+  std::string_view outcome = row;
+  for (std::size_t i = 0; i < outcome_; ++i) outcome.remove_prefix(outcome.find(',') + 1);
+  outcome = outcome.substr(0, outcome.find(','));
+  const std::string_view reason = take_last_cell(row), warning = warns_ ? take_last_cell(row) : std::string_view();
+  count(index, {.outcome = outcome, .warning = warning, .reason = reason});
 }
 
 }  // namespace clatter::validation

@@ -34,6 +34,7 @@ struct RowLayout {
   Model model = Model::discrete;
   RowKind rows = RowKind::scene;
   bool in_space = false;  ///< whether a scene may leave its plane
+  bool warns = false;     ///< whether rows say what the law does that no contact does: those of the discrete model
   std::vector<std::string> swept{};
   std::vector<ImpactColumn> asked{};  ///< with rows of scenes
   std::vector<std::string> named{};   ///< columns asked for that these rows have anyway
@@ -69,7 +70,7 @@ void read_impact_columns(const std::string& names, int impacts, RowLayout& layou
 ///     in the continuous model the largest specific force [g], which impact that is and how long it stays above a tenth
 ///     [s], in both the largest change of its velocity over an impact [m/s] and which impact that is, both once more of
 ///     the first landing, and with a part its least margin and that of the first landing with their impacts, the error
-///     of each of these numbers, reason;
+///     of each of these numbers, in the discrete model warning, reason;
 /// or per impact what `clatter sequence` and `clatter simulate` write as CSV, the scene's outcome and reason; where
 /// scenes may leave their plane, what `clatter sequence` writes in space.
 /// The reason says why a scene has no numbers, fewer impacts than asked for or fewer digits than required; else it is
@@ -122,6 +123,7 @@ struct RowForm {
   bool errors = true;       ///< whether errors were asked for
   bool predictions = true;  ///< whether their growth was
   std::string reason;
+  std::string warning{};                   ///< what the law does that no contact does
   std::vector<LargestShock> shocks{};      ///< of the layout's probes
   std::optional<RestFace> rest{};          ///< where the layout asks for it
   std::optional<Estimated> curve_depth{};  ///< of a pad: depth in the first landing over that of its last point
@@ -132,7 +134,7 @@ void append_rows(const RowForm& form, const Run& run);
 void append_failure(const RowForm& form, const char* outcome);
 
 /// Counts the scenes that fall short of what was asked, those with a reason that were neither refused nor outside the
-/// model, and those that end at run.impacts.
+/// model, those that end at run.impacts, and those that warn.
 class ShortfallCount {
  public:
   ShortfallCount(const RowLayout& layout, bool packed);
@@ -143,18 +145,26 @@ class ShortfallCount {
   [[nodiscard]] const Shortfalls& found() const { return found_; }
   /// Scenes that end at run.impacts, where more impacts may follow.
   [[nodiscard]] long long cut() const { return cut_; }
+  /// Scenes whose rows have a warning.
+  [[nodiscard]] long long warned() const { return warned_; }
 
  private:
   void add_row(std::string_view row);
-  void count(std::string_view index, std::string_view outcome, std::string_view reason);
+  /// The texts of a row.
+  struct Words {
+    std::string_view outcome, warning, reason;
+  };
+  void count(std::string_view index, const Words& row);
 
-  bool packed_;
+  bool packed_, warns_;
   std::size_t outcome_ = 0;  ///< place of that column
   std::vector<PackedCell> cells_;
   Shortfalls found_;
   std::string last_;  ///< index of the last of them
   long long cut_ = 0;
   std::string last_cut_;
+  long long warned_ = 0;
+  std::string last_warned_;
 };
 
 }  // namespace clatter::validation

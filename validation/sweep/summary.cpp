@@ -326,6 +326,14 @@ std::vector<std::size_t> Summary::remarked(Report& report) const {
       counts += fmt::format("{}{}: {}", counts.empty() ? "" : "; ", columns_[i].name, tally_words(tally));
   }
   report.notes.push_back(outcome);
+  const auto warning =
+      static_cast<std::size_t>(std::ranges::find(columns_, "warning", &Column::name) - columns_.begin());
+  if (warning < columns_.size() && !texts_[warning].empty()) {
+    const long long warned = std::accumulate(texts_[warning].begin(), texts_[warning].end(), 0LL,
+                                             [](long long sum, const auto& text) { return sum + text.second; });
+    report.notes.push_back(
+        fmt::format("warning: {} rows, as {}", warned, std::ranges::min_element(texts_[warning])->first));
+  }
   if (!counts.empty()) report.notes.push_back(counts);
   std::vector<std::size_t> columns;
   if (const auto by = ranking(); by && numbers_[*by].histogram.count() > 0) columns.push_back(*by);

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <filesystem>
+#include <fstream>
 #include <iterator>
 #include <map>
 #include <memory>
@@ -364,7 +366,7 @@ struct SweepInput {
   SweepRequest request;
   std::string output;  ///< empty: stdout
   std::optional<int> threads;
-  bool restart = false;
+  bool restart = false, check = false;
   std::optional<Format> format;
   bool ascii = false, bare = false;
   PlotChoice plot;
@@ -392,6 +394,75 @@ bool writes_file(const SweepInput& input) {
          !destination_of({"--output", input.output}).is_stream;
 }
 
+ColumnFileHead column_head(const SweepPlan& plan, const Report& report) {
+  ColumnFileHead head{
+      .columns = report.grid.columns, .truths = truth_columns(plan.layout), .attributes = {{"title", report.title}}};
+  for (const char* name : {"scene", "body"}) {
+    const Value* const value = report.fields.find(name);
+    if (value != nullptr) head.attributes.emplace_back(name, compact_json(*value));
+  }
+  head.attributes.emplace_back("sweep", fmt::format("{}", fmt::join(report.remarks, "\n")));
+  return head;
+}
+
+/// As CSV's head has them.
+std::string lines_of(const ColumnFileHead& head) {
+  std::string lines;
+  for (const auto& [name, text] : head.attributes) {
+    std::istringstream parts(text);
+    for (std::string part; std::getline(parts, part);)
+      lines += name == "title" || name == "sweep" ? fmt::format("# {}\n", part) : fmt::format("# {}: {}\n", name, part);
+  }
+  return lines;
+}
+
+/// What FILE has of a sweep.
+struct FileThere {
+  FoundRows rows;
+  std::string fell_short;  ///< of its scenes, in words; empty: none
+};
+
+/// None: there is no such file, or an empty one.  @throws BadInput if it is there and not of this sweep
+std::optional<FileThere> file_there(const SweepInput& input, const SweepPlan& plan) {
+  const std::string path = destination_of({"--output", input.output}).path;
+  std::error_code error;
+  if (const auto size = std::filesystem::file_size(path, error); error || size == 0) return {};
+  const Report report = plan.report();
+  FileThere there;
+  if (is_hdf5(input)) {
+    const ColumnFileHead own = column_head(plan, report);
+    const auto head = read_hdf5_head(path, own);
+    std::istringstream lines(head ? lines_of(*head) : "no HDF5 of a sweep\n");
+    if (!is_own_file(input.output, lines, lines_of(own))) return there;
+    const auto is_there = head->rows == plan.range.last();
+    there.rows = {.scenes = is_there ? plan.range.count : 0, .last = head->rows};
+    if (!is_there) there.rows.amiss = fmt::format("its last row is of scene {}", head->rows);
+    there.fell_short = head->fell_short;
+    return there;
+  }
+  if (input.bare) {
+    throw BadInput(
+        "--output {}: is there already, and without comments does not say of which sweep; --restart "
+        "overwrites it",
+        input.output);
+  }
+  std::ifstream file(path, std::ios::binary);
+  if (!is_own_file(input.output, file, csv_head(report, false))) {
+    there.rows.amiss = "its head is cut";
+    return there;
+  }
+  std::vector<double> values;
+  const ExpectedRows expected{
+      .scenes = plan.range, .has_one_each = plan.layout.rows == RowKind::scene, .begins = [&](long long scene) {
+        plan.points.at(scene, values);
+        return row_prefix(scene, values, false);
+      }};
+  ShortfallCount found(plan.layout, false);
+  there.rows = find_rows(file, expected, [&](std::string_view row) { found.add(row); });
+  there.fell_short = found.found().words(plan.range.count, "scenes");
+  return there;
+}
+
 /// Where the rows go: a file that can be taken up again, or stdout or a device; forms other than CSV are written when
 /// all rows are there, and a summary keeps none.
 class SweepOutput {
@@ -416,29 +487,19 @@ class SweepOutput {
 
   [[nodiscard]] long long first() const { return file_ ? file_->scenes() : 0; }
   [[nodiscard]] long long cut() const { return shortfalls_.cut(); }
+  [[nodiscard]] long long warned() const { return shortfalls_.warned(); }
   /// "4 of 1000 scenes fall short; 17: WHY"; empty: none does.
   [[nodiscard]] std::string fell_short() const {
     return fell_short_ ? *fell_short_ : shortfalls_.found().words(plan_.range.count, "scenes");
   }
   /// Whether the file is there already, of this very sweep and with all of its scenes, and none is being made anew.
-  /// @throws BadInput if it is there of another sweep
-  [[nodiscard]] bool is_done() {
-    if (!file_ || first() > 0) return false;
-    const long long last = plan_.range.first + plan_.range.count - 1;
-    ShortfallCount found(plan_.layout, false);
-    bool is_whole = false;
-    if (!hdf5_) {
-      is_whole = file_->is_complete(csv_head(report_, style_.bare), plan_.range.first, last,
-                                    [&](auto row) { found.add(row); });
-      fell_short_ = found.found().words(plan_.range.count, "scenes");
-    } else if (const auto head = read_hdf5_head(file_->path(), column_head())) {
-      std::istringstream there(lines_of(*head));
-      is_whole = file_->is_own(there, lines_of(column_head())) && head->rows == last;
-      fell_short_ = head->fell_short;
-    }
-    is_whole = is_whole && !plot_.is_wanted() && !style_.bare;
-    if (!is_whole) fell_short_.reset();
-    return is_whole;
+  /// @throws BadInput if another file is there
+  [[nodiscard]] bool is_done(const SweepInput& input) {
+    const std::optional<FileThere> there = file_ ? file_there(input, plan_) : std::nullopt;
+    if (!there || first() > 0 || plot_.is_wanted()) return false;
+    if (there->rows.is_whole()) fell_short_ = there->fell_short;
+    else say(fmt::format("{} is not whole after scene {}, and is computed anew", file_->path(), there->rows.last));
+    return there->rows.is_whole();
   }
   void write(const RangeRows& rows) {
     shortfalls_.add(rows.text);
@@ -465,7 +526,15 @@ class SweepOutput {
 
  private:
   void write_rows() {
-    if (file_ && hdf5_) return file_->commit([this](const std::string& path) { write_hdf5(path); });
+    if (file_ && hdf5_) {
+      return file_->commit([this](const std::string& path) {
+        try {
+          write_hdf5(path);
+        } catch (const std::runtime_error& error) {  // a full disk, as of any other file
+          throw BadInput("--output {}: {}", file_->path(), error.what());
+        }
+      });
+    }
     if (file_) return file_->commit();
     if (!is_csv()) write_report();
     stream_->commit();
@@ -485,27 +554,8 @@ class SweepOutput {
     stream_->write(report_text(report_, style_));
   }
 
-  [[nodiscard]] ColumnFileHead column_head() const {
-    ColumnFileHead head{.columns = report_.grid.columns,
-                        .truths = truth_columns(plan_.layout),
-                        .attributes = {{"title", report_.title}}};
-    for (const char* name : {"scene", "body"}) {
-      const Value* const value = report_.fields.find(name);
-      if (value != nullptr) head.attributes.emplace_back(name, compact_json(*value));
-    }
-    head.attributes.emplace_back("sweep", fmt::format("{}", fmt::join(report_.remarks, "\n")));
-    return head;
-  }
-
-  /// As CSV's head has them.
-  [[nodiscard]] static std::string lines_of(const ColumnFileHead& head) {
-    std::string lines;
-    for (const auto& [name, text] : head.attributes) lines += fmt::format("# {}: {}\n", name, text);
-    return lines;
-  }
-
   void write_hdf5(const std::string& path) {
-    ColumnFileHead head = column_head();
+    ColumnFileHead head = column_head(plan_, report_);
     head.fell_short = fell_short();
     std::vector<PackedCell> row(head.columns.size());
     if (plan_.layout.rows == RowKind::scene) head.rows = plan_.range.count;
@@ -574,13 +624,12 @@ void check_output(const SweepInput& input) {
 
 /// Computes what the output lacks, as far as it comes.
 void fill(SweepOutput& output, RangeQueue& queue, const SweepWork& what, Ranks& ranks) {
-  const SceneRange& range = what.plan.range;
-  RunProgress progress(queue.taken() - range.first, range.count, "scenes");
+  RunProgress progress(queue.taken(), what.plan.range.count, "scenes");
   SweepHooks hooks;
   hooks.write = [&](const RangeRows& rows) { output.write(rows); };
   hooks.tick = [&] {
     output.write({});
-    progress.tick(queue.taken() - range.first);
+    progress.tick(queue.taken());
   };
   hooks.stop = [&] { return what.interrupt.requested(); };
   compute_ranges(queue, what.threads, runners_of(what.plan, what.body), hooks, ranks);
@@ -591,26 +640,54 @@ int run_sweep(const SweepInput& input, const SweepPlan& plan, const SweepBody& b
   const CooperativeInterrupt interrupt;
   SweepOutput output(input, plan);
   const long long scenes = plan.range.count;
-  const bool is_done = !input.restart && output.is_done();
+  const bool is_done = !input.restart && output.is_done(input);
   const long long first = is_done ? scenes : output.first();
   if (is_done) say(fmt::format("{} is complete, nothing is left to do; --restart computes it anew", input.output));
-  else if (first > 0 && first < scenes)
-    say(fmt::format("goes on at {} {} of {}", plan.layout.rows == RowKind::scene ? "row" : "scene", first + 1, scenes));
-  RangeQueue queue({plan.range.first + first, scenes - first}, range_size(plan));
+  else if (first > 0 && first < scenes) say(fmt::format("goes on after {} of {} scenes", first, scenes));
+  RangeQueue queue({first, scenes - first}, range_size(plan));
   fill(output, queue, {plan, body, threads, interrupt}, ranks);
   if (queue.is_complete()) {
     if (!is_done) {
       output.commit();
-      for (const std::string& remark : plan.remarks(input.request.summary ? 0 : output.cut())) say(remark);
+      for (const std::string& remark : plan.remarks(input.request.summary ? 0 : output.cut(), output.warned()))
+        say(remark);
     }
     const std::string short_of = output.fell_short();
     if (!short_of.empty()) say(short_of);
     return short_of.empty() ? 0 : exit_status(FailureKind::not_computed);
   }
-  const std::string words = fmt::format("interrupted after {} of {} scenes", queue.taken() - plan.range.first, scenes);
+  const std::string words = fmt::format("interrupted after {} of {} scenes", queue.taken(), scenes);
   output.leave(words);
   if (writes_file(input)) say(words + "; the same command goes on");
   return interrupted_status;
+}
+
+/// Says what FILE lacks of the sweep, and computes nothing.
+int check_file(const SweepInput& input, const SweepPlan& plan) {
+  if (!writes_file(input) || input.bare)
+    throw BadInput("--check: needs --output with a file of CSV or HDF5, comments and all");
+  if (input.restart) throw BadInput("--restart: must be left out with --check, which computes nothing");
+  const std::optional<FileThere> there = file_there(input, plan);
+  constexpr int failed = 1;  // a check
+  if (!there) {
+    say(fmt::format("{} is not there: all of {} scenes are missing", input.output, plan.range.count));
+    return failed;
+  }
+  const FoundRows& rows = there->rows;
+  if (rows.is_whole()) {
+    say(fmt::format("{} is whole, with {} scenes", input.output, rows.scenes));
+    if (!there->fell_short.empty()) say(there->fell_short);
+    return 0;
+  }
+  if (!rows.missing.empty()) {
+    constexpr std::size_t most = 20;
+    const std::size_t shown = std::min(rows.missing.size(), most);
+    say(fmt::format("{} lacks {} of {} scenes: {}{}", input.output, plan.range.count - rows.scenes, plan.range.count,
+                    fmt::join(rows.missing.begin(), rows.missing.begin() + static_cast<std::ptrdiff_t>(shown), ", "),
+                    shown < rows.missing.size() ? fmt::format(" and {} more gaps", rows.missing.size() - shown) : ""));
+  }
+  if (!rows.amiss.empty()) say(fmt::format("{} is not in order: {}", input.output, rows.amiss));
+  return failed;
 }
 
 int run_command(const SweepInput& input, Ranks& ranks) {
@@ -621,6 +698,7 @@ int run_command(const SweepInput& input, Ranks& ranks) {
   plan.packed = input.request.summary || is_hdf5(input);
   const int threads = thread_count(input.threads, ranks);
   check_output(input);
+  if (input.check) return ranks.writes() ? check_file(input, plan) : 0;
   if (ranks.writes()) say_doubts(plan.scene, plan.layout.model, plan.layout.probes);
   // A body that cannot be made is bad input, but a row's where it is swept.
   const SweepBody body = plan.body_values.empty() ? make_sweep_body(plan, plan.scene) : SweepBody{};
@@ -640,6 +718,7 @@ constexpr const char* sweep_footer =
     "has\n"
     "the largest normal impulse.\n"
     "An interrupted sweep goes on when the same command is given again; of a complete FILE it says so and leaves it.\n"
+    "Any other FILE that is not empty is refused without --restart.\n"
     "The discrete model takes the impact.* keys.\n"
     "Continuous scenes are planned for run.digits. Each number has a column with its error, empty where that is not "
     "known.\n"
@@ -663,8 +742,9 @@ void add_request_options(Command& command, SweepRequest& request) {
   command.add(
       {.name = "--scenes",
        .target = &request.scenes,
-       .type = "FROM:TO",
-       .help = "of all the scenes only these, numbered and drawn as without it; a task of an array has its own"});
+       .type = "FROM:TO[:STEP]",
+       .help = "of all the scenes only these, numbered and drawn as without it; a task of an array has its own, and "
+               "0:LAST:STEP is a fair sample of what all cost"});
   command.add({.name = "--probe",
                .target = &request.probes,
                .type = "NAME:X,Y,Z",
@@ -692,6 +772,10 @@ Command sweep_command() {
             "with the command that shows each extreme");
         command.add(format_argument(input.format,
                                     "form of the output (csv); others are written at the end, and not taken up again"));
+        command.add_flag(
+            "--check", input.check,
+            "only says what FILE lacks, status 1 if anything: the rows' order, numbers and keys are looked "
+            "at, not their results");
         command.add_flag("--ascii", input.ascii, "plain ASCII in tables");
         command.add_flag("--bare", input.bare, "CSV without comments");
         command.add_flag("--no-errors", request.no_errors,

@@ -112,13 +112,84 @@ std::string difference(const std::string& there, const std::string& here) {
   return fmt::format("{} is {} there, {} here", name, one, other);
 }
 
-/// In what a file differs from the head that it should begin with; empty: it begins with it, or ends within it, and is
-/// then at its end.
-std::string difference(std::istream& file, const std::string& head) {
-  std::istringstream lines(head);
-  for (std::string there, here; std::getline(lines, here) && std::getline(file, there);)
-    if (there != here && !(file.eof() && here.starts_with(there))) return difference(there, here);
-  return "";
+/// Where a scene, a mesh or a list of attitudes lay is left out: what is in it has lines of its own.
+std::string without_paths(const std::string& line) {
+  const std::size_t cut = line.find(": ");
+  if (line.starts_with("# set: drop.attitude = @")) return line.substr(0, line.find('@'));
+  if (!line.starts_with("# scene: ")) return line;
+  nlohmann::ordered_json scene = nlohmann::ordered_json::parse(line.substr(cut + 2), nullptr, false);
+  if (!scene.is_object()) return line;
+  scene.erase("file");
+  const nlohmann::ordered_json::json_pointer mesh("/body/mesh");
+  if (scene.contains(mesh) && scene.at(mesh).is_object()) scene.at(mesh).erase("file");
+  return line.substr(0, cut + 2) + scene.dump();
+}
+
+/// A line of a head, under what it tells of: "scene", "set: drop.angle_deg"; the names of the columns under "".
+struct NamedLine {
+  std::string name, line;
+  bool operator==(const NamedLine&) const = default;
+  /// Whether it follows from the other lines.
+  [[nodiscard]] bool follows() const { return name.empty() || name == "units"; }
+  [[nodiscard]] std::string value() const { return line.substr(std::min(name.size() + 4, line.size())); }
+};
+
+std::vector<NamedLine> named_lines(const std::string& head) {
+  std::vector<NamedLine> lines;
+  std::istringstream text(head);
+  for (std::string line; std::getline(text, line);) {
+    const std::size_t end = std::min(line.find(line.starts_with("# set: ") ? " = " : ": "), line.size());
+    const std::string name = !line.starts_with("# ") ? "" : lines.empty() ? "title" : line.substr(2, end - 2);
+    lines.push_back({name, without_paths(line)});
+  }
+  return lines;
+}
+
+/// In what two heads differ, in words; empty: in nothing.
+std::string difference_of_heads(const std::string& there, const std::string& here) {
+  std::vector<NamedLine> others = named_lines(there), own = named_lines(here);
+  std::erase_if(own, [&](const NamedLine& line) {
+    const auto same = std::ranges::find(others, line);
+    const bool is_there = same != others.end();
+    if (is_there) others.erase(same);
+    return is_there;
+  });
+  const auto follow_last = [](std::vector<NamedLine>& lines) {
+    std::ranges::stable_partition(lines, [](const NamedLine& line) { return !line.follows(); });
+  };
+  follow_last(own), follow_last(others);
+  for (const NamedLine& line : own) {
+    const auto other = std::ranges::find(others, line.name, &NamedLine::name);
+    if (other != others.end() && !line.follows()) return difference(other->line, line.line);
+  }
+  if (!own.empty() && !own.front().follows())
+    return fmt::format("{} is nothing there, {} here", own.front().name, own.front().value());
+  if (!others.empty() && !others.front().follows())
+    return fmt::format("{} is {} there, nothing here", others.front().name, others.front().value());
+  if (own.empty() && others.empty()) return "";
+  return difference(others.empty() ? "" : others.front().line, own.empty() ? "" : own.front().line);
+}
+
+/// What a file has in the place of a head.
+struct HeadThere {
+  std::string text{};        ///< all its lines of comments and the next one
+  std::string difference{};  ///< in words; empty: it says the same, or ends within it
+  bool is_whole = false;     ///< and is followed by rows, if any
+};
+
+HeadThere read_head(std::istream& file, const std::string& head) {
+  HeadThere found;
+  const bool has_columns = !std::string_view(head).substr(head.rfind('\n', head.size() - 2) + 1).starts_with("# ");
+  bool is_comment = true;
+  for (std::string line; is_comment && std::getline(file, line);) {
+    is_comment = line.starts_with("# ");
+    found.text += line + (file.eof() ? "" : "\n");
+  }
+  const bool is_cut = found.text.empty() || found.text.back() != '\n' || is_comment == has_columns;
+  if (is_cut && head.starts_with(found.text)) return found;
+  found.difference = difference_of_heads(found.text, head);
+  found.is_whole = found.difference.empty() && !is_cut;
+  return found;
 }
 
 bool truncate_to(int file, long long bytes) {
@@ -126,6 +197,50 @@ bool truncate_to(int file, long long bytes) {
 }
 
 }  // namespace
+
+bool is_own_file(const std::string& path, std::istream& there, const std::string& head) {
+  const HeadThere found = read_head(there, head);
+  if (found.difference.empty()) return found.is_whole;
+  const std::string_view kind = head.find(", map: ") < head.find('\n') ? "map" : "sweep";
+  const std::size_t title = found.text.find(fmt::format(", {}: ", kind));
+  const bool is_of_its_kind = found.text.starts_with("# clatter ") && title < found.text.find('\n');
+  throw BadInput("--output {}: is there already, {}; --restart overwrites it", path,
+                 is_of_its_kind ? fmt::format("of another {} ({})", kind, found.difference)
+                                : fmt::format("and is not of this {}", kind));
+}
+
+FoundRows find_rows(std::istream& rows, const ExpectedRows& expected,
+                    const std::function<void(std::string_view row)>& take) {
+  const PickedScenes& scenes = expected.scenes;
+  FoundRows found;
+  long long before = -1;  // place of the scene of the row before
+  const auto lack = [&](long long first, long long last) {
+    if (first > last) return;
+    found.missing.push_back(first == last ? std::to_string(scenes.at(first))
+                                          : fmt::format("{} to {}", scenes.at(first), scenes.at(last)));
+  };
+  std::string begins;
+  for (std::string row; std::getline(rows, row);) {
+    long long scene = -1;
+    std::from_chars(row.data(), row.data() + std::min(row.find(','), row.size()), scene);
+    const long long place = (scene - scenes.first) / scenes.step;
+    const bool is_one = scene >= scenes.first && scenes.at(place) == scene && place < scenes.count;
+    if (is_one && place > before) begins = expected.begins(scene) + ",";
+    if (rows.eof()) found.amiss = "its last row is cut";
+    else if (!is_one) found.amiss = fmt::format("'{}' is no row of it", row.substr(0, 40));
+    else if (place < before || (place == before && expected.has_one_each))
+      found.amiss = fmt::format("a row of scene {} follows one of scene {}", scene, found.last);
+    else if (!row.starts_with(begins)) found.amiss = fmt::format("scene {} has other values of its keys", scene);
+    if (!found.amiss.empty()) return found;
+    lack(before + 1, place - 1);
+    if (place > before) ++found.scenes;
+    before = place;
+    found.last = scene;
+    take(row);
+  }
+  lack(before + 1, scenes.count - 1);
+  return found;
+}
 
 std::vector<RunFile> SweepFile::files_beside(const std::string& path) {
   const std::string part = destination_of({"--output", path}).path + ".part";
@@ -178,12 +293,12 @@ void SweepFile::open() {
   }
 }
 
-/// @returns whether the part begins with the whole head; false if it ends within it.  @throws BadInput at another one.
-bool SweepFile::has_head(const std::string& head) {
+std::string SweepFile::own_head(const std::string& head) const {
   std::ifstream file(part_, std::ios::binary);
-  if (const std::string words = difference(file, head); !words.empty())
-    refuse(fmt::format("{} is of another sweep ({}); --restart begins anew", part_, words));
-  return file.good();
+  const HeadThere found = read_head(file, head);
+  if (!found.difference.empty())
+    refuse(fmt::format("{} is of another sweep ({}); --restart begins anew", part_, found.difference));
+  return found.is_whole ? found.text : "";
 }
 
 void SweepFile::keep_whole_rows(const SweepFileForm& form) {
@@ -200,6 +315,9 @@ void SweepFile::keep_whole_rows(const SweepFileForm& form) {
     scenes_ = record.scenes;
     kept_records += static_cast<long long>(text_of(record).size());
   }
+  struct stat status {};
+  fstat(part_file_, &status);
+  is_sound = is_sound && (scenes_ > 0 || status.st_size == bytes_);
   if (!is_sound)
     say(fmt::format("{}: rows after its first {} scenes are not as they were written, and are computed anew", part_,
                     scenes_));
@@ -208,15 +326,22 @@ void SweepFile::keep_whole_rows(const SweepFileForm& form) {
 }
 
 void SweepFile::take_up(const SweepFileForm& form) {
-  const bool goes_on = has_head(form.head);
+  const std::string there = own_head(form.head), head = there.empty() ? form.head : there;
+  struct stat status {};
+  fstat(part_file_, &status);
+  if (status.st_size > static_cast<off_t>(there.size()) && !there.empty() && access(digests_.c_str(), F_OK) != 0) {
+    refuse(
+        fmt::format("{} has rows, but {}, which tells how many of them are whole, is not there; --restart begins anew",
+                    part_, digests_));
+  }
   is_own_ = true;
   digests_file_ = ::open(digests_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666);
   if (digests_file_ < 0) fail(digests_, "cannot be created");
   if (destination_.mode) fchmod(part_file_, *destination_.mode);
-  digest_.add(form.head);
-  bytes_ = head_bytes_ = static_cast<long long>(form.head.size());
-  if (goes_on) return keep_whole_rows(form);
-  if (!truncate_to(part_file_, 0) || !write_all(part_file_, form.head)) fail(part_, "cannot be written");
+  digest_.add(head);
+  bytes_ = head_bytes_ = static_cast<long long>(head.size());
+  if (!there.empty()) return keep_whole_rows(form);
+  if (!truncate_to(part_file_, 0) || !write_all(part_file_, head)) fail(part_, "cannot be written");
   if (!truncate_to(digests_file_, 0)) fail(digests_, "cannot be written");
 }
 
@@ -227,35 +352,6 @@ void SweepFile::with_rows(const std::function<void(std::string_view rows)>& take
   if (bytes == MAP_FAILED) fail(part_, "cannot be read");
   const std::unique_ptr<void, std::function<void(void*)>> mapped(bytes, [size](void* one) { munmap(one, size); });
   take(std::string_view(static_cast<const char*>(bytes), size).substr(static_cast<std::size_t>(head_bytes_)));
-}
-
-bool SweepFile::is_own(std::istream& there, const std::string& head) const {
-  std::string title;
-  std::getline(there, title);
-  const bool is_sweep = title.starts_with("# ") && title.find(", sweep: ") != std::string::npos;
-  const std::string words = difference(there.seekg(0), head);
-  if (is_sweep && !words.empty())
-    refuse(fmt::format("is there already, of another sweep ({}); --restart overwrites it", words));
-  return words.empty() && there.good();
-}
-
-bool SweepFile::is_complete(const std::string& head, long long first, long long last,
-                            const std::function<void(std::string_view row)>& take) const {
-  std::ifstream file(destination_.path, std::ios::binary);
-  if (!is_own(file, head)) return false;
-  long long scene = first - 1;  // of the row before
-  bool is_whole = true;
-  for (std::string row; is_whole && std::getline(file, row);) {
-    long long here = -1;
-    std::from_chars(row.data(), row.data() + std::min(row.find(','), row.size()), here);
-    is_whole = !file.eof() && (here == scene + 1 || (here == scene && scene >= first));
-    if (!is_whole) break;
-    scene = here;
-    take(row);
-  }
-  if (is_whole && scene == last) return true;
-  say(fmt::format("{} is not whole after scene {}, and is computed anew", destination_.path, scene));
-  return false;
 }
 
 void SweepFile::write(std::string_view rows, long long scenes) {

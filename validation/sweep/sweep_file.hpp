@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "validation/output/sink.hpp"
+#include "validation/sweep/points.hpp"
 
 namespace clatter::validation {
 
@@ -38,6 +39,32 @@ struct SweepFileForm {
   long long scenes = 0;  ///< how many it will hold
 };
 
+/// The rows that a file of a sweep has.
+struct FoundRows {
+  long long scenes = 0;                ///< that have rows
+  long long last = -1;                 ///< the scene of the last row before whatever is amiss; -1: none
+  std::vector<std::string> missing{};  ///< scenes without rows: "7", "200 to 399"
+  std::string amiss{};                 ///< what else is wrong, in words; the rows from there on are not looked at
+
+  [[nodiscard]] bool is_whole() const { return missing.empty() && amiss.empty(); }
+};
+
+/// The rows that it should have.
+struct ExpectedRows {
+  PickedScenes scenes;
+  bool has_one_each = true;                              ///< a row of a scene, not of each of its impacts
+  std::function<std::string(long long scene)> begins{};  ///< what a scene's rows begin with: its number and its keys
+};
+
+/// Reads rows up to the end of the file, and calls take(row) with each that is in its place.
+[[nodiscard]] FoundRows find_rows(std::istream& rows, const ExpectedRows& expected,
+                                  const std::function<void(std::string_view row)>& take);
+
+/// Whether a file that is in the place of FILE, and not empty, has the whole of this head, behind which its rows are
+/// read on; false: it ends within it.  Files of a scene, mesh or list that lay elsewhere count as the same.
+/// @throws BadInput if it is another file than that of this sweep or map
+[[nodiscard]] bool is_own_file(const std::string& path, std::istream& there, const std::string& head);
+
 /// FILE.part, which grows by whole scenes and takes the name FILE in commit(); FILE is where symbolic links lead.
 /// Beside it FILE.part.digests has a line "bytes scenes digest" for each time that rows were written: how far the part
 /// went then, and the digest of all of it and of these two numbers.  Whatever ends the program leaves both, and the
@@ -58,12 +85,6 @@ class SweepFile {
   /// Scenes that the part held already: the next row is that of scene number scenes().
   [[nodiscard]] long long scenes() const { return scenes_; }
   [[nodiscard]] const std::string& path() const { return destination_.path; }
-  /// Whether FILE is there with this head and rows of the scenes from `first` to `last`, one after the other, and calls
-  /// take(row) with each; says it where rows are missing.  @throws BadInput if it is of another sweep
-  [[nodiscard]] bool is_complete(const std::string& head, long long first, long long last,
-                                 const std::function<void(std::string_view row)>& take) const;
-  /// Whether a file that is in the place of FILE begins with this head.  @throws BadInput if it is of another sweep
-  [[nodiscard]] bool is_own(std::istream& there, const std::string& head) const;
   /// Takes the rows of so many whole scenes, or none; they are in the file after half a second or a mebibyte, or after
   /// flush().  @throws BadInput if they cannot be written.
   void write(std::string_view rows, long long scenes);
@@ -80,7 +101,9 @@ class SweepFile {
  private:
   void open();
   void take_up(const SweepFileForm& form);
-  [[nodiscard]] bool has_head(const std::string& head);
+  /// The head of the part, which says what this one says; empty: it ends within it.
+  /// @throws BadInput at another one
+  [[nodiscard]] std::string own_head(const std::string& head) const;
   void keep_whole_rows(const SweepFileForm& form);
   void close_all();
   void put_in_place(const std::string& file);

@@ -8,6 +8,7 @@
 #include <limits>
 #include <numbers>
 #include <set>
+#include <tuple>
 
 #include "validation/output/bad_input.hpp"
 #include "validation/output/number.hpp"
@@ -212,17 +213,91 @@ Model read_model(const SweepRequest& request, const SceneValues& values, const s
   return ground ? Model::continuous : Model::discrete;
 }
 
-/// Refuses to vary what the model does not read: all scenes would be one.
+/// What the discrete model takes from [impact] and [ground], the settings at one end of their axes; none: no law.
+std::optional<analytic::ImpactLaw> law_at(const SceneValues& values, const std::vector<Setting>& settings,
+                                          double SweepAxis::*end) {
+  try {
+    return discrete_law(read_scene(values, overrides_at(values, settings, end), Model::discrete)).law;
+  } catch (const std::exception&) {  // which the rows, or the reading of the scene, will tell
+    return {};
+  }
+}
+
+bool are_same(const analytic::ImpactLaw& one, const analytic::ImpactLaw& other) {
+  const auto numbers = [](const analytic::ImpactLaw& law) {
+    return std::tie(law.law, law.restitution, law.friction, law.friction_value, law.damping_per_stiffness);
+  };
+  return numbers(one) == numbers(other);
+}
+
+/// Whether the law at one end of some axis of the others depends on the key.
+bool changes_law(const std::string& key, const SceneValues& values, std::vector<Setting> settings) {
+  const std::vector<Setting> given = settings;
+  SweepAxis& axis = *std::ranges::find(settings, key, &Setting::key)->axis;
+  std::swap(axis.first, axis.last);
+  return std::ranges::any_of(std::array{&SweepAxis::first, &SweepAxis::last}, [&](double SweepAxis::*end) {
+    const auto one = law_at(values, given, end), other = law_at(values, settings, end);
+    return !one || !other || !are_same(*one, *other);
+  });
+}
+
+/// The keys of the scene that go before a key in the discrete law: without any of them it would change the law.
+std::vector<std::string> hiding_keys(const std::string& key, const SceneValues& values,
+                                     const std::vector<Setting>& settings) {
+  std::vector<std::string> hiding;
+  for (const Key& other : all_keys()) {
+    const std::string name = other.name;
+    const bool is_of_law = name.starts_with("impact.") || name.starts_with("ground.");
+    if (is_of_law && name != key && (values.has(name) || sets(settings, name))) hiding.push_back(name);
+  }
+  const auto changes_without = [&](const std::vector<std::string>& left_out) {
+    SceneValues others = values;
+    std::vector<Setting> kept = settings;
+    for (const std::string& name : left_out) {
+      others.drop(name);
+      std::erase_if(kept, [&](const Setting& setting) { return setting.key == name; });
+    }
+    const auto law = law_at(others, kept, &SweepAxis::first);
+    return law && changes_law(key, others, kept);
+  };
+  for (const std::string& name : hiding) {
+    if (changes_without({name})) return {name};
+  }
+  std::erase_if(hiding, [](const std::string& name) { return !name.starts_with("impact."); });
+  if (!changes_without(hiding)) return {};
+  const std::vector<std::string> all = hiding;
+  for (const std::string& name : all) {
+    std::vector<std::string> fewer = hiding;
+    std::erase(fewer, name);
+    if (changes_without(fewer)) hiding = fewer;
+  }
+  return hiding;
+}
+
+/// Refuses to vary what changes nothing: all scenes would be one.  The discrete model knows [impact] and [ground] by
+/// its law alone, in which keys go before others.
 /// @throws BadInput
-void require_effects(const std::vector<Setting>& settings, Model model) {
+void require_effects(const SweepRequest& request, const SceneValues& values, const std::vector<Setting>& settings,
+                     Model model) {
   for (const Setting& setting : settings) {
-    if (!setting.axis || setting.number == nullptr) continue;
-    const bool has_effect =
+    if (!setting.axis || setting.number == nullptr || setting.axis->first == setting.axis->last) continue;
+    const bool is_of_law = setting.key.starts_with("impact.") || setting.key.starts_with("ground.");
+    const bool is_read =
         model == Model::continuous ? !setting.key.starts_with("impact.") : setting.number->is_for(model);
-    if (has_effect) continue;
-    throw BadInput(fmt::format("--set {}={}: changes nothing in the {} model; give --model {}", setting.key,
-                               setting.text, name_of(model),
-                               name_of(model == Model::continuous ? Model::discrete : Model::continuous)));
+    const bool is_hidden =
+        is_read && model == Model::discrete && is_of_law && !changes_law(setting.key, values, settings);
+    if (is_read && !is_hidden) continue;
+    const std::vector<std::string> hiding =
+        is_hidden ? hiding_keys(setting.key, values, settings) : std::vector<std::string>{};
+    std::string way_out = hiding.empty() ? "" : fmt::format("leave out {}", fmt::join(hiding, " and "));
+    if (request.takes_other_model) {
+      way_out += fmt::format("{}give --model {}", way_out.empty() ? "" : ", or ",
+                             name_of(model == Model::continuous ? Model::discrete : Model::continuous));
+    }
+    throw BadInput(
+        fmt::format("--set {}={}: changes nothing in the {} model{}{}", setting.key, setting.text, name_of(model),
+                    hiding.empty() ? "" : fmt::format(", where {} goes before it", fmt::join(hiding, " with ")),
+                    way_out.empty() ? "" : "; " + way_out));
   }
 }
 
@@ -248,10 +323,10 @@ void number_attitudes(const Scene& scene, std::vector<Setting>& settings) {
 void read_scene(const SweepRequest& request, std::vector<Setting>& settings, SceneValues& values, SweepPlan& plan) {
   make_room(values, settings);
   const Model model = plan.layout.model = read_model(request, values, settings);
-  require_effects(settings, model);
+  require_effects(request, values, settings, model);
   plan.has_own_limit = values.has("run.impacts") || sets(settings, "run.impacts");
-  plan.scene = read_scene(values, overrides_at(values, settings, &SweepAxis::first), model);
-  static_cast<void>(read_scene(values, overrides_at(values, settings, &SweepAxis::last), model));
+  plan.scene = read_scene_of_any_motion(values, overrides_at(values, settings, &SweepAxis::first), model);
+  static_cast<void>(read_scene_of_any_motion(values, overrides_at(values, settings, &SweepAxis::last), model));
   number_attitudes(plan.scene, settings);
   if (plan.scene.sweep) {
     throw BadInput(
@@ -266,10 +341,11 @@ void read_scene(const SweepRequest& request, std::vector<Setting>& settings, Sce
 }
 
 void choose_range(const SweepRequest& request, SweepPlan& plan) {
-  plan.range = {0, plan.points.count()};
+  plan.range = {.count = plan.points.count()};
   if (request.scenes.empty()) return;
-  plan.range = read_scene_range(request.scenes, plan.points.count());
-  plan.words.push_back(fmt::format("here: scenes {} to {}", plan.range.first, plan.range.first + plan.range.count - 1));
+  plan.range = read_scenes(request.scenes, plan.points.count());
+  plan.words.push_back(fmt::format("here: scenes {} to {}{}", plan.range.first, plan.range.last(),
+                                   plan.range.step > 1 ? fmt::format(" by {}", plan.range.step) : ""));
 }
 
 void read_points(const SweepRequest& request, const std::vector<Setting>& settings, SweepPlan& plan) {
@@ -340,6 +416,7 @@ void choose_rows(const SweepRequest& request, SweepPlan& plan) {
   RowLayout& layout = plan.layout;
   layout.rows = request.rows.value_or(layout.rows);
   layout.in_space = layout.model == Model::discrete && may_leave_its_plane(plan);
+  layout.warns = layout.model == Model::discrete;
 }
 
 void choose_columns(const SweepRequest& request, SweepPlan& plan) {
@@ -463,7 +540,8 @@ void name_own_attitude(const SweepRequest& request, const SceneValues& values, s
   SceneValues own = values;
   make_room(own, settings);
   const Model model = read_model(request, own, settings);
-  const Eigen::Quaterniond q = read_scene(own, overrides_at(own, settings, &SweepAxis::first), model).touch_attitude();
+  const Eigen::Quaterniond q =
+      read_scene_of_any_motion(own, overrides_at(own, settings, &SweepAxis::first), model).touch_attitude();
   others.push_back(fmt::format("{}=[{},{},{},{}]", attitude_key, shortest(q.w()), shortest(q.x()), shortest(q.y()),
                                shortest(q.z())));
   sets = std::move(others);
@@ -544,10 +622,15 @@ void SweepPlan::put_point(const std::vector<double>& values, Scene& into) const 
   into.settle_restitution();
 }
 
-std::vector<std::string> SweepPlan::remarks(long long cut) const {
+std::vector<std::string> SweepPlan::remarks(long long cut, std::optional<long long> warned) const {
   std::vector<std::string> said;
-  if (const auto& found = warning->found())
-    said.push_back(fmt::format("scene {}, the first of those that warn: {}", found->first, found->second));
+  const long long count = warned.value_or(warning->count());
+  if (const auto& found = warning->found()) {
+    said.push_back(fmt::format("{} of {} scenes warn, column warning; scene {}: {}", count, range.count, found->first,
+                               found->second));
+  } else if (count > 0) {
+    said.push_back(fmt::format("{} of {} scenes warn, column warning", count, range.count));
+  }
   if (cut > 0 && !has_own_limit) {
     said.push_back(fmt::format("{} of {} scenes end at {} impacts, where more may follow: run.impacts is not given",
                                cut, range.count, scene.request.impacts));

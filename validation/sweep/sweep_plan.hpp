@@ -29,8 +29,9 @@ struct SweepRequest {
   std::optional<int> random, seed;
   std::optional<double> scatter;  ///< [°]
   std::optional<Model> model;     ///< else the continuous one where there is a ground
+  bool takes_other_model = true;  ///< whether `model` could be another one, which messages then name
   std::optional<RowKind> rows;
-  std::string scenes{};         ///< FROM:TO, which are computed; empty: all
+  std::string scenes{};         ///< FROM:TO or FROM:TO:STEP, which are computed; empty: all
   std::string columns;          ///< empty: no more than rows have anyway
   bool no_errors = false;       ///< as --set run.errors=false
   bool require_digits = false;  ///< as --set run.require_digits=true
@@ -44,27 +45,30 @@ struct SweepRequest {
 /// The options that fill it, but for values, points and flags.
 [[nodiscard]] Arguments sweep_arguments(SweepRequest& request);
 
-/// The first scene of a sweep whose run warns of something, from any thread.
+/// The scenes of a sweep whose run warns of something, from any thread: how many they are, and the first.
 class FirstWarning {
  public:
   void note(long long index, const std::string& words) {
     const std::lock_guard lock(mutex_);
+    ++count_;
     if (first_ && first_->first <= index) return;
     first_ = {index, words};
   }
   /// Index and words; none: no scene warned.
   [[nodiscard]] const std::optional<std::pair<long long, std::string>>& found() const { return first_; }
+  [[nodiscard]] long long count() const { return count_; }
 
  private:
   std::mutex mutex_;
   std::optional<std::pair<long long, std::string>> first_;
+  long long count_ = 0;
 };
 
 struct SweepPlan {
   Scene scene;  ///< the swept keys have their first values
   RowLayout layout;
   SweepPoints points;
-  SceneRange range;            ///< of the points: the scenes that are computed
+  PickedScenes range;          ///< of the points: the scenes that are computed
   bool packed = false;         ///< rows are not CSV but packed cells
   bool has_own_limit = false;  ///< run.impacts is given
   /// What puts the value of each axis into a scene.
@@ -88,10 +92,11 @@ struct SweepPlan {
   bool numbered_attitudes = false;  ///< the listed ones are a box's 26
   /// Puts the numbers of a point into a scene.
   void put_point(const std::vector<double>& values, Scene& into) const;
-  /// What to say of rows that are whole: the first of its runs that warns, and how many end at a limit that nobody
-  /// gave.
+  /// What to say of rows that are whole: how many of its runs warn, and the first, and how many end at a limit that
+  /// nobody gave.
   /// @param cut  scenes that end at run.impacts, where more may follow
-  [[nodiscard]] std::vector<std::string> remarks(long long cut) const;
+  /// @param warned  scenes that warn, where earlier runs computed some; none: those of this run
+  [[nodiscard]] std::vector<std::string> remarks(long long cut, std::optional<long long> warned = {}) const;
   /// The report without rows.  Equal for equal sweeps; a mesh and lists of attitudes are in it by digests of their
   /// files.  What it says of the scene leaves out the swept keys.
   [[nodiscard]] Report report() const;

@@ -157,7 +157,8 @@ SceneRunner::SceneRunner(const SweepPlan& plan, const SweepBody& body, std::func
 
 RangeRows SceneRunner::operator()(const SceneRange& range) {
   RangeRows rows;
-  while (rows.scenes < range.count && !stop_() && append_scene(range.first + rows.scenes, rows.text)) ++rows.scenes;
+  while (rows.scenes < range.count && !stop_() && append_scene(plan_.range.at(range.first + rows.scenes), rows.text))
+    ++rows.scenes;
   return rows;
 }
 
@@ -183,11 +184,16 @@ DiscreteSequence SceneRunner::sequence(const DiscreteDrop& drop, bool with_error
   return std::visit([&](const auto& one) -> DiscreteSequence { return impact_sequence(one, options); }, drop);
 }
 
-std::optional<RestFace> SceneRunner::face_alone(bool with_errors) {
+void SceneRunner::add_face_alone(RowForm& form) {
   Scene followed = scene_;
   followed.until_rest = true;
   const DiscreteDrop drop = body_->discrete->drop(followed);
-  return rest_face(followed, drop, sequence_to_face(followed, drop, with_errors));
+  const DiscreteSequence found = sequence_to_face(followed, drop, form.errors);
+  form.rest = rest_face(followed, drop, found);
+  if (form.rest || !form.reason.empty()) return;
+  followed.require_digits = false;  // the row's own numbers have been asked for theirs
+  const std::string why = shortfall(followed, named_run(followed, found, body_->discrete->centre()));
+  if (!why.empty()) form.reason = "rest_face: " + why;
 }
 
 bool SceneRunner::append_result(long long index, RowForm& form) {
@@ -196,13 +202,17 @@ bool SceneRunner::append_result(long long index, RowForm& form) {
     const DiscreteDrop drop = body_->discrete->drop(scene_);
     const DiscreteSequence found = sequence(drop, form.errors);
     const Run run = named_run(scene_, found, body_->discrete->centre());
-    if (!run.warnings.empty()) plan_.warning->note(index, run.warnings.front());
+    if (!run.warnings.empty()) {
+      plan_.warning->note(index, run.warnings.front());
+      form.warning = run.warnings.front().substr(0, run.warnings.front().find(';'));  // behind which is what to do
+    }
     if (!plan_.layout.probes.empty()) {
       const auto places = places_from(body_->discrete->centre(), plan_.layout.probes);
       form.shocks = LargestShock::of(discrete_shock(drop, found, places), terms_of(run, false));
     }
     form.reason = shortfall(scene_, run);
-    if (plan_.layout.rests) form.rest = scene_.until_rest ? rest_face(scene_, drop, found) : face_alone(form.errors);
+    if (plan_.layout.rests && scene_.until_rest) form.rest = rest_face(scene_, drop, found);
+    else if (plan_.layout.rests) add_face_alone(form);
     append_rows(form, run);
     return true;
   }

@@ -146,6 +146,7 @@ class SceneRunner {
   SceneRunner(const SceneRunner&) = delete;
   SceneRunner& operator=(const SceneRunner&) = delete;
 
+  /// @param range  places among the scenes of the plan
   [[nodiscard]] RangeRows operator()(const SceneRange& range);
 
  private:
@@ -153,8 +154,8 @@ class SceneRunner {
   bool append_scene(long long index, std::string& out);
   bool append_result(long long index, RowForm& form);
   [[nodiscard]] DiscreteSequence sequence(const DiscreteDrop& drop, bool with_errors);
-  /// The face that the body comes to lie on, by a sequence of its own.
-  [[nodiscard]] std::optional<RestFace> face_alone(bool with_errors);
+  /// Puts in the face that the body comes to lie on, by a sequence of its own, or why that did not tell it.
+  void add_face_alone(RowForm& form);
   /// The planned run of the continuous model, and what it does to the layout's probes.
   [[nodiscard]] PlannedRun planned(std::vector<LargestShock>& shocks);
   [[nodiscard]] LargestShock::Terms terms_of(const Run& run, bool has_peaks) const;

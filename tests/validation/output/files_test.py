@@ -86,7 +86,7 @@ class Overwriting(Folder):
 
     def test_a_symbolic_link_is_written_through(self):
         """Its target is replaced whole, with the permissions that it had; the link stays one."""
-        for arguments in (["sequence", "--angle", "10"], SWEEP):
+        for arguments, again in ((["sequence", "--angle", "10"], []), (SWEEP, ["--restart"])):
             os.mkdir(self.path("away"))
             text = self.run_program(*arguments).stdout
             for target in ("away/there", "away/new", self.path("away/absolute")):
@@ -94,7 +94,7 @@ class Overwriting(Folder):
                 os.chmod(self.path("away/there"), 0o640)
                 os.symlink(target, self.path("link"))
                 os.symlink("link", self.path("link.of.link"))
-                done = self.run_program(*arguments, "--output", "link.of.link")
+                done = self.run_program(*arguments, *again, "--output", "link.of.link")
                 self.assertEqual((done.returncode, done.stderr, done.stdout), (0, "", ""))
                 self.assertEqual(os.readlink(self.path("link")), target)
                 self.assertEqual(self.read(target), text)

@@ -94,7 +94,7 @@ class Shortfalls(EmptyFolder):
         result = run(*arguments)
         self.assertEqual(result.returncode, 3, (arguments, result.stderr))
         others = (r"clatter: warning: the body goes \S+ m into the ground in impact \d+, more than a tenth of its least extent, .*"
-                  r"|clatter: goes on at row \d+ of \d+")
+                  r"|clatter: goes on after \d+ of \d+ scenes")
         said = [line for line in result.stderr.splitlines() if not re.fullmatch(others, line)]
         self.assertEqual(len(said), 1, result.stderr)
         return result

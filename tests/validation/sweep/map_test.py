@@ -29,7 +29,7 @@ BAD = {
     "--over drop.angle=0:60 --over drop.speed=1:2": "--over drop.angle: unknown key; did you mean drop.angle_deg?",
     "--over drop.angle_deg=0:60 --over drop.angle_deg=0:60": "twice", "--over drop.angle_deg=60:0 --over drop.speed=1:2": "LOW",
     "--over drop.angle_deg=0:95 --over drop.speed=1:2": "from 0 to 90", "--over drop.angle_deg=5 --over drop.speed=1:2": "KEY=LOW:HIGH",
-    "--over drop.speed=1:2 --over world.gravity=1:2": "drop.angle_deg", "no-such-case --over drop.angle_deg=0:60 --over drop.speed=1:2": "no-such-case",
+    "--over drop.speed=1:2 --over world.gravity=1:2": "--angle: required", "no-such-case --over drop.angle_deg=0:60 --over drop.speed=1:2": "no-such-case",
     **{f"--over drop.angle_deg=0:60 --over drop.speed=1:2 {options}": words for options, words in {
         "--size 0x5": "--size", "--size 5": "WIDTHxHEIGHT", "--size 5x": "--size '5x': must be WIDTHxHEIGHT", "--size 5x20001": "from 1 to 20000",
         "--quantity impact": "did you mean impacts?", "--quantity impacts=2": "--samples N", "--samples 5": "must be a class",
@@ -43,7 +43,7 @@ def expected_count(angle):
 
 class Map(EmptyFolder):
     def made(self, name, *arguments):
-        done = run("map", *arguments, "--output", self.path(name))
+        done = run("map", *arguments, "--output", self.path(name), "--restart")
         self.assertEqual((done.returncode, done.stdout), (0, ""), done.stderr)
         return self.path(name)
 
@@ -114,10 +114,10 @@ class Map(EmptyFolder):
         for arguments, colour, words in ((["--over", "drop.angle_deg=0:80", "--over", "drop.speed=1:2", "--quantity", "ratio"], "d9d9d9", "no drop, or no number"),
                                          ([block, "--over", "drop.angle_deg=10:80", "--over", "impact.restitution=0.2:1", "--quantity", "rest_face"],
                                           "ff2da0", "left open")):
-            done = run("map", *arguments, "--size", "12x4", "--output", self.path("map.png"), env=env)
+            done = run("map", *arguments, "--size", "12x4", "--output", self.path("map.png"), "--restart", env=env)
             self.assertEqual(done.returncode, 0, done.stderr)
             self.assertIn((colour, words), re.findall(r"lc rgb '#(\w{6})' title '(.*?)'", self.read("script")))
-        run("map", *ELASTIC, "--quantity", "total", "--size", "12x4", "--output", self.path("map.png"), env=env)
+        run("map", *ELASTIC, "--quantity", "total", "--size", "12x4", "--output", self.path("map.png"), "--restart", env=env)
         self.assertNotRegex(self.read("script"), "no number|left open")
 
     def test_no_word_of_the_title_is_cut(self):
@@ -126,7 +126,7 @@ class Map(EmptyFolder):
         for size in ("600x1", "40x30", "1x600", "3x3"):
             with self.subTest(size=size):
                 output = self.path("map.png")
-                done = run("map", "phone-corner", "--over", "drop.height=0.5:2", "--over", "impact.restitution=0.2:0.9", "--size", size, "--output", output,
+                done = run("map", "phone-corner", "--over", "drop.height=0.5:2", "--over", "impact.restitution=0.2:0.9", "--size", size, "--output", output, "--restart",
                            env=env)
                 self.assertEqual(done.returncode, 0, done.stderr)
                 _, *lines = re.findall(r"set label \d+ '([^']*)' at screen", self.read("script"))
@@ -200,10 +200,10 @@ class Map(EmptyFolder):
                                  (["--samples", "2", "--quantity", "impacts=>=1"], "each drop of every pixel has impacts=>=1"),
                                  (["--set", "run.impacts=1"], "all pixels have the same impacts: >=1")):
             for name in ("map.npy", "map.csv"):
-                done = run(*over, *arguments, "--output", self.path(name))
+                done = run(*over, *arguments, "--output", self.path(name), "--restart")
                 self.assertEqual(done.returncode, 0, done.stderr)
                 self.assertIn(words, done.stderr)
-        self.assertNotIn("pixel", run(*over, "--output", self.path("map.npy")).stderr)
+        self.assertNotIn("pixel", run(*over, "--output", self.path("map.npy"), "--restart").stderr)
 
     def test_refused_drops_are_a_class_and_no_number_and_pixels_without_a_drop_are_counted(self):
         arguments = ["--over", "drop.angle_deg=50:70", "--over", "impact.impulse_ratio=1:3", "--size", "8x8"]

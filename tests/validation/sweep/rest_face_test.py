@@ -3,7 +3,7 @@
 
 import collections
 
-from run_folder import EmptyFolder, json_of, rows_of, run
+from run_folder import EmptyFolder, json_of, records, rows_of, run
 
 # A block of 0.1 m x 0.05 m that stands on its edge, hardly moving, falls to the side of its centre of mass: its diagonal
 # stands upright at atan(2), 63.4 degrees.
@@ -37,6 +37,18 @@ class RestFace(EmptyFolder):
         self.assertLess(float(row["rest_time"]), 10 * (2 * 0.03 / 9.81) ** 0.5)
         self.assertEqual(json_of("sequence", self.block, "--until-rest")["rest"]["face"], "-z")
 
+    def test_a_face_that_could_not_be_computed_says_why_followed_to_rest_or_not(self):
+        crate = self.write("crate.toml", "[drop]\nangle_deg = 10\nheight = 1\n[body]\nshape = 'box'\nsize = [0.3, 0.2, 0.1]\nmass = 1.2\n"
+                           "[impact]\nrestitution = 0.4\nfriction = 0.3\n")
+        sweep = ("sweep", crate, "--set", "drop.attitude=uniform", "--random", "2000", "--seed", "42", "--scenes", "639:640", *COLUMNS, "--bare")
+        for more in ((), ("--set", "run.until_rest=true")):
+            done = run(*sweep, *more)
+            lost, other = records(done.stdout)
+            self.assertEqual((done.returncode, lost["rest_face"]), (3, ""))
+            self.assertIn("not-computed: a body that stays on the ground", lost["reason"])
+            self.assertIn("1 of 2 scenes fall short; 639: ", done.stderr)
+            self.assertEqual((other["rest_face"] != "", other["reason"]), (True, ""))
+
     def test_a_die_is_fair(self):
         told = json_of("sweep", "die", "--set", "drop.attitude=uniform", "--random", "240", "--set", "run.until_rest=false", *COLUMNS,
                        "--model", "discrete", "--summary")
@@ -50,7 +62,7 @@ class RestFace(EmptyFolder):
 
     def test_shares_are_of_all_drops_also_of_those_without_a_face(self):
         sweep = ("sweep", self.block, "--set", "drop.angle_deg=0,50,75,90", "--set", "impact.restitution=0.2,1", *COLUMNS, "--model", "discrete")
-        rows, told = rows_of(*sweep), json_of(*sweep, "--summary")
+        rows, told = rows_of(*sweep, status=(3,)), json_of(*sweep, "--summary", status=(3,))  # without loss they never rest
         for column in ("rest_face", "rest_known"):
             with self.subTest(column):
                 expected = collections.Counter(row[column] or "none" for row in rows)
