@@ -23,7 +23,8 @@ HEAD = '''# SPDX-License-Identifier: GPL-3.0-or-later
 from collections.abc import Iterable, Mapping
 from typing import Any, Literal, overload
 
-from clatter.arguments import Path, Probes, Progress, Scene, Swept
+from clatter.arguments import (Axis, Model, Over, Part, Parts, Path, Probes, Progress, Scene, Scenes, ShockRows, Swept,
+                               SweepRows)
 from clatter.arrays import Array
 from clatter.findings import (Explanation, Gradient, Measured, Plan, Problem, Ranking, Rows, Scored, Summary, Table,
                               Tradeoff)
@@ -107,11 +108,14 @@ def samples() -> Mapping[str, list[Any]]:
     simulated = [clatter.simulate("phone-corner", impacts=3), clatter.simulate("bracket", impacts=1)]
     explanation, plan = clatter.explain(2, 10), clatter.plan("phone-corner", digits=3)
     runs = [*sequences, *simulated]
+    point = {"probe": {"camera": (0.048, 0.016, 0.0095)}, "impacts": 1, "drops": 4}
+    answers = [clatter.report("phone-damped", **point, sensitivity=False), clatter.report("phone-damped", **point, part=(500, 300)),
+               clatter.report("phone-damped", **point, model="discrete", part=(500, 300)), clatter.report("phone-damped", impacts=1, drops=0)]
     return {
         "ImpactErrors": [impact.error_estimate for run in runs for impact in run],
         "Impact": [impact for run in sequences for impact in run],
         "SimulatedImpact": [impact for run in simulated for impact in run],
-        "Accuracy": [run.accuracy for run in runs], "Cost": [run.cost for run in runs],
+        "Accuracy": [run.accuracy for run in runs], "Answer": [worst.answer for worst in answers], "Cost": [run.cost for run in runs],
         "Tail": [run.tail for run in sequences if run.tail],
         "Check": list(clatter.verify(["C1", "E1", "X1"])), "Rung": list(plan), "Choice": [plan.choice],
         "Equation": [equation for step in explanation.steps for equation in step.equations], "Step": explanation.steps,
@@ -120,7 +124,10 @@ def samples() -> Mapping[str, list[Any]]:
 
 def fields_stub() -> str:
     """Of the records, each a class with its names; an error may be unknown."""
-    found = {name: fields_of(records) for name, records in samples().items()}
+    records = samples()
+    found = {name: fields_of(some) for name, some in records.items()}
+    found["Answer"] = {name: kind if all(name in worst for worst in records["Answer"]) else f"{kind} | None"
+                       for name, kind in found["Answer"].items()}
     found["ImpactErrors"] = {name: "float | None" if kind == "float" else kind for name, kind in found["ImpactErrors"].items()}
     discrete, simulated = found["Impact"], found["SimulatedImpact"]
     for name in discrete.keys() & simulated.keys():

@@ -22,6 +22,7 @@ from pathlib import Path
 import clatter
 import numpy as np
 from clatter.arguments import KEYS, swept_text
+from clatter.words import in_python
 from run_folder import ROOT, run
 from waiting import until_it_computes
 
@@ -283,10 +284,112 @@ class SweepsAsTheProgram(unittest.TestCase):
                          for part, frequencies in (((300, 500), (100, 900, 3)), ("300:500", "100:900:3")))
         self.assertEqual(tuples, texts)
         for refused, said in ((lambda: clatter.shock("phone-damped"), "^probe: required"),
-                              (lambda: clatter.shock(scene, probe={"camera": place}, stiffness=-1), "^stiffness '-1': must be"),
-                              (lambda: clatter.map(over={"drop.angle_deg": (0, 60)}), "^over: must be given twice")):
+                              (lambda: clatter.shock(scene, probe={"camera": place}, stiffness=-1), "^stiffness -1: must be"),
+                              (lambda: clatter.map(over={"drop.angle_deg": (0, 60)}), "^over .*: must be two keys with their ranges")):
             with self.assertRaisesRegex(clatter.BadInput, said):
                 refused()
+
+    def test_messages_are_in_the_words_of_python(self):
+        point, over = {"probe": {"camera": (0.048, 0.016, 0.0095)}, "impacts": 1}, {"angle": (1, 60), "restitution": (0.2, 0.9)}
+        place = re.escape('probe={"NAME": (x, y, z)}')
+        for said, call in (
+                (f"^part: needs {place}", lambda: clatter.report("phone-damped", part=(500, 300), drops=0)),
+                (r'^probe: required, a point of the body as \{"NAME": \(x, y, z\)\} in m', lambda: clatter.shock("phone-damped")),
+                (r"^part \(500, 300, 2\): must be \(Hz, g\)$", lambda: clatter.shock("phone-damped", **point, part=(500, 300, 2))),
+                (r"^frequencies array\(.*\.\.\.: must be \(low, high, count\)$", lambda: clatter.shock("phone-damped", **point, frequencies=np.logspace(1, 4, 61))),
+                (r"^frequencies \(20, 10, 3\): high must be greater than low$", lambda: clatter.shock("phone-damped", **point, frequencies=(20, 10, 3))),
+                ("^angle 100: must be from 0 to 90 degrees$", lambda: clatter.sequence(angle=100)),
+                ("^angle 100: must be from 0 to 90 degrees$", lambda: clatter.sequence(100)),
+                ("^angle 100: must be from 0 to 90 degrees$", lambda: clatter.shock(angle=100, **point)),
+                ("^angle 100: must be from 0 to 90 degrees$", lambda: clatter.sweep(angle=[10, 100], model="discrete")),
+                (r"^size \(0.14, 0.068\): must be three lengths in m greater than 0, as in \(0.106, 0.044, 0.019\)$",
+                 lambda: clatter.sequence(10, body="box", size=(0.14, 0.068))),
+                (r"^size \(0.14, 0.068\): must be three lengths", lambda: clatter.shock(angle=10, body="box", size=(0.14, 0.068), **point)),
+                (r"^size \(0.14, 0.07, 0.01\): must be the map's width and height.*body\.size", lambda: clatter.map(over=over, size=(0.14, 0.07, 0.01))),
+                (r'^over: must be two keys with their ranges.*"angle": \(0, 60\)', clatter.map),
+                (r"^over angle 5: must be \(low, high\)", lambda: clatter.map(over={**over, "angle": 5})),
+                ("^stiffness: required.*ground_modulus.*floor", lambda: clatter.simulate(angle=10)),
+                (r"^scene 'fone': .*clatter\.cases\(\)", lambda: clatter.simulate("fone")), (r"^case 'fone': .*clatter\.cases\(\)", lambda: clatter.case("fone")),
+                ("^sensitivity=False: the discrete model", lambda: clatter.shock("phone-damped", **point, model="discrete", sensitivity=False)),
+                ("^part '300g': needs peaks", lambda: clatter.shock("phone-damped", **point, model="discrete", part="300g")),
+                (r"^probe \{'camera': \(48, 16\)\}: must be", lambda: clatter.shock("phone-damped", probe={"camera": (48, 16)})),
+                (r"^size \[\(.*: must be one list of numbers, which no sweep varies; call sweep\(\) for each",
+                 lambda: clatter.sweep(body="box", size=[(0.1, 0.05, 0.01), (0.2, 0.05, 0.01)], angle=10)),
+                ("^until: unknown argument of shock", lambda: clatter.shock("phone-damped", **point, until=1)),
+                ("^no 'angle' here; did you mean drop.angle_deg", lambda: clatter.sweep(angle=[5, 10], model="discrete")["angle"])):
+            with self.subTest(said), self.assertRaisesRegex((clatter.BadInput, KeyError), said.replace("^no", "no")) as refused:
+                call()
+            self.assertNotRegex(str(refused.exception), r"--[a-z]")
+        for said, call in ((r"^restitution=0\.3 is the discrete model's alone: the ground's own is floor_restitution=0\.3",
+                            lambda: clatter.shock("phone-damped", **point, restitution=0.3, sensitivity=False)),
+                           ("^friction: .*the ground's own is sliding_friction", lambda: clatter.simulate("phone-damped", friction=0.3, impacts=1)),
+                           ("friction follows the slip$", lambda: clatter.sequence(45, impulse_ratio=0.7))):
+            with self.assertWarnsRegex(clatter.ClatterWarning, said):
+                call()
+        worst = clatter.report("phone-damped", **point, drops=4, sensitivity=False)
+        for text in (*worst.answer.notes, worst.message, repr(worst), clatter.simulate("phone-damped", impacts=1).message,
+                     *(getattr(clatter, name).__doc__ for name in clatter.__all__ if inspect.isfunction(getattr(clatter, name)) and name != "benchmark_score")):
+            self.assertNotRegex(text, r"--[a-z]|\bis null\b|exit status|with the flag|clatter shock|clatter help")
+        self.assertEqual((worst.answer.margin, clatter.report("phone-damped", impacts=1, drops=0).answer.peak_g), (None, None))
+        self.assertRegex(" ".join(worst.answer.notes), r"\(drops=\)")
+
+    def test_a_command_that_can_be_typed_stays_as_it_is(self):
+        for text in ("clatter shock phone-damped --impacts 2 --probe a:0,0,0", "again: clatter sweep --scenes 0:9", "clatter simulate phone-damped --rate 100"):
+            self.assertEqual(in_python(text), text)
+        self.assertEqual(in_python("which clatter shock --ground finds; --sliding-friction MU gives it (--drops), not --restitution-law stronge"),
+                         'which clatter.ground() finds; sliding_friction gives it (drops=), not restitution_law="stronge"')
+
+    def test_parts_and_values_are_given_as_lists_and_dicts(self):
+        point = {"probe": {"camera": (0.048, 0.016, 0.007)}, "impacts": 1, "sensitivity": False}
+        texts = clatter.shock("phone-damped", **point, part=["camera:500:300", "40g:11ms"]).to_text("json")
+        for parts in ([(500, 300), "40g:11ms"], [np.array([500, 300]), "40g:11ms"]):
+            self.assertEqual([one["peak"] for one in clatter.shock("phone-damped", **point, part=parts)],
+                             [one["peak"] for one in clatter.shock("phone-damped", **point, part=["500:300", "40g:11ms"])])
+        self.assertEqual(clatter.shock("phone-damped", **point, part={"camera": [(500, 300), "40g:11ms"]}).to_text("json"),
+                         texts.replace("40g:11ms", "camera:40g:11ms"))
+        report = {**point, "drops": 0}
+        told = [list(clatter.report("phone-damped", **report, floor_restitution=several)["restitution"])
+                for several in ([0.3, 0.5], (0.3, 0.5), np.array([0.3, 0.5]), "0.3,0.5")]
+        self.assertEqual(told, [told[0]] * 4)
+        self.assertEqual(sorted(told[0]), [0.3, 0.5])
+        box = {"body": "box", "size": (0.14, 0.068, 0.016), "mass": 0.25, "clearance": 0.8, "angle": 25, "floor_restitution": 0.5}
+        for floors in (("concrete", "wood"), ["concrete", "wood"], np.array(["concrete", "wood"])):
+            self.assertEqual(sorted(clatter.report(**box, **report, floor=floors)["floor"]), ["concrete", "wood"])
+        scenes = clatter.report(["phone-damped", Path(ROOT, "validation/cases/phone-corner.toml")], **report)
+        self.assertEqual(len(scenes), 2)
+
+    def test_a_map_takes_the_names_that_a_sweep_takes_and_tells_what_is_open(self):
+        by_name = clatter.map(over={"angle": (1, 60), "restitution": (0.2, 0.9)}, size=(4, 3))
+        np.testing.assert_array_equal(by_name, clatter.map(over={"drop.angle_deg": (1, 60), "impact.restitution": (0.2, 0.9)}, size=(4, 3)))
+        given = {"over": {"angle": (1, 60), "restitution": (0.2, 0.9)}, "friction": 0.3, "restitution_law": "stronge", "clearance": 1, "length": 0.15,
+                 "until_rest": True, "size": (12, 9)}
+        with self.assertWarnsRegex(clatter.ClatterWarning, "pixels are left open") as warned:
+            outcome = clatter.map(**given, quantity="outcome")
+        self.assertEqual((outcome == "open").sum(), int(str(warned.warning).split()[0]))
+        for word in {*outcome.flat}:
+            self.assertIn(f'"{word}"', clatter.map.__doc__)
+
+    def test_the_fields_of_a_run_are_attributes_and_a_long_one_shows_its_ends(self):
+        page = Path(ROOT, "notebooks-data/reference/scenes.md").read_text(encoding="utf-8")
+        fields = re.findall(r"^\| `(\w+)` \|", page, re.M)
+        self.assertIn("energy_losses", fields)
+        for scene in ("phone-corner", "rod-10", "box-flat"):
+            run_of_it = clatter.sequence(scene)
+            for field in {*fields, *run_of_it.to_dict()} - {"states"}:
+                with self.subTest(scene=scene, field=field):
+                    getattr(run_of_it, field)
+        losses = clatter.sequence("phone-corner").energy_losses
+        self.assertAlmostEqual(sum(losses.values()), sum(clatter.sequence("phone-corner")["energy_loss"]), delta=1e-12)
+        for long in (clatter.sequence("phone-corner", rate=1000), clatter.simulate("phone-damped", impacts=1, rate=1e5, history=True)):
+            self.assertGreater(len(long.states), 100)
+            self.assertLess(len(repr(long).splitlines()), 100)
+        self.assertLess(len(repr(long.history)), 100)
+
+    def test_sizes_in_mm_are_doubted_by_a_warning(self):
+        for call in (clatter.sequence, clatter.simulate, clatter.sweep):
+            ground = {} if call == clatter.sequence else {"stiffness": 1e9, "impacts": 1}
+            with self.assertWarnsRegex(clatter.ClatterWarning, "were mm or g meant"):
+                call(body="box", size=(150, 75, 8), mass=165, angle=10, **ground)
 
     def test_what_falls_short_in_a_command_is_a_warning_and_not_a_line(self):
         with self.assertWarnsRegex(clatter.ClatterWarning, "^evaluation-limit: ") as warned:
@@ -339,12 +442,8 @@ class SweepsAsTheProgram(unittest.TestCase):
     def test_the_keys_of_scenes_are_keyword_arguments(self):
         for name in ("sequence", "explain", "gradient", "simulate", "compare", "compare_against", "plan", "tradeoff", "shock", "ground", "report"):
             parameters = inspect.signature(getattr(clatter, name)).parameters
-            continuous = name in ("simulate", "compare", "plan", "tradeoff", "shock", "ground", "report")
-            for key in KEYS.values():
-                if key.argument == "method" and name == "sequence":
-                    continue  # its own
-                with self.subTest(function=name, key=key.key):
-                    self.assertEqual(key.argument in parameters, key.is_discrete or continuous)
+            for argument in ("angle", "mass", "density", "stiffness", "impacts", "require_digits"):
+                self.assertIn(argument, parameters)
             self.assertFalse([one for one in parameters.values() if one.kind is one.VAR_KEYWORD])
         parameters = inspect.signature(clatter.simulate).parameters
         for name, kind in (("angle", float), ("impacts", int), ("orientation", int), ("planar", bool)):
@@ -393,6 +492,50 @@ class SweepsAsTheProgram(unittest.TestCase):
         self.refused("theta 'x': must be a number or an array of numbers", clatter.angles, "x")
         with self.assertRaisesRegex(TypeError, r"^angle array\(\[\[ 0, 1, .{25,50}\.\.\.: must be a number, from 0 to 90 degrees$"):  # one short line
             clatter.sequence(angle=np.arange(100).reshape(10, 10))
+
+    def test_every_argument_is_known_to_the_command(self):
+        """Of each function those that its command has as options, keys without a flag, which stand in the scene, and what is Python's own."""
+        own = {"scene", "values", "progress", "impact", "files", "theta", "out", "number", "tracks", "problem", "angles", "gravity_numbers"}
+        named = {"sensitivity": "--no-sensitivity", "start": "--from", "stop": "--to", "from_": "--from", "contact_gravity": "--no-contact-gravity"}
+        words = {"compare_against": "compare", "ground": "shock --ground", "tradeoff": "plan --tradeoff", "regimes": "angles --regimes",
+                 "extremes": "verify --extremes", "figure": "verify --figures", "measured_fit": "measured", "measured_predict": "measured",
+                 "measured_score": "measured", "benchmark_list": "benchmark", "benchmark_show": "benchmark", "benchmark_truth": "benchmark",
+                 "benchmark_score": "benchmark"}
+        for name in clatter.__all__:
+            function = getattr(clatter, name)
+            if not inspect.isfunction(function) or name in ("case", "cases"):
+                continue
+            command = words.get(name, name).split()
+            options = set(re.findall(r"--[a-z][a-z-]*", run(*command, "--help").stdout))
+            self.assertIn("--help", options)
+            for argument in set(inspect.signature(function).parameters) - own:
+                key = KEYS.get(argument)
+                if key and (not key.flag or "--set" in options or name == "figure"):
+                    continue
+                flag = key.flag if key and key.flag in options else named.get(argument, "--" + argument.replace("_", "-"))
+                with self.subTest(function=name, argument=argument):
+                    self.assertIn(flag, options)
+
+    def test_what_a_command_is_given_reaches_it(self):
+        """A key with a value that none has is refused for its value, by its own name."""
+        place = {"camera": (0.048, 0.016, 0.0095)}
+        calls = {"shock": {"scene": "phone-damped", "probe": place, "sensitivity": False},
+                 "report": {"scene": "phone-damped", "probe": place, "sensitivity": False, "drops": 0}, "atlas": {"scene": "rod-10"}}
+        for name, given in calls.items():
+            function = getattr(clatter, name)
+            for argument in inspect.signature(function).parameters:
+                if argument not in KEYS or argument in given or KEYS[argument].kind in ("text", "curve"):
+                    continue
+                with self.subTest(function=name, argument=argument), self.assertRaises(clatter.BadInput) as refused:
+                    function(**given, **{argument: "no value of anything"})
+                self.assertNotIn("unknown", str(refused.exception))
+                self.assertIn(argument, str(refused.exception))
+                self.assertNotIn("--", str(refused.exception))
+
+    def test_truths_reach_the_program_as_they_are(self):
+        for value in (True, False):
+            given = clatter.shock("phone-damped", probe={"a": (0, 0, 0)}, impacts=1, sensitivity=False, contact_gravity=value, planar=not value)
+            self.assertEqual((given.scene["run"]["contact_gravity"], given.scene["run"]["planar"]), (value, not value))
 
     def test_no_public_function_lets_the_compiled_part_refuse_a_type(self):
         """Each argument of each function, given an object that nothing can be made of."""

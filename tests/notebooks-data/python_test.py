@@ -116,6 +116,8 @@ SAME = [
      "sweep rod-10 --set drop.angle_deg=5:60 --set drop.speed=0.1:10:log --random 20 --seed 4 --model discrete".split(), ()),
     (lambda: clatter.shock("phone-damped", impacts=1, probe={"camera": (0.048, 0.016, 0.0095)}, sensitivity=False),
      "shock phone-damped --impacts 1 --probe camera:0.048,0.016,0.0095 --no-sensitivity".split(), ()),
+    (lambda: clatter.shock("phone-damped", impacts=1, probe={"camera": (0.048, 0.016, 0.0095)}, sensitivity=False, rate=2e4),
+     "shock phone-damped --impacts 1 --probe camera:0.048,0.016,0.0095 --no-sensitivity --rate 2e4".split(), ("csv",)),
     (lambda: clatter.ground("phone-damped", floor="concrete"), "shock --ground phone-damped --floor concrete".split(), ()),
     (lambda: clatter.atlas("rod"), ["atlas", "rod"], ("table",)), (clatter.benchmark_list, ["benchmark", "list"], ()),
     (lambda: clatter.benchmark_show("corner"), ["benchmark", "show", "corner"], ()),
@@ -307,15 +309,15 @@ class Calls(unittest.TestCase):
 
     def test_bad_input_names_the_argument(self):
         for words, call in {
-                "angle '95': must be from 0 to 90 degrees": lambda: clatter.sequence(95), "angle 'nan'": lambda: clatter.sequence(float("nan")),
+                "angle 95: must be from 0 to 90 degrees": lambda: clatter.sequence(95), "angle nan": lambda: clatter.sequence(float("nan")),
                 "impulse_ratio 0.1 and friction 0.2": lambda: clatter.sequence(10, impulse_ratio=0.1, friction=0.2),
-                "height '2': must be left out where world.gravity is 0": lambda: clatter.sequence(10, height=2, gravity=0),
+                "height 2: must be left out where world.gravity is 0": lambda: clatter.sequence(10, height=2, gravity=0),
                 "restitution_law 'newtn'": lambda: clatter.sequence(10, restitution_law="newtn"),
-                "impacts '2.5'": lambda: clatter.sequence(10, impacts=2.5), "given twice": lambda: clatter.sequence(10, angle=20),
+                "impacts 2.5": lambda: clatter.sequence(10, impacts=2.5), "given twice": lambda: clatter.sequence(10, angle=20),
                 "closed-form: no longer there": lambda: clatter.sequence(10, method="closed-form"),
                 "drop.angle_deg": lambda: clatter.sequence({"drop": {"angle_deg": 91}}), "format 'xml'": lambda: clatter.sequence(10).to_text("xml"),
                 "theta 91": lambda: clatter.angles([10, 91]), "theta nan": lambda: clatter.angles([float("nan")]),
-                "start 5: must not be greater than stop 3": lambda: clatter.angles(start=5, stop=3),
+                "start 5: must not be greater than stop=3": lambda: clatter.angles(start=5, stop=3),
                 "excludes start": lambda: clatter.angles([10], start=1), "impact 0": lambda: clatter.explain(0, 10),
                 "unknown argument": lambda: clatter.explain(1, 10, frictoin=0.1), "did you mean angle?": lambda: clatter.simulate("rod-45", anle=3),
                 "did you mean 'rod-45'?": lambda: clatter.simulate("rod-46"), "no-such.toml": lambda: clatter.simulate("no-such.toml"),
@@ -325,8 +327,8 @@ class Calls(unittest.TestCase):
                 "drop.angel_deg: unknown key": lambda: clatter.sweep("rod-10", {"drop.angel_deg": "1:2:1"}),
                 "did you mean impulse_normal_2, impulse_tangential_2": lambda: clatter.sweep("rod-10", angle=[5], model="discrete", columns="impulse_2"),
                 "only 'angel'": lambda: clatter.extremes(["angel"]), "seed -1": lambda: clatter.extremes(seed=-1),
-                "within '-1'": lambda: clatter.plan("rod-10", within=-1), "method: left out": lambda: clatter.plan("rod-10", method="rk4"),
-                "over": lambda: clatter.regimes("angle"), "digits '33'": lambda: clatter.compare("rod-45", digits=33),
+                "within -1": lambda: clatter.plan("rod-10", within=-1), "method: left out": lambda: clatter.plan("rod-10", method="rk4"),
+                "over": lambda: clatter.regimes("angle"), "digits 33": lambda: clatter.compare("rod-45", digits=33),
                 "did you mean C1?": lambda: clatter.verify(["C1x"])}.items():
             self.refused(words, call)
         self.assertTrue(issubclass(clatter.BadInput, ValueError))
@@ -409,13 +411,19 @@ part: float = run[0].impulse_z
 error: float | None = run[0].impulse_normal_error
 outcome: str = clatter.simulate("phone-damped").outcome
 worst: clatter.Record = clatter.report("phone-damped")[0]
+peaks: float | None = clatter.report(["phone-damped", "phone-corner"], floor=("concrete", "wood"), floor_restitution=[0.3, 0.5]).answer.peak_g
+notes: list[str] = clatter.report("phone-damped", part={"camera": (500, 300)}).answer.notes
+losses: clatter.Record | None = run.energy_losses
+clatter.map(over={"angle": (1, 60), "restitution": "0.1:1:log"})
 figure = clatter.figure(7, gravity_numbers=1)
 rows: clatter.Rows = clatter.sweep("phone-damped", probe={"camera": (0, 0, 0)}, part="100")
 counts: dict[str, dict[str, int]] = clatter.sweep("rod-10", angle=[1, 2], summary=True).texts
 """
         wrong = ["run[1].impulse_norml", "run.outcome + 1", "run[1].impulse_normal.upper()", "run[0].error_estimate.impulse_normal + 1",
                  "run.accuracy.achieve", 'clatter.sequence(angle="x")', 'clatter.plan("rod-10").choice.modle', "run.at(1)[0:1] + 1",
-                 'clatter.simulate("phone-damped").outcme', 'clatter.report("rod-10").answr']
+                 'clatter.simulate("phone-damped").outcme', 'clatter.report("rod-10").answr', 'clatter.report("rod-10").answer.peakg',
+                 'clatter.shock("rod-10", model="discret")', 'clatter.shock("rod-10", rows="spectra")', 'clatter.sweep("rod-10", rows="impacts")',
+                 'clatter.shock("rod-10", axis="w")', 'clatter.shock("rod-10", until=1)', 'clatter.report("rod-10", rate=1)']
         with tempfile.TemporaryDirectory() as folder:
             path = Path(folder, "call.py")
             path.write_text(right + "\n".join(wrong), encoding="utf-8")

@@ -147,15 +147,15 @@ HistoryInstant instant_of(const numeric::PieceSample& sample, const MotionPiece&
 /// A time at which an instant is wanted.
 struct Wanted {
   double time;
-  int peak_of;
+  const ShockRow* peak_of;  ///< the row whose peak it is, if it is one
 };
 
 std::vector<Wanted> wanted_times(const ContinuousShock& shock, double end, double rate) {
   if (!(end * rate < most_instants))
     throw std::domain_error(fmt::format("rate = {} Hz: must give at most {} rows over {} s", rate, most_instants, end));
   std::vector<Wanted> all;
-  for (long i = 0; static_cast<double>(i) <= end * rate; ++i) all.push_back({static_cast<double>(i) / rate, -1});
-  for (const ShockRow& row : shock.rows) all.push_back({row.start + row.value.peak_time, static_cast<int>(row.probe)});
+  for (long i = 0; static_cast<double>(i) <= end * rate; ++i) all.push_back({static_cast<double>(i) / rate, nullptr});
+  for (const ShockRow& row : shock.rows) all.push_back({row.start + row.value.peak_time, &row});
   std::stable_sort(all.begin(), all.end(), [](const Wanted& a, const Wanted& b) { return a.time < b.time; });
   return all;
 }
@@ -203,8 +203,9 @@ double largest_pressure(const numeric::Body& body, const numeric::MotionState& s
   return largest;
 }
 
-/// From 0 to the end of the last piece by steps of 1/rate, and in between an instant for the peak of each row.  Pieces
-/// are polynomials of degree 8 through the method's own steps.  Most instants: 10⁷.
+/// From 0 to the end of the last piece by steps of 1/rate, and in between an instant for the peak of each row, on the
+/// side of a jump on which it is one.  Pieces are polynomials of degree 8 through the method's own steps.  Most
+/// instants: 10⁷.
 /// @param rate  [Hz]
 /// @throws std::domain_error if there were more.
 std::vector<HistoryInstant> uniform_history(const ContinuousShock& shock, const numeric::Body& body,
@@ -221,11 +222,17 @@ std::vector<HistoryInstant> uniform_history(const ContinuousShock& shock, const 
       ++piece;
       polynomials.reset();
     }
-    if (!polynomials) polynomials.emplace(pieces[piece]);
-    const double x = (wanted.time - pieces[piece].begin()) / pieces[piece].piece.length;
-    history.push_back(instant_of(polynomials->at(std::clamp(x, 0.0, 1.0)), pieces[piece], body, ground, places));
+    if (wanted.peak_of) {
+      const MotionPiece& around = pieces[wanted.peak_of->peak_piece];
+      history.push_back(
+          instant_of(PiecePolynomials(around).at(wanted.peak_of->peak_place), around, body, ground, places));
+      history.back().peak_of = static_cast<int>(wanted.peak_of->probe);
+    } else {
+      if (!polynomials) polynomials.emplace(pieces[piece]);
+      const double x = (wanted.time - pieces[piece].begin()) / pieces[piece].piece.length;
+      history.push_back(instant_of(polynomials->at(std::clamp(x, 0.0, 1.0)), pieces[piece], body, ground, places));
+    }
     history.back().time = wanted.time;
-    history.back().peak_of = wanted.peak_of;
   }
   return history;
 }

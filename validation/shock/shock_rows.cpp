@@ -135,6 +135,8 @@ ShockRow row_of(std::span<const MotionPiece> contact, const Vector3& r, const Re
   n.peak = value_at(about, peak.x);
   n.peak_size = n.peak.norm();
   n.peak_time = time_at(contact[peak.piece], peak.x);
+  row.peak_piece = peak.piece;
+  row.peak_place = peak.x;
   n.width = crossing(contact, peak, width_level * n.peak_size, true, felt) -
             crossing(contact, peak, width_level * n.peak_size, false, felt);
   const Largest turn = largest(contact, turning);
@@ -308,6 +310,7 @@ std::vector<ShockRow> shock_rows(const MotionRecorder& motion, const RecordedSho
     for (std::size_t i = 0; i < asked.places.size(); ++i) {
       rows.push_back(row_of(contact, asked.places[i], asked));
       rows.back().probe = i;
+      rows.back().peak_piece += static_cast<std::size_t>(contact.data() - motion.pieces().data());
     }
   }
   return rows;

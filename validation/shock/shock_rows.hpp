@@ -40,6 +40,10 @@ struct ShockRow {
   Vector3 delta_v_body = Vector3::Zero();  ///< ΔV in body axes at the touch-down [m/s]
   double start_error = 0;                  ///< [s]
   bool predictable = true;
+  /// The piece of the recorded motion in which the peak lies, and where in it, from 0 to 1: where the force jumps, as
+  /// when friction turns, two pieces meet at one time, and the peak is that of one of them.
+  std::size_t peak_piece = 0;
+  double peak_place = 0;
   /// |∫a dt − ΔV| over |ΔV|, a the acceleration of the point by specific_force(): what the polynomials of the history
   /// leave open.
   double closure = 0;

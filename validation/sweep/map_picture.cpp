@@ -480,13 +480,14 @@ std::string numbers_of(const MapImage& image, Number&& number) {
 }
 
 std::string named_array(const MapImage& image, const std::string& shape) {
+  const auto name = [](const MapPixel& pixel) { return pixel.is_open ? std::string("open") : pixel.value; };
   std::size_t width = 1;
   for (const auto& row : image.rows) {
-    for (const MapPixel& pixel : row) width = std::max(width, pixel.value.size());
+    for (const MapPixel& pixel : row) width = std::max(width, name(pixel).size());
   }
   std::string out = array_head(fmt::format("|S{}", width), shape);
   for (const auto& row : image.rows) {
-    for (const MapPixel& pixel : row) out += pixel.value + std::string(width - pixel.value.size(), '\0');
+    for (const MapPixel& pixel : row) out += name(pixel) + std::string(width - name(pixel).size(), '\0');
   }
   return out;
 }

@@ -29,7 +29,7 @@ struct FoldCurve {
 /// PNG.  @throws as run_gnuplot.
 [[nodiscard]] std::string map_picture(const MapPlan& plan, const MapImage& image);
 /// NumPy's format: an array of rows of numbers (counts are numbers too: infinite ones inf, no such drop nan), or of the
-/// classes' names; with samples three of them: probability, low, high.
+/// classes' names, "open" where that is left open; with samples three of them: probability, low, high.
 [[nodiscard]] std::string map_array(const MapPlan& plan, const MapImage& image);
 
 }  // namespace clatter::validation

@@ -57,7 +57,7 @@ void add_reports(pybind11::module_& module);
 void add_discrete_functions(pybind11::module_& module);
 /// simulate, compare, plan, tradeoff, sweep; cases.
 void add_scene_functions(pybind11::module_& module);
-/// run_command: atlas, ground, map, report, shock.
+/// run_command: atlas, ground, map, report, shock; command_options.
 void add_commands(pybind11::module_& module);
 /// verify, measured, benchmark_*, compare_against, extremes, figure.
 void add_evidence_functions(pybind11::module_& module);

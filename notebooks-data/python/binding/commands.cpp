@@ -15,16 +15,30 @@ namespace {
 namespace py = pybind11;
 using validation::Command;
 
+/// The commands that functions are named after.
+const std::map<std::string, Command (*)()>& commands() {
+  static const std::map<std::string, Command (*)()> all{
+      {"atlas", validation::atlas_command},       {"compare", validation::compare_command},
+      {"explain", validation::explain_command},   {"gradient", validation::gradient_command},
+      {"ground", validation::ground_command},     {"map", validation::map_command},
+      {"plan", validation::plan_command},         {"report", validation::report_command},
+      {"sequence", validation::sequence_command}, {"shock", validation::shock_command},
+      {"simulate", validation::simulate_command}, {"sweep", validation::sweep_command},
+      {"tradeoff", validation::tradeoff_command}};
+  return all;
+}
+
 /// @throws BadInput for a name that none has
 Command made(const std::string& name) {
-  static const std::map<std::string, Command (*)()> commands{{"atlas", validation::atlas_command},
-                                                             {"ground", validation::ground_command},
-                                                             {"map", validation::map_command},
-                                                             {"report", validation::report_command},
-                                                             {"shock", validation::shock_command}};
-  Command command = validation::named(commands, name)();
+  Command command = validation::named(commands(), name)();
   command.name = name;
   return command;
+}
+
+std::map<std::string, std::vector<std::string>> command_options() {
+  std::map<std::string, std::vector<std::string>> options;
+  for (const auto& [name, make] : commands()) options[name] = make().option_names();
+  return options;
 }
 
 /// (report or None, what it says beside that: why it falls short)
@@ -47,6 +61,7 @@ py::tuple run_command(const std::string& name, const std::vector<std::string>& w
 void add_commands(py::module_& module) {
   module.def("run_command", &run_command, py::arg("name"), py::arg("words"),
              "What a command says, and what it says beside that.");
+  module.def("command_options", &command_options, "The options that each command has.");
 }
 
 }  // namespace clatter::python

@@ -27,7 +27,7 @@ from clatter.commands import atlas, ground, map, report, shock
 from clatter.errors import BadArgument, BadInput, ClatterWarning, Error, NotComputed, OutsideModel
 from clatter.evidence import (benchmark_list, benchmark_score, benchmark_show, benchmark_truth, extremes, figure, measured_fit,
                               measured_predict, measured_score, verify)
-from clatter.fields import Accuracy, Check, Choice, Cost, Equation, Impact, ImpactErrors, Rung, SimulatedImpact, Step, Tail
+from clatter.fields import Accuracy, Answer, Check, Choice, Cost, Equation, Impact, ImpactErrors, Rung, SimulatedImpact, Step, Tail
 from clatter.findings import Explanation, Gradient, Measured, Plan, Problem, Ranking, Rows, Scored, Summary, Table, Tradeoff
 from clatter.records import History, Record
 from clatter.results import Comparison, ComparisonSweep, Result, Run, Sequence, Simulation, States, Sweep, Verification
@@ -35,7 +35,7 @@ from clatter.scenes import case, cases
 
 __version__ = _clatter.version
 __all__ = [
-    "Accuracy", "Angles", "BadArgument", "BadInput", "Check", "Choice", "ClatterWarning", "Comparison",
+    "Accuracy", "Angles", "Answer", "BadArgument", "BadInput", "Check", "Choice", "ClatterWarning", "Comparison",
     "ComparisonSweep", "Cost", "Equation", "Error", "Explanation", "Gradient", "History", "Impact", "ImpactErrors",
     "Measured", "NotComputed", "OutsideModel", "Plan", "Problem", "Ranking", "Record", "Result", "Rows", "Run",
     "Rung", "Scored", "Sequence", "SimulatedImpact", "Simulation", "States", "Step", "Summary", "Sweep", "Table",

@@ -8,13 +8,14 @@ from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING, Any, overload
 
 from clatter import _clatter
-from clatter.arguments import Progress, checked, is_list, is_number, plain, shown, texts_of
+from clatter.arguments import Progress, checked, is_list, is_number, plain, texts_of
 from clatter.arrays import Array, frozen, numpy_for, same_arrays
 from clatter.errors import BadArgument
 from clatter.findings import Rows
 from clatter.records import Record, absent, as_array
 from clatter.results import Report, shown_html, shown_text
 from clatter.scenes import called
+from clatter.words import shown
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike

@@ -17,17 +17,25 @@ from typing import Any, Literal, NamedTuple, ParamSpec, TypeVar
 
 from clatter import _clatter
 from clatter.errors import BadArgument, BadInput
+from clatter.words import by_arguments, in_python, shown
 
 Value = str | float | bool | Iterable[float]
 Swept = str | float | bool | Iterable[str] | Iterable[float] | Iterable[Iterable[float]]
 Path = str | os.PathLike[str]
 Probes = Mapping[str, Iterable[float]]  # a place on the body by the name of each
+Part = str | Iterable[float]  # (500, 300): Hz and g; or as --part has it
+Parts = Part | Iterable[Part] | Mapping[str, Part | Iterable[Part]]  # one, several, or those of each probe by its name
 Scene = str | os.PathLike[str] | Mapping[str, Any]
+Scenes = Iterable[str | os.PathLike[str]]  # several
+Model = Literal["discrete", "continuous"]
+Axis = Literal["x", "y", "z"]
+ShockRows = Literal["impact", "spectrum", "pulse"]
+SweepRows = Literal["scene", "impact"]
+Over = Mapping[str, str | Iterable[float]]  # ranges of two keys
 Progress = Callable[[int, int], object]  # called with (done, of) a few times a second; what it raises ends the work
 
 _Arguments = ParamSpec("_Arguments")
 _Returned = TypeVar("_Returned")
-_MOST_SHOWN = 60  # characters of a value in a message
 
 
 class Key(NamedTuple):
@@ -62,14 +70,8 @@ class Key(NamedTuple):
         return {"number": f"a number, {self.allowed}", "truth": "True or False", "text": "a text"}.get(self.kind, self.allowed)
 
 
-KEYS = {key.argument: key for key in (Key(**row) for row in _clatter.keys())}
+KEYS = {key.argument: key._replace(meaning=by_arguments(in_python(key.meaning))) for key in (Key(**row) for row in _clatter.keys())}
 _BY_NAME = {key.key: key for key in KEYS.values()}
-
-
-def shown(value: Any) -> str:
-    """A value on one line, in a message."""
-    text = " ".join(repr(value).split())
-    return text if len(text) <= _MOST_SHOWN else text[:_MOST_SHOWN - 3] + "..."
 
 
 def plain(value: Any) -> Any:
@@ -139,26 +141,58 @@ def swept_text(name: str, values: Any, called: str | None = None) -> str:
     if key is not None and key.kind == "list":
         if all(map(is_number, parts)):
             return text_of(name, key, parts)
+        if not is_attitude:
+            raise BadArgument(f"{name} {shown(values)}: must be one list of numbers, which no sweep varies; call sweep() for each")
         vectors = [text_of(name, key, part).split("x") for part in parts]
         return ",".join(f"[{','.join(vector)}]" for vector in vectors)
     texts = [text_of(name, key, part) for part in parts]
     return f"{texts[0]}:{texts[0]}:1" if len(texts) == 1 and is_number(parts[0]) else ",".join(texts)
 
 
+def key_of(name: str) -> str:
+    """The key of scene files that an argument stands for, or the key itself."""
+    return KEYS[name].key if name in KEYS else name
+
+
 def set_texts(values: Mapping[str, Swept] | None, changes: Mapping[str, Any]) -> list[str]:
     """KEY=VALUES for --set, of values by the keys of scene files and of arguments by their names.  @raise BadArgument: a key of both."""
-    sets = [f"{key}={swept_text(key, value)}" for key, value in (values or {}).items()]
+    keys = {key_of(name): name for name in values or {}}
+    sets = [f"{key}={swept_text(key, (values or {})[name], name)}" for key, name in keys.items()]
     for name, value in changes.items():
         key = KEYS[name].key
-        if value is not None and key in (values or {}):
+        if value is not None and key in keys:
             raise BadArgument(f"{name} {shown(value)}: {key} is given, too")
         sets += [] if value is None else [f"{key}={swept_text(key, value, name)}"]
     return sets
 
 
-def colons(numbers: str | Iterable[float] | None) -> str | None:
-    """Numbers as the program has those of one thing: (500, 300) is 500:300."""
-    return numbers if numbers is None or isinstance(numbers, str) else ":".join(map(number_text, numbers))
+def colons(name: str, numbers: str | Iterable[float] | None, meanings: tuple[str, ...]) -> str | None:
+    """Numbers as the program has those of one thing: (500, 300) is 500:300.  @raise BadArgument: they are not so many."""
+    if numbers is None or isinstance(numbers, str):
+        return numbers
+    several = [*numbers]
+    if len(several) != len(meanings) or not all(map(is_number, map(plain, several))):
+        raise BadArgument(f"{name} {shown(numbers)}: must be ({', '.join(meanings)})")
+    return ":".join(map(number_text, several))
+
+
+def frequencies_text(frequencies: str | Iterable[float] | None) -> str | None:
+    """LOW:HIGH:COUNT."""
+    return colons("frequencies", frequencies, ("low", "high", "count"))
+
+
+def part_text(part: Part | None) -> str | None:
+    """One part, as --part has it."""
+    return colons("part", part, ("Hz", "g"))
+
+
+def part_texts(parts: Parts | None) -> list[str]:
+    """Each as --part has it, those of a dict behind the name of their probe."""
+    if isinstance(parts, Mapping):
+        return [f"{name}:{text}" for name, some in parts.items() for text in part_texts(some)]
+    if parts is None or isinstance(parts, str) or all(is_number(plain(one)) for one in parts):
+        return [text for text in [part_text(parts)] if text is not None]  # type: ignore[arg-type]
+    return [text for one in parts for text in part_texts(one)]  # type: ignore[arg-type]
 
 
 def probe_texts(probe: str | Iterable[str] | Probes | None) -> list[str]:
@@ -180,6 +214,14 @@ _TYPES: dict[str, tuple[Callable[[Any], bool], str]] = {
     "Progress": (callable, "a function of (done, of)"),
     "Iterable[str]": (lambda value: is_list(value) and all(isinstance(part, str) for part in value), "a list of texts"),
     "Iterable[Path]": (lambda value: is_list(value) and all(isinstance(part, (str, os.PathLike)) for part in value), "a list of paths"),
+    "Parts": (lambda value: isinstance(value, str) or isinstance(value, Mapping) or is_list(value) and all(
+        isinstance(plain(one), str) or is_number(plain(one)) or is_list(one) for one in value),
+              "(Hz, g), a text, a list of these, or a dict of them by the names of probes"),
+    "Part": (lambda value: isinstance(value, str) or is_list(value) and all(map(is_number, map(plain, value))), "(Hz, g) or a text"),
+    "Scenes": (lambda value: is_list(value) and all(isinstance(one, (str, os.PathLike)) for one in value) and any(True for _ in value),
+               "a list of files and names of cases"),
+    "Over": (lambda value: isinstance(value, Mapping) and all(isinstance(key, str) for key in value), "a dict of ranges by the keys of scenes"),
+    **{kind: (lambda value: isinstance(value, str), "a text") for kind in ("Model", "Axis", "ShockRows", "SweepRows")},
     "Mapping[str, Swept]": (lambda value: isinstance(value, Mapping) and all(isinstance(key, str) for key in value),
                             "a dict of values by the keys of scenes"),
     "Probes": (lambda value: isinstance(value, Mapping), "a dict of places by the names of probes"),
@@ -190,7 +232,7 @@ _TYPES: dict[str, tuple[Callable[[Any], bool], str]] = {
 
 def _checked_value(name: str, value: Any, annotation: str) -> Any:
     value = plain(value)
-    if is_list(value) and "Iterable" in annotation:
+    if is_list(value) and not hasattr(value, "__len__"):  # to be read once alone
         value = list(value)
     types = [_TYPES[part] for part in annotation.split(" | ")]
     if isinstance(value, float) and value.is_integer() and _TYPES["int"] in types and _TYPES["float"] not in types:
@@ -214,16 +256,27 @@ def _nearest_argument(unknown: str, value: Any, names: list[str]) -> str:
     return (fitting or difflib.get_close_matches(unknown, longer or names, 1, 0))[0]
 
 
+_OPTIONS = _clatter.command_options()
+_OPTIONS |= {"compare_against": _OPTIONS["compare"]}
+
+
+def _takes(function: str, key: Key, annotation: str) -> bool:
+    """Whether a function takes a key of scenes: its command has the flag, or the key has none and stands in the scene; a sweep, a
+    map and a figure set any."""
+    return ((key.is_discrete or annotation != "DiscreteKey")
+            and (annotation == "SweptKey" and function != "report" or not key.flag or key.flag in _OPTIONS.get(function, [key.flag])))
+
+
 def checked(function: Callable[_Arguments, _Returned]) -> Callable[_Arguments, _Returned]:
     """The function, which refuses arguments of unknown names and wrong types on one line.
 
-    Where it takes **changes, these are keys of scenes, all or (DiscreteKey in the annotation) those of the discrete model,
-    and its signature and documentation list them.
+    Where it takes **changes, these are keys of scenes, those that the command of its name takes (of the discrete model, where the
+    annotation is DiscreteKey), and its signature and documentation list them.
     """
     own = dict(inspect.signature(function).parameters)
     changes = own.pop("changes", None)
     keys = [key for key in KEYS.values() if changes is not None and key.argument not in own
-            and (key.is_discrete or changes.annotation != "DiscreteKey")]
+            and _takes(function.__name__, key, changes.annotation)]
     positional = [name for name, one in own.items() if one.kind is inspect.Parameter.POSITIONAL_OR_KEYWORD]
     names = [*own, *(key.argument for key in keys)]
     types = {name: one.annotation for name, one in own.items() if set(str(one.annotation).split(" | ")) <= _TYPES.keys()}

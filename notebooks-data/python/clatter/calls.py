@@ -3,24 +3,25 @@
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Iterable, Mapping
 from typing import Any
 
 from clatter import _clatter
-from clatter.arguments import (KEYS, AnyKey, DiscreteKey, Path, Probes, Progress, Scene, Swept, SweptKey, checked, colons, probe_texts,
+from clatter.arguments import (KEYS, AnyKey, DiscreteKey, Model, Part, Path, Probes, Progress, Scene, Swept, SweepRows, SweptKey, checked, is_number, part_text, probe_texts,
                                set_texts, texts_of)
 from clatter.arrays import numpy_for
-from clatter.errors import ClatterWarning, NotComputed
+from clatter.errors import NotComputed
 from clatter.evidence import listed
 from clatter.findings import Explanation, Gradient, Plan, Rows, Scored, Summary, Tradeoff
 from clatter.records import History
 from clatter.results import Comparison, ComparisonSweep, Sequence, Simulation, Sweep
-from clatter.scenes import called, scene_text
+from clatter.scenes import called, scene_text, warn
 
 # A scene with a table [sweep] gives other results than one without.  Their types say `| Any`, so that what has no such table,
 # nearly every scene, needs no cast, and a name that neither has is found.
 
+# What the ground has in place of an impact's.
+_OF_THE_GROUND = {"friction": "; the ground's own is sliding_friction", "restitution": "; the ground's own is floor_restitution"}
 # Outcomes after which rows are missing because a number could not be computed.
 _CUT_SHORT = {"evaluation-limit", "step-too-small", "not-representable", "flight-undecided", "not-computed", "outside-model"}
 
@@ -28,7 +29,12 @@ _CUT_SHORT = {"evaluation-limit", "step-too-small", "not-representable", "flight
 def _warn(reservations: Iterable[str]) -> None:
     """Of the line that calls a function of this file."""
     for words in reservations:
-        warnings.warn(words, ClatterWarning, stacklevel=4)
+        warn(words, 4)
+
+
+def as_given(scene: Scene | float | None, changes: Mapping[str, Any]) -> dict[str, Any]:
+    """Arguments by their names, the scene's angle too."""
+    return {**changes, **({"angle": scene} if is_number(scene) else {})}
 
 
 def _reservations(shortfall: str | None, outcome: str, impacts: int) -> list[str]:
@@ -54,7 +60,7 @@ def sequence(scene: Scene | float | None = None, *, method: str = "auto", **chan
     >>> clatter.sequence(angle=10)[1].impulse_normal
     1.0028424649698549
     """
-    report, shortfall, outcome, impacts, said = called(_clatter.sequence, *scene_text(scene, changes), method)
+    report, shortfall, outcome, impacts, said = called(_clatter.sequence, *scene_text(scene, changes), method, given=as_given(scene, changes))
     _warn([*_reservations(shortfall, outcome, impacts), *said])
     return Sequence(report)
 
@@ -69,7 +75,7 @@ def explain(impact: int, scene: Scene | float | None = None, **changes: Discrete
     >>> clatter.explain(2, angle=10)["Eq. 8"]["P_n"]
     1.0028424649698549
     """
-    report, created = called(_clatter.explain, impact, *scene_text(scene, changes))
+    report, created = called(_clatter.explain, impact, *scene_text(scene, changes), given=as_given(scene, changes))
     result = Explanation(report)
     _warn(created)
     if result.to_dict()["shortfall"] is not None:
@@ -88,7 +94,7 @@ def gradient(scene: Scene | float | None = None, **changes: DiscreteKey) -> Grad
     >>> clatter.gradient(angle=10).of("speed")[0].velocity_after_z
     -0.48843072413223654
     """
-    report, shortfall = called(_clatter.gradient, *scene_text(scene, changes))
+    report, shortfall = called(_clatter.gradient, *scene_text(scene, changes), given=as_given(scene, changes))
     _warn([shortfall] if shortfall else [])
     return Gradient(report)
 
@@ -109,12 +115,12 @@ def simulate(scene: Scene | float | None = None, *, history: bool = False, progr
     """
     if history:
         numpy_for("history=True")
-    report, arrays, doubts = called(_clatter.simulate, *scene_text(scene, changes), history, progress)
+    report, arrays, doubts = called(_clatter.simulate, *scene_text(scene, changes), history, progress, given=as_given(scene, changes))
     if "runs" in report.data():
         _warn(doubts)
         return Sweep(report)
     run = Simulation(report, None if arrays is None else History(arrays))
-    left_out = [f"{name}: the discrete model's alone, which simulate() leaves out" for name, value in changes.items()
+    left_out = [f"{name}: the discrete model's alone, which simulate() leaves out{_OF_THE_GROUND.get(name, '')}" for name, value in changes.items()
                 if value is not None and (KEYS[name].key.startswith("impact.") or not KEYS[name].is_continuous)]
     _warn([*doubts, *_reservations(run.shortfall, run.outcome, len(run)), *left_out])
     return run
@@ -130,7 +136,7 @@ def compare(scene: Scene | float | None = None, *, progress: Progress | None = N
     >>> clatter.compare("phone-damped", impacts=2).agrees
     True
     """
-    report = called(_clatter.compare, *scene_text(scene, changes), progress)
+    report = called(_clatter.compare, *scene_text(scene, changes), progress, given=as_given(scene, changes))
     return ComparisonSweep(report) if "runs" in report.data() else Comparison(report)
 
 
@@ -146,7 +152,8 @@ def compare_against(
 ) -> Scored:
     """Scores others' runs of any scene by the discrete model, as benchmark_score() does; scene as for sequence()."""
     options = texts_of({"columns": columns, "require": require})
-    return Scored(*called(_clatter.compare_against, *scene_text(scene, changes), listed(files), options, progress))
+    return Scored(*called(_clatter.compare_against, *scene_text(scene, changes), listed(files), options, progress,
+                          given=as_given(scene, changes)))
 
 
 @checked
@@ -154,14 +161,14 @@ def sweep(
     scene: Scene | None = None,
     values: Mapping[str, Swept] | None = None,
     *,
-    model: str | None = None,
-    rows: str = "scene",
+    model: Model | None = None,
+    rows: SweepRows = "scene",
     random: int | None = None,
     seed: int | None = None,
     scatter: float | None = None,
     columns: str | Iterable[str] | None = None,
     probe: str | Iterable[str] | Probes | None = None,
-    part: str | Iterable[float] | None = None,
+    part: Part | None = None,
     errors: bool = True,
     require_digits: bool = False,
     summary: bool = False,
@@ -198,11 +205,12 @@ def sweep(
     sets += ["run.require_digits=true"] if require_digits else []
     names = columns if columns is None or isinstance(columns, str) else ",".join(columns)
     options = texts_of({"random": random, "seed": seed, "scatter": scatter, "model": model, "rows": rows, "columns": names,
-                        "rank_by": rank_by, "part": colons(part)})
+                        "rank_by": rank_by, "part": part_text(part)})
     name, text, _ = scene_text(scene, {})
     if isinstance(scene, str):  # the program finds a case by its name, which its commands then have, too
         name, text = scene, None
-    report, shortfall, said = called(_clatter.sweep, name, text, sets, probe_texts(probe), options, summary, progress)
+    report, shortfall, said = called(_clatter.sweep, name, text, sets, probe_texts(probe), options, summary, progress,
+                                     given={**(values or {}), **changes, "columns": columns, "probe": probe, "part": part})
     if shortfall and require_digits:
         raise NotComputed(shortfall)
     _warn([*([shortfall] if shortfall else []), *said])
@@ -220,7 +228,7 @@ def plan(scene: Scene | float | None = None, *, within: float | None = None, **c
     'spatial'
     """
     time = texts_of({"within": within}).get("within")
-    report, shortfall = called(_clatter.plan, *scene_text(scene, changes), time)
+    report, shortfall = called(_clatter.plan, *scene_text(scene, changes), time, given=as_given(scene, changes) | {"within": within})
     _warn([shortfall] if shortfall else [])
     return Plan(report)
 
@@ -231,6 +239,6 @@ def tradeoff(scene: Scene | float | None = None, *, progress: Progress | None = 
 
     scene and keys as for simulate().  progress(done, of): of the runs.  Raises BadInput, NotComputed; warns if the reference falls short.
     """
-    report, shortfall = called(_clatter.tradeoff, *scene_text(scene, changes), progress)
+    report, shortfall = called(_clatter.tradeoff, *scene_text(scene, changes), progress, given=as_given(scene, changes))
     _warn([shortfall] if shortfall else [])
     return Tradeoff(report)

@@ -7,19 +7,20 @@ import os
 import re
 import tempfile
 import tomllib
-import warnings
 from collections.abc import Iterable, Mapping
 from pathlib import Path as FilePath
 from typing import Any
 
 from clatter import _clatter
-from clatter.arguments import (KEYS, AnyKey, Path, Probes, Scene, Swept, SweptKey, checked, colons, is_number, probe_texts, set_texts,
-                               shown, text_of, texts_of)
+from clatter.arguments import (KEYS, AnyKey, Axis, Model, Over, Parts, Path, Probes, Scene, Scenes, ShockRows, Swept, SweptKey, checked,
+                               frequencies_text, is_list, is_number, key_of, part_texts, plain, probe_texts, set_texts, swept_text,
+                               text_of, texts_of)
 from clatter.arrays import Array, numpy_for
-from clatter.errors import BadArgument, BadInput, ClatterWarning, NotComputed
+from clatter.errors import BadArgument, BadInput, NotComputed
 from clatter.findings import Ranking, Table
 from clatter.results import Report
-from clatter.scenes import called, cases, scene_text, toml_lines
+from clatter.scenes import called, cases, scene_text, toml_lines, warn
+from clatter.words import shown
 
 
 def _file_of(scene: Scene, changes: Mapping[str, Any], folder: str) -> str:
@@ -39,8 +40,21 @@ def _file_of(scene: Scene, changes: Mapping[str, Any], folder: str) -> str:
     return path
 
 
-def _run(command: str, scene: Scene | float | None, changes: Mapping[str, Any], options: list[str]) -> Report | None:
-    words = list(options)
+def _word(name: str, value: Any, command: str) -> str:
+    """The value of a flag; of a report, which takes several, those of each case."""
+    key = KEYS[name]
+    if command == "report" and key.kind in ("number", "whole", "name"):
+        return swept_text(key.key, value, name)
+    if key.kind == "truth" and not isinstance(plain(value), bool):
+        raise BadArgument(f"{name} {shown(value)}: must be {key.requirement()}")
+    text = text_of(name, key, value)
+    return text.replace("x", ",") if key.kind == "list" and name != "size" else text
+
+
+def _run(command: str, scene: Scene | Scenes | float | None, changes: Mapping[str, Any], options: Mapping[str, Any],
+         words: Iterable[str] = (), **others: Any) -> Report | None:
+    """The command with its options and what else is typed for it, which messages show as the others that were given."""
+    words = [*words, *_options(options)]
     given = {name: value for name, value in changes.items() if value is not None}
     if isinstance(scene, (int, float)):
         if "angle" in given:
@@ -49,42 +63,47 @@ def _run(command: str, scene: Scene | float | None, changes: Mapping[str, Any], 
     without_flag = {}
     for name, value in given.items():
         key = KEYS[name]
-        text = text_of(name, key, value)
-        if not key.flag:
-            without_flag[key.key] = value
+        text = _word(name, value, command)
+        is_off = key.flag.startswith("--no-")
+        if not key.flag or key.kind == "truth" and plain(value) == is_off:
+            if key.kind != "truth" or not key.flag or scene is not None:  # else it is the default
+                without_flag[key.key] = value
         elif key.kind != "truth":
-            words += [f"{key.flag}={text.replace('x', ',') if key.kind == 'list' and name != 'size' else text}"]
-        elif value:
+            words.append(f"{key.flag}={text}")
+        else:
             words.append(key.flag)
     with tempfile.TemporaryDirectory() as folder:
-        if scene is not None or without_flag:
-            words.append(_file_of({} if scene is None else scene, without_flag, folder))
+        if is_list(scene):
+            if without_flag:
+                raise BadArgument(f"{next(iter(without_flag))}: must stand in each of several scenes")
+            words += [os.fspath(one) for one in scene]  # type: ignore[union-attr]
+        elif scene is not None or without_flag:
+            words.append(_file_of({} if scene is None else scene, without_flag, folder))  # type: ignore[arg-type]
         try:
-            report, said = called(_clatter.run_command, command, words)
+            report, said = called(_clatter.run_command, command, words, given={**others, **options, **given})
         except BadInput as error:
             raise BadInput(re.sub(re.escape(folder) + r"/scene\.toml(:\d+:\d+)?: ", "", str(error))) from None
     if said and report is not None and command != "report" and not report.rows():
         raise NotComputed("; ".join(said))
     for reason in said:
-        warnings.warn(reason.removeprefix("warning: "), ClatterWarning, stacklevel=4)
+        warn(reason, 4)
     return report
 
 
 def _options(given: Mapping[str, Any]) -> list[str]:
+    """The options of a command that were given."""
+    texts = texts_of({name: value for name, value in given.items() if not isinstance(value, bool)}
+                     | ({"frequencies": frequencies_text(given["frequencies"])} if "frequencies" in given else {}))
     truths = [f"--{name.replace('_', '-')}" for name, value in given.items() if value is True]
-    texts = texts_of({name: value for name, value in given.items() if not isinstance(value, bool)})
     return truths + [f"--{name.replace('_', '-')}={text}" for name, text in texts.items()]
 
 
-def _probes(probe: str | Iterable[str] | Probes | None) -> list[str]:
-    return [f"--probe={text}" for text in probe_texts(probe)]
+def _without_sensitivity(sensitivity: bool) -> dict[str, bool]:
+    return {} if sensitivity else {"no_sensitivity": True}
 
 
-def _parts(part: str | Iterable[str] | Iterable[float] | None) -> list[str]:
-    parts: list[Any] = [part] if isinstance(part, str) else [*(part or [])]
-    if parts and all(is_number(number) for number in parts):  # (500, 300): Hz and g
-        parts = [colons(parts)]
-    return [f"--part={text}" for text in parts]
+def _at_points(probe: str | Iterable[str] | Probes | None, part: Parts | None) -> list[str]:
+    return [*(f"--probe={text}" for text in probe_texts(probe)), *(f"--part={text}" for text in part_texts(part))]
 
 
 def _table(report: Report | None) -> Table:
@@ -97,15 +116,15 @@ def shock(
     scene: Scene | float | None = None,
     *,
     probe: str | Iterable[str] | Probes | None = None,
-    model: str | None = None,
-    axis: str | None = None,
+    model: Model | None = None,
+    axis: Axis | None = None,
     quality: str | float | None = None,
     frequencies: str | Iterable[float] | None = None,
     first: int | None = None,
     severity: float | None = None,
-    part: str | Iterable[str] | Iterable[float] | None = None,
+    part: Parts | None = None,
     sensitivity: bool = True,
-    rows: str = "impact",
+    rows: ShockRows | None = None,
     rate: float | None = None,
     measured: Path | None = None,
     column: str | None = None,
@@ -116,8 +135,9 @@ def shock(
     """What the impacts of a drop do to points of the body: peaks, changes of velocity, response spectra, damage boundary.
 
     scene and keys as for simulate().  probe: {"camera": (x, y, z)} in m from the geometric centre, or texts NAME:X,Y,Z.
-    model: "discrete" or "continuous".  rows: "impact", "spectrum" or "pulse"; to_dict() has all.  rate [Hz]: rows are the
-    history.  part: (500, 300) or "500:300", Hz and g, "300g" or "40g:11ms", what the part at the probe bears, or several texts.
+    model: "discrete" or "continuous".  rows: "impact" (what they are without), "spectrum" or "pulse"; to_dict() has all.  rate [Hz]:
+    rows are the history.  part: what the part at a probe bears, (500, 300) or "500:300", Hz and g, "300g" or "40g:11ms"; several of
+    these, or {"camera": (500, 300)}, those of each probe.
     frequencies: (low, high, count) of the spectra [Hz].
     sensitivity: how peaks follow the ground's numbers, by four more runs.  first: so many impacts are the first ones.
     measured: accelerations of a logger (CSV) in place of a drop; its column and unit; against: a scene beside it.
@@ -125,11 +145,11 @@ def shock(
 
     >>> clatter.shock("phone-damped", probe={"camera": (0.048, 0.016, 0.0095)}, impacts=1)["peak"]
     """
-    options = {"model": model, "axis": axis, "quality": quality, "frequencies": colons(frequencies), "first": first,
-               "severity": severity, "no_sensitivity": not sensitivity, "rows": rows, "rate": rate,
+    options = {"model": model, "axis": axis, "quality": quality, "frequencies": frequencies, "first": first,
+               "severity": severity, **_without_sensitivity(sensitivity), "rows": rows, "rate": rate,
                "measured": measured and os.fspath(measured), "column": column, "unit": unit,
                "against": against and os.fspath(against)}
-    return _table(_run("shock", scene, changes, _probes(probe) + _parts(part) + _options(options)))
+    return _table(_run("shock", scene, changes, options, _at_points(probe, part), probe=probe, part=part))
 
 
 @checked
@@ -156,38 +176,40 @@ def ground(
     """
     options = {"measured_e": measured_e, "contact_time": contact_time, "peak_force": peak_force, "indentation": indentation,
                "modulus": modulus, "poisson": poisson, "footprint": footprint, "thickness": thickness, "floor": floor}
-    return _table(_run("ground", scene, changes, _options(options)))
+    return _table(_run("ground", scene, changes, options))
 
 
 @checked
 def report(
-    scene: Scene | float | None = None,
+    scene: Scene | Scenes | float | None = None,
     *,
     output: Path | None = None,
     probe: str | Iterable[str] | Probes | None = None,
-    model: str | None = None,
-    axis: str | None = None,
+    model: Model | None = None,
+    axis: Axis | None = None,
     quality: str | float | None = None,
     frequencies: str | Iterable[float] | None = None,
     first: int | None = None,
     severity: float | None = None,
-    part: str | Iterable[str] | Iterable[float] | None = None,
+    part: Parts | None = None,
     sensitivity: bool = True,
     drops: int | None = None,
     scatter: float | None = None,
     rank_by: str | None = None,
-    **changes: AnyKey,
+    **changes: SweptKey,
 ) -> Ranking | Any:
     """The worst of all attitudes of a drop, and what it does: as a Ranking, or, with output, as the page FILE.html (None is
     returned then).
 
     Arguments as for shock(); drops and scatter [°]: of the random attitudes; rank_by: a column of sweep()'s rows.
+    scene: also a list of files and names of cases.  A number or name of the scene may be several, floor_restitution=[0.3, 0.5],
+    floor=("concrete", "wood"): each scene with each of these is a case and a row, the worst first.
     Raises BadInput, OutsideModel, NotComputed; warns of a run that ended early.
     """
-    options = {"model": model, "axis": axis, "quality": quality, "frequencies": colons(frequencies), "first": first,
-               "severity": severity, "no_sensitivity": not sensitivity, "drops": drops, "scatter": scatter,
+    options = {"model": model, "axis": axis, "quality": quality, "frequencies": frequencies, "first": first,
+               "severity": severity, **_without_sensitivity(sensitivity), "drops": drops, "scatter": scatter,
                "rank_by": rank_by, "output": output and os.fspath(output), "format": None if output else "json"}
-    made = _run("report", scene, changes, _probes(probe) + _parts(part) + _options(options))
+    made = _run("report", scene, changes, options, _at_points(probe, part), probe=probe, part=part)
     return None if made is None else Ranking(made)
 
 
@@ -201,14 +223,13 @@ def atlas(scene: Scene | None = None, *, plane: bool = False, **changes: AnyKey)
     >>> clatter.atlas("rod")
     """
     name = scene if isinstance(scene, str) and scene not in cases() and not os.path.exists(scene) else None
-    options = _options({"plane": plane}) + ([name] if name else [])
-    return _table(_run("atlas", None if name else scene, changes, options))
+    return _table(_run("atlas", None if name else scene, changes, {"plane": plane}, [name] if name else []))
 
 
 @checked
 def map(
     scene: Scene | None = None,
-    over: Mapping[str, Swept] | None = None,
+    over: Over | None = None,
     values: Mapping[str, Swept] | None = None,
     *,
     quantity: str = "impacts",
@@ -218,10 +239,14 @@ def map(
     **changes: SweptKey,
 ) -> Array:
     """A quantity over two keys of a scene, as an array, upward and across; NaN where rounding leaves a number open or there is
-    none, inf for infinitely many impacts.  Texts, of quantity="outcome" and the like, are texts.
+    none, inf for infinitely many impacts.
 
-    over: two keys of the scene file with their ranges, {"drop.angle_deg": (0, 60), "impact.restitution": "0.1:1:log"},
-    across and upward; each number is that of the middle of its part of the range.  values: of other keys, as for sweep(), with
+    quantity="outcome" gives texts: "ends", where so many impacts are all; "goes on", where more follow than are looked at;
+    "infinite", where infinitely many follow in a finite time; "stays", where an end stays on the ground; "open", where rounding or a fold does not tell; "refused",
+    "outside-model", "not-computed", where there is no drop.
+
+    over: two keys with their ranges, {"angle": (0, 60), "restitution": "0.1:1:log"}, by the names that sequence() takes or
+    by those of scene files ("drop.angle_deg"), across and upward; each number is that of the middle of its part of the range.  values: of other keys, as for sweep(), with
     samples ranges, too, or as arguments by the names that sequence() takes.  quantity: "impacts", "ratio" (of the second impulse to
     the first), "total", "loss" ..., with samples "NAME=CLASS", the share of that class; then the first axis is share, least and most
     (Wilson's).  size: across and upward; a body's size is values={"body.size": ...}.  Up to 100 impacts are followed, or as many as
@@ -231,15 +256,24 @@ def map(
     >>> clatter.map(over={"drop.angle_deg": (1, 60), "impact.restitution": (0.2, 0.9)}, body="rod", gravity=9.81, quantity="ratio")
     """
     numpy = numpy_for("map()")
-    words = [f"--quantity={quantity}", "--size=" + "x".join(str(int(side)) for side in size)]
-    for key, bounds in (over or {}).items():
-        text = bounds if isinstance(bounds, str) else ":".join(text_of(key, None, bound) for bound in bounds)  # type: ignore[union-attr]
-        words.append(f"--over={key}={text}")
-    words += [f"--set={text}" for text in set_texts(values, changes)]
-    words += _options({"samples": samples, "seed": seed})
+    sets = set_texts(values, changes)
+    sides = [int(side) if side == side // 1 else 0 for side in size]
+    if len(sides) != 2 or min(sides) < 1:
+        raise BadArgument(f"size {shown(size)}: must be the map's width and height in pixels, as (80, 60); that of a body is "
+                          'values={"body.size": ...}')
+    if len(over or {}) != 2:
+        raise BadArgument(f"over{'' if over is None else ' ' + shown(over)}: must be two keys with their ranges, across and upward, "
+                          'as {"angle": (0, 60), "restitution": (0.2, 0.9)}')
+    words = [f"--quantity={quantity}", f"--size={sides[0]}x{sides[1]}"]
+    for name, bounds in (over or {}).items():
+        pair = bounds if isinstance(bounds, str) else [text_of(name, None, bound) for bound in bounds] if is_list(bounds) else []
+        if len(pair) != 2 and not isinstance(bounds, str):
+            raise BadArgument(f"over {name} {shown(bounds)}: must be (low, high), or a text as \"0.1:1:log\"")
+        words.append(f"--over={key_of(name)}={pair if isinstance(pair, str) else ':'.join(pair)}")
+    words += [f"--set={text}" for text in sets]
     with tempfile.TemporaryDirectory() as folder:  # the array is a file's
         path = os.path.join(folder, "map.npy")
-        _run("map", scene, {}, [*words, f"--output={path}"])
+        _run("map", scene, {}, {"samples": samples, "seed": seed}, [*words, f"--output={path}"], quantity=quantity, **(values or {}), **changes)
         if not os.path.exists(path):
             raise BadArgument("map: was interrupted")
         array: Array = numpy.load(path)

@@ -7,11 +7,12 @@ import os
 from collections.abc import Iterable
 
 from clatter import _clatter
-from clatter.arguments import AnyKey, Path, Progress, checked, shown, texts_of
+from clatter.arguments import AnyKey, Path, Progress, checked, texts_of
 from clatter.errors import BadInput
 from clatter.findings import Measured, Problem, Scored, Table
 from clatter.results import Verification
 from clatter.scenes import called, scene_text
+from clatter.words import shown
 
 _MOST_SECONDS = 3600.0
 

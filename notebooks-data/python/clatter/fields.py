@@ -4,6 +4,7 @@
 from typing import Any
 
 from clatter.records import Values
+from clatter.words import by_arguments, in_python
 
 
 class ImpactErrors(Values):
@@ -59,6 +60,23 @@ class Tail(Values):
     """The infinitely many impacts after the last one, summed up."""
 
     __slots__ = ()
+
+
+class Answer(Values):
+    """The worst blow of a report; what there is no number for, without a part, a probe or peaks, is None."""
+
+    __slots__ = ()
+    _names = frozenset({"probe", "impact", "delta_v", "peak_force", "peak_g", "width", "pulse_duration", "depth", "verdict", "margin", "decided_by",
+                        "response_g", "attitude", "ranked_by", "least", "largest", "drops", "failing"})
+
+    def __missing__(self, name: str) -> Any:
+        return None if name in self._names else super().__missing__(name)
+
+    @classmethod
+    def _converted(cls, name: str, value: Any) -> Any:
+        if name == "notes" and isinstance(value, list):
+            return [by_arguments(in_python(note)) for note in value]
+        return super()._converted(name, value)
 
 
 class Check(Values):

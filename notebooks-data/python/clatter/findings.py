@@ -6,7 +6,7 @@ from typing import Any
 
 from clatter.arguments import KEYS
 from clatter.arrays import Array
-from clatter.fields import Choice, Rung, Step
+from clatter.fields import Answer, Choice, Rung, Step
 from clatter.records import Record, absent, as_array
 from clatter.results import Report, Result, given_again, named_row
 
@@ -148,9 +148,9 @@ class Ranking(Table):
     all that was found."""
 
     @property
-    def answer(self) -> Record:
+    def answer(self) -> Answer:
         """The worst blow: probe, attitude, impact, its numbers, ranked_by, largest, drops, notes ..."""
-        return Record(self._data["answer"])
+        return Answer(self._data["answer"])
 
 
 _WHOLE = {"index", "impacts", "n", "hardest", "touches", *(key.key for key in KEYS.values() if key.kind == "whole")}
@@ -175,6 +175,8 @@ class Rows(Table):
         try:
             return super().column(name)
         except KeyError as error:
+            if name in KEYS and KEYS[name].key in self._columns:
+                raise KeyError(f"no '{name}' here; did you mean {KEYS[name].key}?") from None
             if "index" not in self._columns or "n" in self._columns:
                 raise
             raise KeyError(f"{error.args[0]}; sweep(columns='impulse_normal_2') gives a number of impact 2, "

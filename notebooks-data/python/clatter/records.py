@@ -150,6 +150,13 @@ class Values(dict[str, Any]):
         return f"{type(self).__name__}({', '.join(f'{name}={value!r}' for name, value in self.items())})"
 
 
+def as_record(value: Any) -> Any:
+    """What JSON has, as records are: objects as records, also in lists, numbers in a list as an array."""
+    if isinstance(value, list) and value and all(isinstance(one, dict) for one in value):
+        return [Record(one) for one in value]
+    return Values._converted("", value)
+
+
 class Record(Values):
     __doc__ = Values.__doc__
     __slots__ = ()

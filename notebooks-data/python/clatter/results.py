@@ -15,7 +15,8 @@ from clatter.arguments import checked
 from clatter.arrays import Array
 from clatter.errors import BadInput
 from clatter.fields import Accuracy, Check, Cost, Impact, SimulatedImpact, Tail
-from clatter.records import History, Record, Values, absent, as_array, column_of, flat, value_of
+from clatter.records import History, Record, Values, absent, as_array, as_record, column_of, flat, value_of
+from clatter.words import in_python, paragraphs_in_python
 
 Row = TypeVar("Row", bound=Values)
 OneImpact = TypeVar("OneImpact", bound=Impact)
@@ -31,13 +32,15 @@ def _ends(rows: list[str], left_out: str) -> list[str]:
     return [*rows[:_ROWS_AT_AN_END], left_out.format(f"… {len(rows)} rows"), *rows[-_ROWS_AT_AN_END:]]
 
 
-def shown_text(text: str, count: int) -> str:
-    """A table for a terminal: the ends of each block, whose `count` rows begin below a rule, and all that is said below it."""
+def shown_text(text: str, count: int, others: int = 0) -> str:
+    """A table for a terminal: the ends of each block, whose `count` rows begin below a rule, and all that is said below it; others:
+    rows of a second table, which has a block of its own."""
     lines: list[str] = []
     for block in text.rstrip("\n").split("\n\n"):
         head, rule, rows = re.fullmatch(r"(?s)(?:(.*?\n)( *─+\n))?(.*)", block).groups()  # type: ignore[union-attr]
         body = rows.split("\n")
-        lines.append((head or "") + (rule or "") + ("\n".join([*_ends(body[:count], "  {}"), *body[count:]]) if rule else rows))
+        here = others if len(body) == others else count
+        lines.append((head or "") + (rule or "") + ("\n".join([*_ends(body[:here], "  {}"), *body[here:]]) if rule else rows))
     return "\n\n".join(lines)
 
 
@@ -186,14 +189,17 @@ class Result(Generic[Row]):
         """How it ended, in words.  @raise AttributeError: nothing is to be said of it."""
         if "message" not in self._data:
             raise AttributeError("no message here; printed, the result says what came out")
-        return str(self._data["message"])
+        return in_python(str(self._data["message"]))
 
     if not TYPE_CHECKING:
         def __getattr__(self, name: str) -> Any:
-            """What a property that has nothing to give says of it, or of any other name the nearest one."""
+            """What the JSON has by that name; what a property that has nothing to give says of it, or of any other name the nearest
+            one."""
             known = getattr(type(self), name, None)
             if isinstance(known, property):
                 return known.fget(self)
+            if not name.startswith("_") and name in self._data:
+                return as_record(self._data[name])
             raise AttributeError(name if name.startswith("_") else absent(name, (one for one in dir(self) if not one.startswith("_"))))
 
     def to_dict(self) -> dict[str, Any]:
@@ -206,7 +212,8 @@ class Result(Generic[Row]):
         return self._report.text(format, ascii)
 
     def __repr__(self) -> str:
-        return shown_text(self.to_text(), len(next(iter(self._report.columns().values()), [])))
+        text = shown_text(self.to_text(), len(next(iter(self._report.columns().values()), [])), len(self._data.get("states") or []))
+        return paragraphs_in_python(text)
 
     def _repr_html_(self) -> str:
         return shown_html(self._report.html())
@@ -334,9 +341,30 @@ class Run(Result[OneImpact]):
 
     @property
     def shortfall(self) -> str | None:
-        """Why there are fewer impacts or known digits than asked for: the program's exit status 3; None: there are not."""
+        """Why there are fewer impacts or known digits than asked for; None: there are not."""
         reason = self._data["shortfall"]
-        return None if reason is None else str(reason)
+        return None if reason is None else in_python(str(reason))
+
+    @property
+    def near_miss(self) -> Record | None:
+        """How high the next corner passed over the ground, when and which; None: it is not known."""
+        return Record(self._data["near_miss"]) if self._data.get("near_miss") else None
+
+    @property
+    def contacts(self) -> list[Record]:
+        """Corners that stayed on the ground while the body turned, each with begin, end and loss."""
+        return [Record(one) for one in self._data.get("contacts") or []]
+
+    @property
+    def outcomes(self) -> list[Record]:
+        """What small tilts make of a landing on several corners at once, of the impact that has them, each with its share of the
+        tilts."""
+        return [Record(one) for impact in self._data["impacts"] for one in impact.get("outcomes") or []]
+
+    @property
+    def energy_losses(self) -> Record | None:
+        """How much of the energy impacts at points, edges and faces, hops and contacts took [J]; None: the model does not say."""
+        return Record(self._data["energy_losses"]) if self._data.get("energy_losses") else None
 
     @property
     def cost(self) -> Cost:

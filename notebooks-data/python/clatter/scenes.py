@@ -7,12 +7,14 @@ import difflib
 import os
 import re
 import tomllib
+import warnings
 from collections.abc import Callable, Mapping
 from typing import Any, NamedTuple, TypeVar
 
 from clatter import _clatter
-from clatter.arguments import KEYS, Scene, checked, is_list, is_number, number_text, plain, shown, text_of
-from clatter.errors import BadArgument, BadInput
+from clatter.arguments import KEYS, Scene, checked, is_list, is_number, number_text, plain, text_of
+from clatter.errors import BadArgument, BadInput, ClatterWarning, NotComputed, OutsideModel
+from clatter.words import by_arguments, in_python, shown
 
 Returned = TypeVar("Returned")
 
@@ -73,7 +75,7 @@ def scene_text(scene: Scene | float | None, changes: Mapping[str, Any]) -> Scene
         return SceneText(f"validation/cases/{name}.toml", known[name], texts)
     if os.sep not in name and not name.endswith(".toml") and not os.path.exists(name):
         near = difflib.get_close_matches(name, known, 1, 0)[0]
-        raise BadInput(f"scene '{name}': neither a file nor a case; did you mean '{near}'?")
+        raise BadInput(f"scene '{name}': neither a file nor a case; did you mean '{near}'? clatter.cases() lists them")
     return SceneText(name, None, texts)
 
 
@@ -92,17 +94,21 @@ def case(name: str) -> dict[str, Any]:
     known = _clatter.cases()
     if name not in known:
         near = difflib.get_close_matches(name, known, 1, 0)[0]
-        raise BadInput(f"case '{name}': there is none; did you mean '{near}'?")
+        raise BadInput(f"case '{name}': there is none; did you mean '{near}'? clatter.cases() lists them")
     return tomllib.loads(known[name])
 
 
-def called(function: Callable[..., Returned], *arguments: Any, renamed: Mapping[str, str] | None = None) -> Returned:
-    """The compiled function's result, its complaints in the words of Python; renamed: flags that have other names here."""
-    def name(flag: re.Match[str]) -> str:
-        return (renamed or {}).get(flag[1], flag[1].replace("-", "_"))
+def called(function: Callable[..., Returned], *arguments: Any, given: Mapping[str, Any] | None = None,
+           renamed: Mapping[str, str] | None = None) -> Returned:
+    """The compiled function's result, its complaints in the words of Python: arguments as they were given; renamed: flags that have
+    other names here."""
     try:
         return function(*arguments)
-    except BadInput as error:
-        words = re.sub(r"^scene(:\d+:\d+)?: ", "", str(error))
-        words = words.replace("clatter shock --ground", "clatter.ground()")
-        raise BadInput(re.sub(r"--([a-z][a-z-]*)", name, words)) from None
+    except (BadInput, NotComputed, OutsideModel) as error:
+        words = in_python(re.sub(r"^scene(:\d+:\d+)?: ", "", str(error)), given, renamed)
+        raise type(error)(words) from None
+
+
+def warn(words: str, stacklevel: int) -> None:
+    """What the program says beside a result, in the words of Python, of a line so many calls above."""
+    warnings.warn(by_arguments(in_python(words.removeprefix("warning: "))), ClatterWarning, stacklevel=stacklevel + 1)

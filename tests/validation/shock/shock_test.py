@@ -195,6 +195,30 @@ class Parts(unittest.TestCase):
             if float(row["indentation"]) < 0:
                 self.assertEqual((float(row["pressure"]), float(row["force_z"])), (0, 0), row)
 
+    def test_a_marked_row_is_the_peak_also_where_friction_jumps(self):
+        # Friction that turns makes the force jump: two pieces of the history meet at one time, and the peak is that of one of them.
+        phone = ("--body", "box", "--size", "0.14x0.068x0.016", "--mass", "0.25", "--clearance", "0.8", "--floor", "wood", "--floor-restitution", "0.55",
+                 "--impacts", "3")
+        rod = ("rod-45", "--stiffness", "1e9", "--impacts", "2", "--probe", "end:0.4,0,0")
+        lens = ("--probe", "lens:0.06,0.025,0")
+        scenes = [*((*phone, "--angle", str(angle), "--sliding-friction", str(friction), *lens) for angle, friction in ((25, 0.3), (40, 0.3), (40, 0.6))),
+                  (*phone, "--angle", "65", "--tilt", "20", "--sliding-friction", "0.4", *lens, "--probe", "corner:0.07,0.034,0.008"),
+                  (*rod, "--sliding-friction", "0.2")]
+        for scene in scenes:
+            with self.subTest(scene=scene):
+                command = ("shock", *scene, "--no-sensitivity", "--frequencies", "100:3000:4")
+                impacts = rows_of(*command)
+                marked = [row for row in rows_of(*command, "--rate", "1e4") if row["mark"]]
+                self.assertEqual(sorted((int(row["impact"]), row["mark"]) for row in marked),
+                                 sorted((int(row["n"]), f"peak of {row['probe']}") for row in impacts))
+                for impact in impacts:
+                    name = impact["probe"]
+                    (peak,) = (row for row in marked if row["impact"] == impact["n"] and row["mark"] == f"peak of {name}")
+                    allowed = 1e-6 * float(impact["peak"])  # two polynomials through the same samples
+                    self.assertAlmostEqual(float(peak[name]), float(impact["peak"]), delta=allowed)
+                    for axis in "xyz":
+                        self.assertAlmostEqual(float(peak[f"{name}_{axis}"]), float(impact[f"peak_{axis}"]), delta=allowed)
+
 
 class Ground(unittest.TestCase):
     def test_a_material_and_e_give_a_ground_that_gives_e_back(self):
