@@ -31,7 +31,8 @@ LANGUAGES = {".txt": "cmake", ".cpp": "cpp", ".py": "python", ".toml": "toml"}
 EXTREMES = ROOT / "notebooks-data" / "extremes.md"
 FIGURES = ROOT / "notebooks-data" / "figures"
 DRAWN = {  # pictures of README that a command draws; no test compares their bytes
-    "map.png": ("map", "--over", "drop.angle_deg=0:60", "--over", "impact.restitution=0:1", "--quantity", "impacts", "--output"),
+    "map.png": ("map", "--over", "drop.angle_deg=0:60", "--over", "impact.restitution=0:1", "--quantity", "impacts",
+                "--restart", "--output"),
     "atlas.svg": ("atlas", "handset", "--plot"),
     "shock.svg": ("shock", "phone-damped", "--impacts", "2", "--probe", "camera:0.048,0.016,0.0095", "--no-sensitivity", "--severity", "2",
                   "--plot")}

@@ -788,6 +788,7 @@ Command sweep_command() {
         command.columns = {{"sweep",
                             [] {
                               return sweep_columns({.model = Model::continuous,
+                                                    .warns = true,
                                                     .probes = {{.name = "NAME"}},
                                                     .rests = true,
                                                     .part_at = {FragilePart{}},
