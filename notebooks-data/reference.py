@@ -141,6 +141,7 @@ def python_module(program, folder):
     shutil.copytree(HERE / "python" / "clatter", package, ignore=shutil.ignore_patterns("__pycache__", "*.pyi"))
     shutil.copy(HERE / "look.py", package)
     (package / "_clatter.py").write_text(f"version = {version(program)!r}\ndef keys():\n    return []\n"
+                                         "def command_options():\n    return {}\n"
                                          "def __getattr__(name):\n    return None\n", encoding="utf-8")
 
 

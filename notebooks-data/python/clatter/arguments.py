@@ -257,14 +257,16 @@ def _nearest_argument(unknown: str, value: Any, names: list[str]) -> str:
 
 
 _OPTIONS = _clatter.command_options()
-_OPTIONS |= {"compare_against": _OPTIONS["compare"]}
+_COMMAND_OF = {"compare_against": "compare"}  # where a function has not its command's name
 
 
 def _takes(function: str, key: Key, annotation: str) -> bool:
     """Whether a function takes a key of scenes: its command has the flag, or the key has none and stands in the scene; a sweep, a
     map and a figure set any."""
-    return ((key.is_discrete or annotation != "DiscreteKey")
-            and (annotation == "SweptKey" and function != "report" or not key.flag or key.flag in _OPTIONS.get(function, [key.flag])))
+    if annotation == "DiscreteKey" and not key.is_discrete:
+        return False
+    sets_any = annotation == "SweptKey" and function != "report"
+    return sets_any or not key.flag or key.flag in _OPTIONS.get(_COMMAND_OF.get(function, function), [key.flag])
 
 
 def checked(function: Callable[_Arguments, _Returned]) -> Callable[_Arguments, _Returned]:

@@ -7,8 +7,8 @@ from collections.abc import Iterable, Mapping
 from typing import Any
 
 from clatter import _clatter
-from clatter.arguments import (KEYS, AnyKey, DiscreteKey, Model, Part, Path, Probes, Progress, Scene, Swept, SweepRows, SweptKey, checked, is_number, part_text, probe_texts,
-                               set_texts, texts_of)
+from clatter.arguments import (KEYS, AnyKey, DiscreteKey, Model, Part, Path, Probes, Progress, Scene, Swept, SweepRows, SweptKey,
+                               checked, is_number, part_text, probe_texts, set_texts, texts_of)
 from clatter.arrays import numpy_for
 from clatter.errors import NotComputed
 from clatter.evidence import listed

@@ -242,11 +242,12 @@ def map(
     none, inf for infinitely many impacts.
 
     quantity="outcome" gives texts: "ends", where so many impacts are all; "goes on", where more follow than are looked at;
-    "infinite", where infinitely many follow in a finite time; "stays", where an end stays on the ground; "open", where rounding or a fold does not tell; "refused",
-    "outside-model", "not-computed", where there is no drop.
+    "infinite", where infinitely many follow in a finite time; "stays", where an end stays on the ground; "open", where
+    rounding or a fold does not tell; "refused", "outside-model", "not-computed", where there is no drop.
 
     over: two keys with their ranges, {"angle": (0, 60), "restitution": "0.1:1:log"}, by the names that sequence() takes or
-    by those of scene files ("drop.angle_deg"), across and upward; each number is that of the middle of its part of the range.  values: of other keys, as for sweep(), with
+    by those of scene files ("drop.angle_deg"), across and upward; each number is that of the middle of its part of the range.
+    values: of other keys, as for sweep(), with
     samples ranges, too, or as arguments by the names that sequence() takes.  quantity: "impacts", "ratio" (of the second impulse to
     the first), "total", "loss" ..., with samples "NAME=CLASS", the share of that class; then the first axis is share, least and most
     (Wilson's).  size: across and upward; a body's size is values={"body.size": ...}.  Up to 100 impacts are followed, or as many as

@@ -12,7 +12,8 @@ from clatter import _clatter
 _KEYS = _clatter.keys()
 _ARGUMENT_OF = {row["key"]: row["argument"] for row in _KEYS}
 _NAMES_OF: dict[str, list[str]] = {row["argument"]: row["names"] for row in _KEYS}
-_CHOICES: dict[str, list[str]] = {"model": ["discrete", "continuous"], "unit": ["g", "m/s2", "mm", "cm", "m", "in"], "rows": ["impact", "scene", "spectrum", "pulse"]}
+_CHOICES: dict[str, list[str]] = {"model": ["discrete", "continuous"], "unit": ["g", "m/s2", "mm", "cm", "m", "in"],
+                                  "rows": ["impact", "scene", "spectrum", "pulse"]}
 _FUNCTION_OF = {"shock --ground": "ground", "angles --regimes": "regimes", "plan --tradeoff": "tradeoff", "verify --extremes": "extremes",
                 "verify --figures": "figure"}
 _FUNCTIONS = {*_clatter.command_options(), *_FUNCTION_OF.values(), "angles", "verify"}
@@ -27,7 +28,8 @@ _FORMS: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = (
     (r"\bLOW:HIGH:COUNT\b", "(low, high, count)"), (r"\bHIGH must be greater than LOW\b", "high must be greater than low"),
     (r"\bHZ:G\b", "(Hz, g)"), (r"(?<=as )500:300(?= or )", "(500, 300)"),
     (r"as in ([-\d.e]+(?:[,:][-\d.e]+)+)", lambda found: f"as in ({', '.join(re.split('[,:]', found[1]))})"),
-    (r"with the flag it acts in flight only", "False: in flight alone"), (r"\bfalse leaves (them|it) out", r"False leaves \1 out"), (r"exit status 3 if", "NotComputed if"),
+    (r"with the flag it acts in flight only", "False: in flight alone"),
+    (r"\bfalse leaves (them|it) out", r"False leaves \1 out"), (r"exit status 3 if", "NotComputed if"),
     (r"and others of clatter help keys", "and others"), (r"\bis null\b", "is None"))
 
 
