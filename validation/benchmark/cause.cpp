@@ -232,11 +232,11 @@ std::vector<Cause> readings_of(const Answer& answer, const Motion& motion, const
 }
 
 std::vector<Cause> causes_of_list(const Answer& answer, const Reference& reference, const ReferenceSequence& sequence,
-                                  const Score& score) {
+                                  const Score& score, Trials& trials) {
   std::vector<Cause> causes = misreadings_of(answer, reference, score);
   if (!causes.empty()) return chosen(std::move(causes));
   const std::vector<FoundImpact> impacts = listed_impacts(answer.table, reference, answer.is_counter_clockwise);
-  causes = impact_causes_of(reference, sequence.law, impacts, 0);
+  causes = impact_causes_of(reference, sequence.law, impacts, 0, trials);
   add_mass(reference, impacts, causes);
   return chosen(std::move(causes));
 }
@@ -497,7 +497,7 @@ std::vector<Cause> ranked(const Diagnosed& run, std::vector<Cause> causes, bool 
 }
 
 /// Another law, body or delay of the impacts, or the steps of the code.
-std::vector<Cause> causes_of_impacts(const Diagnosed& run, const Misses& misses) {
+std::vector<Cause> causes_of_impacts(const Diagnosed& run, const Misses& misses, Trials& trials) {
   constexpr double free_flight = 1e-2;  // beyond, states before impacts are not those of the run
   constexpr double same = 1e-6, alike = 0.05;
   const auto& impacts = run.impacts;
@@ -507,27 +507,22 @@ std::vector<Cause> causes_of_impacts(const Diagnosed& run, const Misses& misses)
       stepping.step > 0 && !run.reference.is_compliant && run.flight_left <= run.reference.tolerances[1];
   const double distance = may_be_step ? run.distance_of(stepping, run.sequence.law, impacts) : Score::unknown;
   if (run.flight_left <= free_flight && !(distance <= same))
-    causes = impact_causes_of(run.reference, run.sequence.law, impacts, run.gravity_of_step());
-  if (causes.empty() && !impacts.empty() && impacts.front().points.empty() && !(distance <= same))
-    causes = far_body_causes_of(run.answer, run.reference, run.sequence.law, impacts);
+    causes = impact_causes_of(run.reference, run.sequence.law, impacts, run.gravity_of_step(), trials);
+  const bool has_places = std::ranges::none_of(impacts, [](const FoundImpact& one) { return one.points.empty(); });
+  if (causes.empty() && !has_places && !(distance <= same))
+    causes = far_body_causes_of(run.answer, run.reference, run.sequence.law, impacts, trials);
   if (causes.empty() && !(distance <= same)) add_delay(run.motion, run.reference, run.asked(), misses, causes);
   if (causes.empty()) add_time_step(run.motion, run.reference, run.score, run.flight_left, impacts, causes);
   causes = chosen(std::move(causes));
   if (causes.empty() && distance <= alike) add_replayed(run, distance, causes);
-  const bool is_alone = causes.empty();  // then it must be able to be all that is wrong
-  const double most = run.reference.tolerances[2];
-  const bool has_first_order =
-      run.first_order && (!is_alone || (run.law_left() <= most && run.score.start_error <= most));
-  return ranked(run, std::move(causes), has_first_order);
+  return ranked(run, std::move(causes), run.first_order.has_value());
 }
 
-}  // namespace
-
-std::vector<Cause> causes_of(const Answer& answer, const Reference& reference, const Score& score) {
+std::vector<Cause> found_causes(const Answer& answer, const Reference& reference, const Score& score, Trials& trials) {
   const auto sequence = std::find_if(reference.sequences.begin(), reference.sequences.end(),
                                      [&](const ReferenceSequence& one) { return one.law.name == score.law; });
   if (sequence == reference.sequences.end()) return {};
-  if (answer.is_list) return causes_of_list(answer, reference, *sequence, score);
+  if (answer.is_list) return causes_of_list(answer, reference, *sequence, score, trials);
   const Motion motion(answer.table, reference);
   const Cause cut_off{"cut-off", motion.time(motion.size() - 1) - motion.first_touch(), 0, score.left_out};
   if (score.ends_early && score.impacts_error() <= reference.tolerances[1]) return {cut_off};
@@ -553,10 +548,28 @@ std::vector<Cause> causes_of(const Answer& answer, const Reference& reference, c
   const Misses misses(reference, run.asked());
   std::vector<Cause> others = causes_of_scene(run, misses);
   if (others.empty()) others = chosen(flight_causes_of(motion, reference));
-  if (others.empty()) others = causes_of_impacts(run, misses);
+  if (others.empty()) others = causes_of_impacts(run, misses, trials);
   for (Cause& cause : others) {
     cause.is_more |= score.ends_early;
     causes.push_back(std::move(cause));
+  }
+  return causes;
+}
+
+}  // namespace
+
+std::vector<Cause> causes_of(const Answer& answer, const Reference& reference, const Score& score, std::string& remark) {
+  Trials trials;
+  std::vector<Cause> causes = found_causes(answer, reference, score, trials);
+  // A step of first order makes no law error, and a run's early end nothing at all.
+  const bool is_explained = std::ranges::any_of(causes, [&](const Cause& cause) {
+    if (cause.name == "cut-off") return score.impacts_error() <= reference.tolerances[1];
+    return cause.name != "first-order-step" || score.law_error <= reference.tolerances[2];
+  });
+  if (!is_explained) {
+    remark = trials.are_spent() ? "the search for its causes ended after its last trial: shorter steps may tell"
+             : answer.is_list   ? "no known single cause fits"
+                                : "no known single cause fits; shorter steps may tell";
   }
   return causes;
 }

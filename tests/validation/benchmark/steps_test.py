@@ -132,17 +132,58 @@ class SpaceSteps(RigidCode):
             rows.append([k * self.step, *self.row(state)[1:]])
             velocity = np.array(state.velocity) - [0.0, 0.0, self.gravity * self.step]
             attitude, omega = self.turned(state)
-            state = State(0.0, np.array(state.position) + self.step * velocity, attitude, velocity, omega)
-            for arm in self.arms(state):
-                if state.position[2] + arm[2] <= 0 and self.approach(state, arm) < 0:
-                    state = self.strike_at(state, arm)
+            state = self.moved(state, velocity, attitude, omega)
         return rows
 
-    def text(self):
-        return super().text(self.rows(), step=self.step)
+    def moved(self, state, velocity, attitude, omega):
+        return self.struck_in(State(0.0, np.array(state.position) + self.step * velocity, attitude, velocity, omega))
+
+    def struck_in(self, state):
+        """What is in the ground and comes down."""
+        for arm in self.arms(state):
+            if state.position[2] + arm[2] <= 0 and self.approach(state, arm) < 0:
+                state = self.strike_at(state, arm)
+        return state
+
+    def text(self, lasts=1):
+        return super().text(self.rows(lasts * self.end()), step=self.step)
+
+
+class StrikesFirst(SpaceSteps):
+    """Velocities of the step, impacts at the pose at its begin, then the way by the velocities after them."""
+
+    def moved(self, state, velocity, attitude, omega):
+        state = self.struck_in(State(0.0, state.position, state.attitude, velocity, omega))
+        half, attitude = self.step / 2, np.array(state.attitude)
+        attitude = attitude + half * np.array(product((0.0, *state.omega), tuple(attitude)))
+        return State(0.0, np.array(state.position) + self.step * np.array(state.velocity), tuple(attitude / np.linalg.norm(attitude)), state.velocity, state.omega)
+
+
+def with_numbers(code, **factors):
+    for name, factor in factors.items():
+        setattr(code, name, getattr(code, name) * factor)
+    return code
 
 
 class Space(unittest.TestCase):
+    def test_a_wrong_number_of_a_code_of_coarse_steps_is_named_with_its_value(self):
+        for kind, problem, gap in itertools.product((SpaceSteps, StrikesFirst), ("corner", "corner-friction"), (0, 1)):
+            for name, cause, factor in (("e", "restitution", 0.9), ("inertia", "inertia", 1.2), ("inertia", "inertia", 0.4), ("friction", "friction", 0.5)):
+                code = with_numbers(kind(problem, gap, 1 / 960), **{name: factor})
+                if name == "friction" and not code.friction:
+                    continue
+                with self.subTest(kind=kind.__name__, problem=problem, gap=gap, cause=cause, factor=factor):
+                    causes = causes_of(code.text(lasts=2))
+                    self.assertEqual([one["cause"] for one in causes], [cause, "first-order-step"])
+                    self.assertAlmostEqual(causes[0]["value"] / (factor if cause == "inertia" else getattr(code, name)), 1, delta=1e-3)
+
+    def test_a_right_code_of_coarse_steps_follows_the_law_at_its_own_poses(self):
+        for kind, problem, step in itertools.product((SpaceSteps, StrikesFirst), ("corner", "corner-friction"), (1 / 480, 1 / 960)):
+            with self.subTest(kind=kind.__name__, problem=problem, step=step):
+                found = judged(kind(problem, 1, step).text())
+                self.assertLess(found["law_error"], 1e-9)
+                self.assertEqual({cause["cause"] for cause in found["causes"]}, {"time-step", "first-order-step"})
+
     def test_what_a_turn_of_first_order_leaves_of_the_law_is_the_step(self):
         for problem, turning, (gap, step) in itertools.product(("corner", "corner-friction"), ("new", "old", "momentum", "exponential"), ((0, 1 / 1000), (1, 1 / 250))):
             with self.subTest(problem=problem, turning=turning, gap=gap, step=step):
