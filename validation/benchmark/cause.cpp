@@ -76,6 +76,25 @@ void add_margin(const Answer& answer, const Reference& reference, const Score& s
                    height > 0 ? "above the ground" : "deep in the ground", misfit_words(left))});
 }
 
+/// The same of a code of steps, by the height from which its first row would have its velocity: less that height its
+/// start is right, where it was wrong, and its first impact is as near to the ground as its steps have it.
+void add_height(const Answer& answer, const Motion& motion, const Reference& reference,
+                const std::vector<FoundImpact>& impacts, std::vector<Cause>& causes) {
+  if (impacts.empty() || !(reference.gravity > 0) || !(motion.start_error() > reference.tolerances[3])) return;
+  const double speed = reference.start.velocity.z(), now = motion.state(0).velocity.z();
+  const double asked = reference.start.position.z() + (speed * speed - now * now) / (2 * reference.gravity);
+  const double height = motion.state(0).position.z() - asked;
+  const State& first = impacts.front().before;
+  const double miss = reference.height(first, reference.lowest(first.attitude)) - height;
+  const std::size_t z = answer.table.column("z").value();
+  const NumericTable lower = answer.table.changed([&](std::span<double> row) { row[z] -= height; });
+  const double left = Motion(lower, reference).start_error();
+  if (!(std::fabs(miss) <= 2 * motion.step() * reference.speed()) || !(left <= reference.tolerances[2])) return;
+  causes.push_back({"margin", height, left,
+                    fmt::format("all of it is {} m too {}: less that height the start is right {}",
+                                three_digits(std::fabs(height)), height > 0 ? "high" : "low", misfit_words(left))});
+}
+
 /// Whether the velocities change over several steps, from the touch on, and the middle is so late; half of the time
 /// that contacts take.
 bool contacts_last(const Motion& motion, std::span<const FoundImpact> impacts, double delay) {
@@ -223,9 +242,8 @@ std::vector<Cause> readings_of(const Answer& answer, const Motion& motion, const
     if (is_strange) causes = misreadings_of(answer, reference, score);
     if (causes.empty()) causes = late_velocities_of(answer, reference, score);
   }
-  const auto is_sharp = [&](const Cause& cause) { return cause.misfit <= reference.tolerances[1]; };
-  // A reading that leaves much may be right by chance, in a run that hardly moves.
-  if (std::none_of(causes.begin(), causes.end(), is_sharp)) {
+  constexpr double much = 2e-2;  // a reading that leaves more may be right by chance, in a run that hardly moves
+  if (std::ranges::none_of(causes, [](const Cause& cause) { return cause.misfit <= much; })) {
     if (auto scale = velocity_scale_of(motion, reference)) causes.push_back(std::move(*scale));
   }
   return causes;
@@ -449,6 +467,7 @@ std::vector<Cause> causes_of_scene(const Diagnosed& run, const Misses& misses) {
   }
   if (causes.empty() && !run.impacts.empty())
     causes = size_causes_of(run.motion, run.reference, run.sequence.law, run.impacts.front(), run.law_left());
+  if (causes.empty()) add_height(run.answer, run.motion, run.reference, run.impacts, causes);
   if (!causes.empty()) return chosen(std::move(causes));
   return causes_at_start(run);
 }

@@ -284,6 +284,31 @@ class Causes(unittest.TestCase):
                     self.assertEqual("with the moment of inertia asked for" in causes[0]["words"], inertia_of_all)
 
 
+class Readings(unittest.TestCase):
+    """Signs, units and frames of a code of coarse steps: its start row and its flights tell them, whatever its impacts do."""
+
+    def test_they_are_named_before_the_steps(self):
+        def factors(*names, factor):
+            return lambda code, row: [x * (factor if name in names else 1) for name, x in zip(code.columns(), row)]
+        edits = {
+            "millimetres": factors("x", "z", "vx", "vz", factor=1e3),
+            "milliseconds": factors("t", factor=1e3),
+            "milliseconds, too": lambda code, row: [1e3 * row[0], *row[1:4], *(x / 1e3 for x in row[4:])],
+            "omega-sign": factors("omega", factor=-1),
+            "phi-sign": factors("phi", "omega", factor=-1),
+            "degrees": factors("phi", "omega", factor=180 / math.pi),
+            "exchanged": lambda code, row: [row[0], row[2], row[1], row[3], row[5], row[4], row[6]],
+            "exchanged, places": lambda code, row: [row[0], row[2], row[1], *row[3:]],
+            "lowest-point": lambda code, row: [*row[:2], min(code.height(row, k) for k in range(len(code.points))), *row[3:]],
+            "margin": lambda code, row: [*row[:2], row[2] - 0.05, *row[3:]],
+        }
+        for problem, (name, edit), gap, e in itertools.product(("box", "clatter-08"), edits.items(), (0, 1), (1, 0.9)):
+            code = with_numbers(StepCode(problem, gap, 1 / 960), e=e)
+            with self.subTest(name, problem=problem, gap=gap, e=e):
+                rows = [edit(code, row) for row in code.rows(end=1.3 * code.end())]
+                self.assertEqual(causes_of(Asked.text(code, rows, step="1/960"))[0]["cause"], name.split(",")[0])
+
+
 class Early(unittest.TestCase):
     def test_a_run_that_ends_before_its_own_impact_says_until_when_it_must_go_on(self):
         for problem, step, gap, margin in (("box", 1 / 120, 1, 0.01), ("box", 1 / 120, 2, 0.02), ("box", 1 / 1000, 1, -0.05), ("rod-1", 1 / 30, 0, 0.1)):
