@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // `clatter benchmark list|show|truth|score`: problems with certified answers, and others' answers to them.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "validation/benchmark/benchmark_report.hpp"
 #include "validation/command/command.hpp"
@@ -58,24 +59,46 @@ int run_truth(const BenchmarkInput& input) {
   return 0;
 }
 
+/// Judges what can be read of the files.
+void judge_all(const BenchmarkInput& input, std::vector<Submission>& submissions, std::vector<UnreadFile>& unread) {
+  Progress progress;
+  const std::size_t of = input.names.size();
+  for (std::size_t i = 0; i < of; ++i) {
+    if (of > 1) progress.show(progress_bar(i, of) + " files" + progress.time_left(i, of));
+    try {
+      submissions.push_back(judge_file(input.names[i], input.problem, input.columns));
+    } catch (const BadInput& error) {
+      unread.push_back({input.names[i], error.what()});
+    }
+  }
+}
+
 int run_score(const BenchmarkInput& input) {
   if (input.names.empty()) throw BadInput("benchmark score: needs a FILE or more");
   const Requirement requirement = input.require.value_or(Requirement{});
   PlotFile plot(input.plot);
+  if (!input.problem.empty()) static_cast<void>(problem_named("--problem", input.problem));
   std::vector<Submission> submissions;
+  std::vector<UnreadFile> unread;
+  judge_all(input, submissions, unread);
   bool is_met = true;
-  for (const std::string& file : input.names) {
-    submissions.push_back(judge_file(file, input.problem, input.columns));
-    is_met = meets(submissions.back(), requirement) && is_met;
-  }
-  write_report(input.output, score_report("benchmark", submissions, input.details));
+  for (const Submission& one : submissions) is_met = meets(one, requirement) && is_met;
+  for (const UnreadFile& one : unread) say(one.reason);
+  if (submissions.empty()) return exit_status(FailureKind::bad_input);
+  name_apart(submissions);
+  Report report = score_report("benchmark", submissions, input.details);
+  add_unread(unread, report);
+  write_report(input.output, report);
   const Picture picture = score_picture(submissions);
   plot.write(picture, {"clatter benchmark score: " + picture.what});
+  if (!unread.empty()) return exit_status(FailureKind::bad_input);
   return is_met ? 0 : check_failed;
 }
 
 int run_benchmark(const BenchmarkInput& input) {
   const std::vector<std::string> actions{"list", "show", "truth", "score"};
+  if (input.action == "export" || input.action == "describe")
+    throw BadInput(fmt::format("benchmark '{}': must be one of {}; did you mean show?", input.action, fmt::join(actions, ", ")));
   const std::size_t action = read_name_option("benchmark", input.action, actions);
   only_for(!input.law.empty(), "--law", "truth", action == 2);
   only_for(!input.columns.empty(), "--columns", "score", action == 3);

@@ -33,6 +33,13 @@ namespace clatter::validation {
 /// @param details  whether a reader sees all errors, causes and findings of several files, too, and not a line for each
 [[nodiscard]] Report score_report(const std::string& command, const std::vector<Submission>& submissions, bool details);
 
+/// A file that cannot be judged, and why.
+struct UnreadFile {
+  std::string path, reason;
+};
+/// Lists them below the others.
+void add_unread(const std::vector<UnreadFile>& unread, Report& report);
+
 /// Where files of a group differ in their step, the largest error over the step, a curve for each group, else that of
 /// each impact, a curve for each file; with the classes of the first file's problem.
 [[nodiscard]] Picture score_picture(const std::vector<Submission>& submissions);

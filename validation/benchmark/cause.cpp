@@ -76,6 +76,25 @@ void add_margin(const Answer& answer, const Reference& reference, const Score& s
                    height > 0 ? "above the ground" : "deep in the ground", misfit_words(left))});
 }
 
+/// The same of a code of steps, by the height from which its first row would have its velocity: less that height its
+/// start is right, where it was wrong, and its first impact is as near to the ground as its steps have it.
+void add_height(const Answer& answer, const Motion& motion, const Reference& reference,
+                const std::vector<FoundImpact>& impacts, std::vector<Cause>& causes) {
+  if (impacts.empty() || !(reference.gravity > 0) || !(motion.start_error() > reference.tolerances[3])) return;
+  const double speed = reference.start.velocity.z(), now = motion.state(0).velocity.z();
+  const double asked = reference.start.position.z() + (speed * speed - now * now) / (2 * reference.gravity);
+  const double height = motion.state(0).position.z() - asked;
+  const State& first = impacts.front().before;
+  const double miss = reference.height(first, reference.lowest(first.attitude)) - height;
+  const std::size_t z = answer.table.column("z").value();
+  const NumericTable lower = answer.table.changed([&](std::span<double> row) { row[z] -= height; });
+  const double left = Motion(lower, reference).start_error();
+  if (!(std::fabs(miss) <= 2 * motion.step() * reference.speed()) || !(left <= reference.tolerances[2])) return;
+  causes.push_back({"margin", height, left,
+                    fmt::format("all of it is {} m too {}: less that height the start is right {}",
+                                three_digits(std::fabs(height)), height > 0 ? "high" : "low", misfit_words(left))});
+}
+
 /// Whether the velocities change over several steps, from the touch on, and the middle is so late; half of the time
 /// that contacts take.
 bool contacts_last(const Motion& motion, std::span<const FoundImpact> impacts, double delay) {
@@ -223,20 +242,19 @@ std::vector<Cause> readings_of(const Answer& answer, const Motion& motion, const
     if (is_strange) causes = misreadings_of(answer, reference, score);
     if (causes.empty()) causes = late_velocities_of(answer, reference, score);
   }
-  const auto is_sharp = [&](const Cause& cause) { return cause.misfit <= reference.tolerances[1]; };
-  // A reading that leaves much may be right by chance, in a run that hardly moves.
-  if (std::none_of(causes.begin(), causes.end(), is_sharp)) {
+  constexpr double much = 2e-2;  // a reading that leaves more may be right by chance, in a run that hardly moves
+  if (std::ranges::none_of(causes, [](const Cause& cause) { return cause.misfit <= much; })) {
     if (auto scale = velocity_scale_of(motion, reference)) causes.push_back(std::move(*scale));
   }
   return causes;
 }
 
 std::vector<Cause> causes_of_list(const Answer& answer, const Reference& reference, const ReferenceSequence& sequence,
-                                  const Score& score) {
+                                  const Score& score, Trials& trials) {
   std::vector<Cause> causes = misreadings_of(answer, reference, score);
   if (!causes.empty()) return chosen(std::move(causes));
   const std::vector<FoundImpact> impacts = listed_impacts(answer.table, reference, answer.is_counter_clockwise);
-  causes = impact_causes_of(reference, sequence.law, impacts, 0);
+  causes = impact_causes_of(reference, sequence.law, impacts, 0, trials);
   add_mass(reference, impacts, causes);
   return chosen(std::move(causes));
 }
@@ -449,6 +467,7 @@ std::vector<Cause> causes_of_scene(const Diagnosed& run, const Misses& misses) {
   }
   if (causes.empty() && !run.impacts.empty())
     causes = size_causes_of(run.motion, run.reference, run.sequence.law, run.impacts.front(), run.law_left());
+  if (causes.empty()) add_height(run.answer, run.motion, run.reference, run.impacts, causes);
   if (!causes.empty()) return chosen(std::move(causes));
   return causes_at_start(run);
 }
@@ -497,7 +516,7 @@ std::vector<Cause> ranked(const Diagnosed& run, std::vector<Cause> causes, bool 
 }
 
 /// Another law, body or delay of the impacts, or the steps of the code.
-std::vector<Cause> causes_of_impacts(const Diagnosed& run, const Misses& misses) {
+std::vector<Cause> causes_of_impacts(const Diagnosed& run, const Misses& misses, Trials& trials) {
   constexpr double free_flight = 1e-2;  // beyond, states before impacts are not those of the run
   constexpr double same = 1e-6, alike = 0.05;
   const auto& impacts = run.impacts;
@@ -507,27 +526,22 @@ std::vector<Cause> causes_of_impacts(const Diagnosed& run, const Misses& misses)
       stepping.step > 0 && !run.reference.is_compliant && run.flight_left <= run.reference.tolerances[1];
   const double distance = may_be_step ? run.distance_of(stepping, run.sequence.law, impacts) : Score::unknown;
   if (run.flight_left <= free_flight && !(distance <= same))
-    causes = impact_causes_of(run.reference, run.sequence.law, impacts, run.gravity_of_step());
-  if (causes.empty() && !impacts.empty() && impacts.front().points.empty() && !(distance <= same))
-    causes = far_body_causes_of(run.answer, run.reference, run.sequence.law, impacts);
+    causes = impact_causes_of(run.reference, run.sequence.law, impacts, run.gravity_of_step(), trials);
+  const bool has_places = std::ranges::none_of(impacts, [](const FoundImpact& one) { return one.points.empty(); });
+  if (causes.empty() && !has_places && !(distance <= same))
+    causes = far_body_causes_of(run.answer, run.reference, run.sequence.law, impacts, trials);
   if (causes.empty() && !(distance <= same)) add_delay(run.motion, run.reference, run.asked(), misses, causes);
   if (causes.empty()) add_time_step(run.motion, run.reference, run.score, run.flight_left, impacts, causes);
   causes = chosen(std::move(causes));
   if (causes.empty() && distance <= alike) add_replayed(run, distance, causes);
-  const bool is_alone = causes.empty();  // then it must be able to be all that is wrong
-  const double most = run.reference.tolerances[2];
-  const bool has_first_order =
-      run.first_order && (!is_alone || (run.law_left() <= most && run.score.start_error <= most));
-  return ranked(run, std::move(causes), has_first_order);
+  return ranked(run, std::move(causes), run.first_order.has_value());
 }
 
-}  // namespace
-
-std::vector<Cause> causes_of(const Answer& answer, const Reference& reference, const Score& score) {
+std::vector<Cause> found_causes(const Answer& answer, const Reference& reference, const Score& score, Trials& trials) {
   const auto sequence = std::find_if(reference.sequences.begin(), reference.sequences.end(),
                                      [&](const ReferenceSequence& one) { return one.law.name == score.law; });
   if (sequence == reference.sequences.end()) return {};
-  if (answer.is_list) return causes_of_list(answer, reference, *sequence, score);
+  if (answer.is_list) return causes_of_list(answer, reference, *sequence, score, trials);
   const Motion motion(answer.table, reference);
   const Cause cut_off{"cut-off", motion.time(motion.size() - 1) - motion.first_touch(), 0, score.left_out};
   if (score.ends_early && score.impacts_error() <= reference.tolerances[1]) return {cut_off};
@@ -553,10 +567,28 @@ std::vector<Cause> causes_of(const Answer& answer, const Reference& reference, c
   const Misses misses(reference, run.asked());
   std::vector<Cause> others = causes_of_scene(run, misses);
   if (others.empty()) others = chosen(flight_causes_of(motion, reference));
-  if (others.empty()) others = causes_of_impacts(run, misses);
+  if (others.empty()) others = causes_of_impacts(run, misses, trials);
   for (Cause& cause : others) {
     cause.is_more |= score.ends_early;
     causes.push_back(std::move(cause));
+  }
+  return causes;
+}
+
+}  // namespace
+
+std::vector<Cause> causes_of(const Answer& answer, const Reference& reference, const Score& score, std::string& remark) {
+  Trials trials;
+  std::vector<Cause> causes = found_causes(answer, reference, score, trials);
+  // A step of first order makes no law error, and a run's early end nothing at all.
+  const bool is_explained = std::ranges::any_of(causes, [&](const Cause& cause) {
+    if (cause.name == "cut-off") return score.impacts_error() <= reference.tolerances[1];
+    return cause.name != "first-order-step" || score.law_error <= reference.tolerances[2];
+  });
+  if (!is_explained) {
+    remark = trials.are_spent() ? "the search for its causes ended after its last trial: shorter steps may tell"
+             : answer.is_list   ? "no known single cause fits"
+                                : "no known single cause fits; shorter steps may tell";
   }
   return causes;
 }

@@ -66,8 +66,8 @@ struct Fitted {
 /// where v is the mean over the step.  Nothing for |1 − 1/k| ≤ 0.01.
 [[nodiscard]] std::optional<Cause> velocity_scale_of(const Motion& motion, const Reference& reference);
 
-/// Whether places and attitudes change as velocities and spin say, (1), for most of the steps.
-[[nodiscard]] bool moves_by_its_velocities(const Motion& motion, const Reference& reference);
+/// Whether places and attitudes change as velocities and spin say, (1), and velocities by gravity, for most of the steps.
+[[nodiscard]] bool moves_freely(const Motion& motion, const Reference& reference);
 
 /// Another gravity, or damping of the velocity, of the spin or of both, if one of them explains at least three quarters
 /// of the run's steps.  From the step of Δt between two rows, with the means v and L of velocity and angular momentum:
@@ -104,18 +104,31 @@ struct FirstOrder {
 
 // What explains impacts that do not follow the law: hypotheses with one number each, fitted to all of them.
 
+/// The work that a search may take, in exact maps of a point: where faces strike in many steps it would take minutes.
+class Trials {
+ public:
+  /// Whether an impact may be held against a law once more.
+  [[nodiscard]] bool spend(const FoundImpact& impact);
+  [[nodiscard]] bool are_spent() const { return left_ < 0; }
+
+ private:
+  long left_ = 200'000;
+};
+
 /// Restitution, friction, another law, inertia, levers, a restitution that is left out for slow contacts or acts at the
 /// centre of mass, each by the exact map at the run's own state before an impact (Score::law).
 /// @param gravity_of_step g × step of a code that does not resolve the instants, otherwise 0 [m/s]: errors that it
 /// makes
 ///        are no evidence
 [[nodiscard]] std::vector<Cause> impact_causes_of(const Reference& reference, const DeclaredLaw& law,
-                                                  const std::vector<FoundImpact>& impacts, double gravity_of_step);
+                                                  const std::vector<FoundImpact>& impacts, double gravity_of_step,
+                                                  Trials& trials);
 
 /// An inertia or levers so far off that no point of the body explains the jumps.
 /// @pre the first of the impacts has no points
 [[nodiscard]] std::vector<Cause> far_body_causes_of(const Answer& answer, const Reference& reference,
-                                                    const DeclaredLaw& law, const std::vector<FoundImpact>& impacts);
+                                                    const DeclaredLaw& law, const std::vector<FoundImpact>& impacts,
+                                                    Trials& trials);
 
 // What may have gone wrong in a foreign run: hypotheses with one number each, fitted to the run's own impacts and
 // flights, or to the rows as they were written.
@@ -127,6 +140,10 @@ struct FirstOrder {
 /// inertia, lever and a restitution that is left out for slow contacts.  The flights tell gravity and damping; the
 /// first touch angle, spin and speed; the pose at impacts a margin above the ground and a delay; the rows signs, axes,
 /// units and frames; lists mass, ends and the sense of Omega.
-[[nodiscard]] std::vector<Cause> causes_of(const Answer& answer, const Reference& reference, const Score& score);
+///
+/// Flights and impacts have their causes independently of each other.
+/// @param remark what the search could not tell, in words; empty: nothing
+[[nodiscard]] std::vector<Cause> causes_of(const Answer& answer, const Reference& reference, const Score& score,
+                                           std::string& remark);
 
 }  // namespace clatter::validation

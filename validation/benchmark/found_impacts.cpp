@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "validation/benchmark/motion.hpp"
+#include "validation/benchmark/score.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -379,7 +379,9 @@ class Search {
     impact.after = overlap(i) ? struck(impact) : reference_.flight(end).at(time - finish);
     impact.bookings.push_back({impact.before, impact.after});
     impact.begins_in_a_row = alone && !impact.points.empty() && touches(start, impact.points);
-    impact.is_resolved = touches(impact.before, impact.points);
+    const bool is_placed = !impact.points.empty();
+    impact.is_resolved =
+        touches(impact.before, is_placed ? impact.points : std::vector{reference_.lowest(impact.before.attitude)});
     if (alone && (impact.begins_in_a_row || !impact.is_resolved)) add_bookings(impact, start, end, impact.bookings);
     if (impact.begins_in_a_row) add_first_step(impact, start);
     if (is_pair(i)) add_pair(impact, i, start, end);
@@ -417,27 +419,25 @@ class Search {
     impact.bookings.push_back(booking);
   }
 
+  /// The velocities of the flights at the impact, and those of the rows with the step's flight before the impact, after
+  /// it or in it; in space a step may turn by Euler's method.
   void add_bookings(const FoundImpact& impact, const State& start, const State& end,
                     std::vector<Booking>& bookings) const {
-    const Vector3 fall = (motion_.time(impact.last_row) - motion_.time(impact.first_row)) * reference_.pull();
-    const bool is_pair = !impact.pair.empty();
+    const double time = motion_.time(impact.last_row) - motion_.time(impact.first_row);
+    std::vector<Booking> own;
+    if (impact.pair.empty()) own.push_back({impact.before, impact.after});
+    if (reference_.gravity > 0) {
+      own.push_back({reference_.flight(start).at(time), end});
+      own.push_back({start, reference_.flight(end).at(-time)});
+      own.push_back({start, end});
+      if (!reference_.is_planar)
+        own.push_back({flown(reference_, start, time, {.turning = Turning::by_new, .step = motion_.step()}), end});
+    }
     for (const space::Quaternion& pose : {impact.before.attitude, start.attitude, end.attitude}) {
-      const auto add = [&](const Vector3& before, const Vector3& after) {
-        Booking booking{impact.before, impact.after};
+      for (Booking booking : own) {
         booking.before.attitude = booking.after.attitude = pose;
-        booking.before.velocity = before;
-        booking.after.velocity = after;
-        if (is_pair) {
-          booking.before.angular_velocity = start.angular_velocity;
-          booking.after.angular_velocity = end.angular_velocity;
-        }
         bookings.push_back(booking);
-      };
-      if (!is_pair) add(impact.before.velocity, impact.after.velocity);
-      if (!(fall.z() < 0)) continue;
-      add(start.velocity + fall, end.velocity);
-      add(start.velocity, end.velocity - fall);
-      add(start.velocity, end.velocity);
+      }
     }
   }
 

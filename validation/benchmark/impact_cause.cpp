@@ -28,12 +28,20 @@ Fitted least_of(double low, double high, const std::function<double(double)>& mi
     if (left < best.misfit) best = {value, left};
   }
   double a = std::max(low, best.value - part), b = std::min(high, best.value + part);
-  for (int i = 0; i < cuts; ++i) {
-    const double x = b - golden * (b - a), y = a + golden * (b - a);
-    (misfit(x) < misfit(y) ? b : a) = misfit(x) < misfit(y) ? y : x;
+  const double slope = (worse(misfit(a), misfit(b)) - best.misfit) / part;
+  Fitted lower{b - golden * (b - a)}, upper{a + golden * (b - a)};
+  lower.misfit = misfit(lower.value), upper.misfit = misfit(upper.value);
+  // A misfit that no value between can make much smaller ends the search.
+  for (int i = 0; i < cuts && !(std::fmin(lower.misfit, upper.misfit) > 4 * slope * (b - a)); ++i) {
+    const bool is_lower = lower.misfit < upper.misfit;
+    (is_lower ? b : a) = is_lower ? upper.value : lower.value;
+    (is_lower ? upper : lower) = is_lower ? lower : upper;
+    Fitted& next = is_lower ? lower : upper;
+    next.value = is_lower ? b - golden * (b - a) : a + golden * (b - a);
+    next.misfit = misfit(next.value);
   }
-  const double middle = (a + b) / 2, left = misfit(middle);
-  return left < best.misfit ? Fitted{middle, left} : best;
+  const Fitted middle = lower.misfit < upper.misfit ? lower : upper;
+  return middle.misfit < best.misfit ? middle : best;
 }
 
 std::string impacts_words(std::size_t count, std::size_t of, std::size_t only) {
@@ -61,8 +69,8 @@ std::vector<FoundImpact> as_in_rows(const Reference& reference, const DeclaredLa
 class ImpactCauses {
  public:
   ImpactCauses(const Reference& reference, const DeclaredLaw& law, const std::vector<FoundImpact>& impacts,
-               double gravity_of_step)
-      : reference_(reference), law_(law) {
+               double gravity_of_step, Trials& trials)
+      : reference_(reference), law_(law), trials_(trials) {
     for (const FoundImpact& impact : impacts) {
       if (!impact.points.empty()) impacts_.push_back(impact);
     }
@@ -123,7 +131,10 @@ class ImpactCauses {
     DeclaredLaw law = law_;
     change(reference, law, value);
     double error = 0;
-    for (const std::size_t i : of) error = worse(error, law_error(reference, law, impacts_[i]));
+    for (const std::size_t i : of) {
+      if (!trials_.spend(impacts_[i])) return Score::unknown;
+      error = worse(error, law_error(reference, law, impacts_[i]));
+    }
     return error;
   }
 
@@ -435,6 +446,7 @@ class ImpactCauses {
 
   const Reference& reference_;
   const DeclaredLaw& law_;
+  Trials& trials_;
   std::vector<FoundImpact> impacts_;
   std::vector<double> errors_;
   std::vector<std::size_t> broken_;  ///< impacts that do not follow the law
@@ -445,13 +457,13 @@ class ImpactCauses {
 
 /// An inertia or levers so far off that no point of the body explains a jump: it is taken for one of the lowest point.
 std::vector<Cause> far_body_causes(const Reference& reference, const DeclaredLaw& law,
-                                   std::vector<FoundImpact> impacts) {
+                                   std::vector<FoundImpact> impacts, Trials& trials) {
   if (reference.is_compliant) return {};
   for (FoundImpact& impact : impacts) {
     if (!impact.points.empty()) continue;
     impact.points = {reference.lowest(impact.before.attitude)};
   }
-  return ImpactCauses(reference, law, impacts, 0).of_body();
+  return ImpactCauses(reference, law, impacts, 0, trials).of_body();
 }
 
 /// Another inertia, by the lowest point's lever at the first impact: with it the impacts are looked for anew, since of
@@ -477,19 +489,25 @@ void add_far_inertia(const Answer& answer, const Reference& reference, const Dec
 
 }  // namespace
 
+bool Trials::spend(const FoundImpact& impact) {
+  constexpr long of_a_face = 40;  // times what one point costs
+  left_ -= static_cast<long>(impact.bookings.size() + 2 * impact.of_pair.size()) * (impact.points.size() > 1 ? of_a_face : 1);
+  return left_ >= 0;
+}
+
 std::vector<Cause> impact_causes_of(const Reference& reference, const DeclaredLaw& law,
-                                    const std::vector<FoundImpact>& impacts, double gravity_of_step) {
+                                    const std::vector<FoundImpact>& impacts, double gravity_of_step, Trials& trials) {
   const std::vector<FoundImpact> plain = as_in_rows(reference, law, impacts);
-  std::vector<Cause> causes = ImpactCauses(reference, law, impacts, gravity_of_step).of_normal_alone();
-  if (causes.empty()) causes = ImpactCauses(reference, law, plain, gravity_of_step).of_impacts(plain);
-  return !causes.empty() ? causes : ImpactCauses(reference, law, impacts, gravity_of_step).of_impacts(impacts);
+  std::vector<Cause> causes = ImpactCauses(reference, law, impacts, gravity_of_step, trials).of_normal_alone();
+  if (causes.empty()) causes = ImpactCauses(reference, law, plain, gravity_of_step, trials).of_impacts(plain);
+  return !causes.empty() ? causes : ImpactCauses(reference, law, impacts, gravity_of_step, trials).of_impacts(impacts);
 }
 
 std::vector<Cause> far_body_causes_of(const Answer& answer, const Reference& reference, const DeclaredLaw& law,
-                                      const std::vector<FoundImpact>& impacts) {
+                                      const std::vector<FoundImpact>& impacts, Trials& trials) {
   std::vector<Cause> causes;
   add_far_inertia(answer, reference, law, impacts.front(), causes);
-  if (causes.empty()) causes = far_body_causes(reference, law, impacts);
+  if (causes.empty()) causes = far_body_causes(reference, law, impacts, trials);
   return causes;
 }
 

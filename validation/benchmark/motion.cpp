@@ -144,7 +144,8 @@ Motion::Motion(NumericTable table, const Reference& reference) : table_(std::mov
   check_rows();
   for (std::size_t row = 0; in_space_ && row < table_.rows(); ++row) momenta_.push_back(angular_momentum(row));
   find_first_touch();
-  step_ = stated_step(table_).value_or(median_step());
+  const double distance = median_step(), stated = stated_step(table_).value_or(distance);
+  step_ = stated > 1.01 * distance ? distance : stated;
 }
 
 double Motion::median_step() const {

@@ -50,7 +50,7 @@ class Motion {
   [[nodiscard]] double start_error() const { return start_error_; }
   /// Whether the file's first row is the state after the first impact, so that no row shows the start.
   [[nodiscard]] bool begins_after_touch() const { return lead_.has_value(); }
-  /// The step of the code: as its file says, otherwise the median from row to row [s].
+  /// The step of the code: as its file says, otherwise, or where that is longer, the median from row to row [s].
   [[nodiscard]] double step() const { return step_; }
   [[nodiscard]] const NumericTable& table() const { return table_; }
   /// Row of the table that a row of the motion is.

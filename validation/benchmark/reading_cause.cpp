@@ -68,6 +68,11 @@ void exchange_axes(const Cells& at) {
   std::swap(at("vx"), at("vz"));
 }
 
+void all_in_milliseconds(const Cells& at) {
+  scaled({"t"}, 1e-3)(at);
+  scaled({"vx", "vy", "vz", "omega", "wx", "wy", "wz"}, 1e3)(at);
+}
+
 /// Components along y and z of vectors whose y pointed up.
 void turn_up(const Cells& at, const std::vector<std::pair<const char*, const char*>>& pairs) {
   for (const auto& [y, z] : pairs) {
@@ -85,6 +90,11 @@ void from_y_up(const Cells& at) {
 
 /// The same of a body whose own axes are turned likewise.
 void from_y_up_throughout(const Cells& at) { turn_up(at, {{"y", "z"}, {"q2", "q3"}, {"vy", "vz"}, {"wy", "wz"}}); }
+
+space::Quaternion attitude_of(const Cells& at) {
+  const double half = at.has("q0") ? 0 : at("phi") / 2;
+  return at.has("q0") ? at.attitude() : space::Quaternion(std::cos(half), 0, -std::sin(half), 0);
+}
 
 /// From a point of the body, `place` in its axes, to the centre of mass.
 void from_point(const Vector3& place, const Cells& at) {
@@ -111,6 +121,7 @@ const std::vector<Reading> planar_readings{
      scaled({"x", "phi", "vx", "omega"}, -1)},
     {"up-down", "z points down", scaled({"z", "vz"}, -1)},
     {"exchanged", "x and z are exchanged, and vx and vz", exchange_axes},
+    {"exchanged", "x and z are exchanged", [](const Cells& at) { std::swap(at("x"), at("z")); }},
     {"degrees", "phi and omega are in degrees", scaled({"phi", "omega"}, radian)},
     {"degrees", "phi is in degrees", scaled({"phi"}, radian)},
     {"degrees", "omega is in degrees per second", scaled({"omega"}, radian)},
@@ -118,7 +129,8 @@ const std::vector<Reading> planar_readings{
     {"millimetres", "lengths are in millimetres", scaled({"x", "z", "vx", "vz"}, 1e-3)},
     {"centimetres", "lengths are in centimetres", scaled({"x", "z", "vx", "vz"}, 1e-2)},
     {"feet", "lengths are in feet", scaled({"x", "z", "vx", "vz"}, foot)},
-    {"milliseconds", "t is in milliseconds", scaled({"t"}, 1e-3)}};
+    {"milliseconds", "t is in milliseconds", scaled({"t"}, 1e-3)},
+    {"milliseconds", "all times are in milliseconds, those of velocities, too", all_in_milliseconds}};
 
 const std::vector<Reading> space_readings{
     {"conjugate", "the Euler parameters turn from the world to the body", scaled({"q1", "q2", "q3"}, -1)},
@@ -134,7 +146,8 @@ const std::vector<Reading> space_readings{
     {"millimetres", "lengths are in millimetres", scaled({"x", "y", "z", "vx", "vy", "vz"}, 1e-3)},
     {"centimetres", "lengths are in centimetres", scaled({"x", "y", "z", "vx", "vy", "vz"}, 1e-2)},
     {"feet", "lengths are in feet", scaled({"x", "y", "z", "vx", "vy", "vz"}, foot)},
-    {"milliseconds", "t is in milliseconds", scaled({"t"}, 1e-3)}};
+    {"milliseconds", "t is in milliseconds", scaled({"t"}, 1e-3)},
+    {"milliseconds", "all times are in milliseconds, those of velocities, too", all_in_milliseconds}};
 
 const std::vector<Reading> list_readings{
     {"omega-sign", "Omega has the other sign than its line says", scaled({"Omega"}, -1)},
@@ -148,12 +161,24 @@ class ReadingCauses {
  public:
   ReadingCauses(const Answer& answer, const Reference& reference, const Score& score)
       : table_(answer.table), reference_(reference), answer_(answer), law_(score.law == "any" ? "" : score.law),
-        error_(score.error()) {}
+        error_(score.error()), law_error_(score.law_error) {
+    if (answer.is_list || answer.table.rows() < 2) return;
+    const Motion motion(answer.table, reference);
+    contradicts_ = !motion.begins_after_touch() && !reference.stays() &&
+                   (score.start_error > reference.tolerances[3] || !moves_freely(motion, reference));
+  }
 
   void of_motion() {
     for (const Reading& reading : table_.column("q0") ? space_readings : planar_readings)
       add(reading, [&] { return score_as(reading); });
-    if (causes_.empty()) of_other_points();
+    if (all_right_) return;
+    const Reading lowest{"lowest-point", "z is that of the lowest point, not of the centre of mass", [&](const Cells& at) {
+                           const space::Quaternion attitude = attitude_of(at).normalized();
+                           at("z") -= reference_.arm(attitude, reference_.lowest(attitude)).z();
+                         }};
+    add(lowest, [&] { return score_as(lowest); });
+    contradicts_ = false;  // a start and flights of another point may be right by chance
+    of_other_points();
   }
 
   /// Velocities of the row before.
@@ -198,7 +223,7 @@ class ReadingCauses {
           fmt::format("place and velocity are those of {}, not of the centre of mass", reference_.points[k]),
           [&](const Cells& at) { from_point(place, at); }};
       add(reading, [&] { return score_as(reading); });
-      if (!causes_.empty()) return;
+      if (all_right_) return;
     }
   }
 
@@ -222,12 +247,13 @@ class ReadingCauses {
         [&] { return score_list(found, reference_, law_, answer_.ending); });
   }
 
-  [[nodiscard]] Score score_as(const Reading& reading) const { return score_of(changed(reading)); }
+  [[nodiscard]] Score score_as(const Reading& reading) { return score_of(changed(reading)); }
 
   /// @throws std::domain_error if the rows do not move by their velocities
-  [[nodiscard]] Score score_of(const NumericTable& table) const {
+  [[nodiscard]] Score score_of(const NumericTable& table) {
     const Motion motion(table, reference_);
-    if (!moves_by_its_velocities(motion, reference_)) throw std::domain_error("rows that contradict each other");
+    shows_start_ = !motion.begins_after_touch();
+    if (!moves_freely(motion, reference_)) throw std::domain_error("rows that contradict each other");
     return score_motion(motion, reference_, law_, answer_.ending);
   }
 
@@ -240,24 +266,39 @@ class ReadingCauses {
   }
 
   void add(const Reading& reading, auto&& judge) {
-    double left = Score::unknown;
+    Score score;
     try {
-      left = judge().error();
+      score = judge();
     } catch (const std::exception&) {
       return;  // read so, the rows are no motion of the body
     }
+    const double left = score.error();
     constexpr std::size_t few_rows = 6;  // may be right by chance
-    if (!(left <= explained * std::fmin(error_, 1))) return;
+    const bool is_right = left <= explained * std::fmin(error_, 1);
+    const double left_of_flights = worse(score.start_error, score.flight_error);
+    const bool by_start =
+        contradicts_ && shows_start_ && score.start_error <= reference_.tolerances[2] && left_of_flights <= explained &&
+        score.law_error <= 2 * law_error_ + reference_.tolerances[2];  // else the start alone is another one
+    if (!is_right && (!by_start || all_right_)) return;
     if (table_.rows() < few_rows && !(left <= reference_.tolerances[1])) return;
-    causes_.push_back(
-        {reading.name, {}, left, fmt::format("{}: read so, all is right {}", reading.words, misfit_words(left))});
+    if (is_right && !all_right_) causes_.clear();  // of these the start alone is right
+    all_right_ |= is_right;
+    causes_.push_back({reading.name,
+                       {},
+                       by_start ? left_of_flights : left,
+                       fmt::format("{}: read so, {} right {}", reading.words,
+                                   is_right ? "all is" : "the start and the flights are",
+                                   misfit_words(is_right ? left : left_of_flights))});
   }
 
   const NumericTable& table_;
   const Reference& reference_;
   const Answer& answer_;
   std::string law_;
-  double error_;
+  double error_, law_error_;
+  bool contradicts_ = false;  ///< the start and the flights, as they are written
+  bool shows_start_ = true;   ///< the rows as they were last read
+  bool all_right_ = false;    ///< read as one of the causes has it
   std::vector<Cause> causes_;
 };
 

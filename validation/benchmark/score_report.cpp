@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <tuple>
 
 #include "validation/output/bad_input.hpp"
@@ -43,11 +42,9 @@ Cell step_cell(const std::optional<double>& step) { return step ? Cell(*step, 4)
 
 Cell error_cell(double error) { return std::isfinite(error) ? Cell(rounded_up(error), 2) : Cell(Value(), "?"); }
 
-std::string file_name(const Submission& one) { return std::filesystem::path(one.path).filename().string(); }
-
 Row submission_row(const Submission& one) {
   const Score& score = one.score;
-  return {Cell(one.path, file_name(one)),
+  return {Cell(one.path, one.name),
           Cell(text_or_nothing(one.head.problem)),
           Cell(one.problem_version > 0 ? Value(one.problem_version) : Value()),
           Cell(text_or_nothing(one.head.engine)),
@@ -245,7 +242,7 @@ Grid files_in_lines(const std::vector<Submission>& submissions) {
     const Score& score = one.score;
     const bool has_all = score.order_is_right || score.ends_early;
     const std::string of = !has_all ? "impacts" : score.error() > 0 ? score.decided_by() : "";
-    lines.rows.push_back({Cell(file_name(one)), step_cell(one.head.step), error_cell(score.error()),
+    lines.rows.push_back({Cell(one.name), step_cell(one.head.step), error_cell(score.error()),
                           Cell(text_or_nothing(of)), Cell(verdict_name(one.verdict)),
                           Cell(text_or_nothing(short_reason(one)))});
   }
@@ -254,7 +251,7 @@ Grid files_in_lines(const std::vector<Submission>& submissions) {
 
 /// What is wrong with a file, and why.
 void add_details(const Submission& one, std::vector<std::string>& notes) {
-  const std::string name = file_name(one);
+  const std::string name = one.name;
   const bool says_why = !one.score.order_is_right || one.verdict == Verdict::incomplete;  // in a finding
   if (one.verdict != Verdict::exact && !says_why) notes.push_back(name + ": " + class_words(one));
   for (const std::string& words : cause_words(one.causes)) notes.push_back(name + ": " + words);
@@ -274,7 +271,7 @@ void add_answer(const Submission& submission, double curve, PicturePanel& panel)
   panel.plot.curves.push_back(
       {.x = "impact",
        .y = "error",
-       .legend = fmt::format("{}: {}", file_name(submission), verdict_name(submission.verdict)) +
+       .legend = fmt::format("{}: {}", submission.name, verdict_name(submission.verdict)) +
                  (std::isfinite(submission.score.error()) ? " by " + submission.score.decided_by() : ""),
        .style = FigureCurve::Style::line_points,
        .where = {{"curve", curve}}});
@@ -403,6 +400,15 @@ Report score_report(const std::string& command, const std::vector<Submission>& s
   report.fields["files"] = std::move(files);
   report.fields["problems"] = std::move(problems);
   return report;
+}
+
+void add_unread(const std::vector<UnreadFile>& unread, Report& report) {
+  Value files{Value::List{}};
+  for (const UnreadFile& one : unread) {
+    files.push_back(Value::Fields{{"file", one.path}, {"reason", one.reason}});
+    report.notes.push_back("not judged: " + one.reason);
+  }
+  report.fields["unread"] = std::move(files);
 }
 
 bool Requirement::is_met(const Submission& submission) const {

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <functional>
 #include <map>
 #include <numbers>
@@ -247,19 +248,35 @@ Score judge_list(const Answer& answer, const SubmissionHead& head, const Referen
 
 Submission judge(const ReadFile& file, const SubmissionHead& head, const Reference& reference) {
   Submission submission{
-      .path = file.table.path(), .head = head, .is_list = file.is_list, .gradients = !file.gradients.empty()};
+      .path = file.table.path(),
+      .name = std::filesystem::path(file.table.path()).filename().string(),
+      .head = head, .is_list = file.is_list, .gradients = !file.gradients.empty()};
   const std::string other = "counter-clockwise";
   const Answer answer{
       .table = file.table,
       .is_list = file.is_list,
       .is_counter_clockwise = file.is_list && chosen_comment(file.table, "Omega", {"clockwise", other}) == other,
       .ending = ending_of(file.table)};
-  submission.score = file.is_list ? judge_list(answer, head, reference)
-                                  : score_motion(Motion(file.table, reference), reference, head.law, answer.ending);
+  std::string step_words;
+  if (file.is_list) {
+    submission.score = judge_list(answer, head, reference);
+  } else {
+    const Motion motion(file.table, reference);
+    submission.score = score_motion(motion, reference, head.law, answer.ending);
+    if (head.step && motion.step() < *head.step) {
+      step_words = fmt::format("{} {} s: rows are {} s apart, less than the step, and are taken for it",
+                               place_of(file.table, "step"), significant(*head.step, 3), significant(motion.step(), 3));
+      submission.head.step = motion.step();
+    }
+  }
   score_gradients(answer, file.gradients, reference, submission.score);
+  if (!step_words.empty()) submission.score.findings.push_back(step_words);
   submission.verdict = verdict_of(submission.score, reference.tolerances);
-  if (!(submission.score.impacts_error() <= reference.tolerances[1]) || submission.score.ends_early)
-    submission.causes = causes_of(answer, reference, submission.score);
+  if (!(submission.score.impacts_error() <= reference.tolerances[1]) || submission.score.ends_early) {
+    std::string remark;
+    submission.causes = causes_of(answer, reference, submission.score, remark);
+    if (!remark.empty()) submission.score.findings.push_back(remark);
+  }
   return submission;
 }
 
@@ -371,6 +388,21 @@ Submission judge_file(const std::string& path, const Reference& reference, const
   const ReadFile file = read_file(path, names);
   const SubmissionHead head = head_of(file.table);
   return judge(file, head, reference);
+}
+
+void name_apart(std::vector<Submission>& submissions) {
+  std::map<std::string, std::set<std::filesystem::path>> paths;
+  for (const Submission& one : submissions) paths[one.name].insert(one.path);
+  for (Submission& one : submissions) {
+    const std::set<std::filesystem::path>& alike = paths[one.name];
+    const std::filesystem::path path = one.path;
+    // The whole path where the folder above does not tell them apart.
+    const auto above = [](const std::filesystem::path& of) { return of.parent_path().filename(); };
+    std::set<std::filesystem::path> folders;
+    for (const std::filesystem::path& other : alike) folders.insert(above(other));
+    if (alike.size() == 1) continue;
+    one.name = (folders.size() == alike.size() && path.has_parent_path() ? above(path) / path.filename() : path).string();
+  }
 }
 
 std::vector<SubmissionGroup> group_submissions(const std::vector<Submission>& submissions) {

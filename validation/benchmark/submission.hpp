@@ -26,6 +26,7 @@ struct SubmissionHead {
 /// A file and how it does.
 struct Submission {
   std::string path;
+  std::string name{};  ///< the file's, for readers; name_apart()
   SubmissionHead head;
   int problem_version = 0;
   bool is_list = false;    ///< of impacts, not a motion
@@ -67,6 +68,9 @@ struct SubmissionGroup {
 [[nodiscard]] Submission judge_file(const std::string& path, const std::string& problem, const ColumnNames& names);
 /// Judges a file by a scene.
 [[nodiscard]] Submission judge_file(const std::string& path, const Reference& reference, const ColumnNames& names);
+
+/// Gives files of one name the folders by which they differ.
+void name_apart(std::vector<Submission>& submissions);
 
 /// @param submissions in any order
 [[nodiscard]] std::vector<SubmissionGroup> group_submissions(const std::vector<Submission>& submissions);

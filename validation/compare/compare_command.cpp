@@ -148,6 +148,7 @@ int compare_foreign(const CompareInput& input) {
     submissions.push_back(judge_file(file, reference, input.columns));
     is_met = meets(submissions.back(), requirement) && is_met;
   }
+  name_apart(submissions);
   write_report(choice, against_report(prepared(scene).scene, reference, submissions));
   return is_met ? 0 : check_failed;
 }

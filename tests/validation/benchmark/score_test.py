@@ -8,7 +8,7 @@ import subprocess
 import unittest
 
 from exact_motion import Asked, Motion, printed, scored, told
-from planar_code import Code
+from planar_code import Code, StepCode
 from run_folder import PROGRAM, EmptyFolder, run
 
 IDS = [problem["id"] for problem in told("benchmark", "list")["problems"]]
@@ -324,3 +324,39 @@ class Exact(EmptyFolder):
         done = subprocess.run([program, "benchmark", "score", "run.csv", "--require", "exact"], cwd=self.folder,
                               env={"PATH": "/usr/bin:/bin"}, capture_output=True, text=True, timeout=3600)
         self.assertEqual(done.returncode, 0, done.stderr)
+
+
+class ManyFiles(EmptyFolder):
+    def setUp(self):
+        super().setUp()
+        self.code = StepCode("box", 1, 1 / 960)
+        for folder in ("good", "bad"):
+            Path(self.path(folder)).mkdir()
+            self.write(f"{folder}/box.csv", self.code.text(step="1/960", engine=folder))
+
+    def test_files_of_one_name_are_told_apart_by_their_folders(self):
+        text = printed("benchmark", "score", self.path("good/box.csv"), self.path("bad/box.csv"), "--plot", self.path("p.svg"), "--plot-script")
+        for where in (text, self.read("p.gnuplot")):
+            self.assertIn("good/box.csv", where)
+            self.assertIn("bad/box.csv", where)
+        self.assertNotIn("good/", printed("benchmark", "score", self.path("good/box.csv")))
+
+    def test_what_cannot_be_read_is_listed_below_the_others(self):
+        self.write("nan.csv", self.code.text().replace("0.0,", "nan,", 1))
+        done = run("benchmark", "score", "good/box.csv", "nan.csv", "none.csv", cwd=self.folder)
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("box.csv", done.stdout)
+        for words in ("nan.csv:", "none.csv: cannot be read"):
+            self.assertIn("not judged: " + words, done.stdout)
+            self.assertIn("clatter: " + words, done.stderr)
+        self.assertEqual(run("benchmark", "score", "nan.csv", "none.csv", cwd=self.folder).stdout, "")
+
+    def test_a_step_that_is_longer_than_the_rows_are_apart_is_not_believed(self):
+        found = judged(self.code.text(step="1/96"))
+        self.assertIn("step 0.0104 s: rows are 0.00104 s apart, less than the step", " ".join(found["findings"]))
+        self.assertAlmostEqual(found["step"], 1 / 960, delta=1e-12)
+        names, believed = ([cause["cause"] for cause in one["causes"]] for one in (found, judged(self.code.text(step="1/960"))))
+        self.assertEqual(names, believed)
+
+    def test_a_word_for_showing_a_problem_is_not_taken_for_scoring(self):
+        self.refused("did you mean show?", "benchmark", "export", "box")

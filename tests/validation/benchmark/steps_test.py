@@ -132,17 +132,58 @@ class SpaceSteps(RigidCode):
             rows.append([k * self.step, *self.row(state)[1:]])
             velocity = np.array(state.velocity) - [0.0, 0.0, self.gravity * self.step]
             attitude, omega = self.turned(state)
-            state = State(0.0, np.array(state.position) + self.step * velocity, attitude, velocity, omega)
-            for arm in self.arms(state):
-                if state.position[2] + arm[2] <= 0 and self.approach(state, arm) < 0:
-                    state = self.strike_at(state, arm)
+            state = self.moved(state, velocity, attitude, omega)
         return rows
 
-    def text(self):
-        return super().text(self.rows(), step=self.step)
+    def moved(self, state, velocity, attitude, omega):
+        return self.struck_in(State(0.0, np.array(state.position) + self.step * velocity, attitude, velocity, omega))
+
+    def struck_in(self, state):
+        """What is in the ground and comes down."""
+        for arm in self.arms(state):
+            if state.position[2] + arm[2] <= 0 and self.approach(state, arm) < 0:
+                state = self.strike_at(state, arm)
+        return state
+
+    def text(self, lasts=1):
+        return super().text(self.rows(lasts * self.end()), step=self.step)
+
+
+class StrikesFirst(SpaceSteps):
+    """Velocities of the step, impacts at the pose at its begin, then the way by the velocities after them."""
+
+    def moved(self, state, velocity, attitude, omega):
+        state = self.struck_in(State(0.0, state.position, state.attitude, velocity, omega))
+        half, attitude = self.step / 2, np.array(state.attitude)
+        attitude = attitude + half * np.array(product((0.0, *state.omega), tuple(attitude)))
+        return State(0.0, np.array(state.position) + self.step * np.array(state.velocity), tuple(attitude / np.linalg.norm(attitude)), state.velocity, state.omega)
+
+
+def with_numbers(code, **factors):
+    for name, factor in factors.items():
+        setattr(code, name, getattr(code, name) * factor)
+    return code
 
 
 class Space(unittest.TestCase):
+    def test_a_wrong_number_of_a_code_of_coarse_steps_is_named_with_its_value(self):
+        for kind, problem, gap in itertools.product((SpaceSteps, StrikesFirst), ("corner", "corner-friction"), (0, 1)):
+            for name, cause, factor in (("e", "restitution", 0.9), ("inertia", "inertia", 1.2), ("inertia", "inertia", 0.4), ("friction", "friction", 0.5)):
+                code = with_numbers(kind(problem, gap, 1 / 960), **{name: factor})
+                if name == "friction" and not code.friction:
+                    continue
+                with self.subTest(kind=kind.__name__, problem=problem, gap=gap, cause=cause, factor=factor):
+                    causes = causes_of(code.text(lasts=2))
+                    self.assertEqual([one["cause"] for one in causes], [cause, "first-order-step"])
+                    self.assertAlmostEqual(causes[0]["value"] / (factor if cause == "inertia" else getattr(code, name)), 1, delta=1e-3)
+
+    def test_a_right_code_of_coarse_steps_follows_the_law_at_its_own_poses(self):
+        for kind, problem, step in itertools.product((SpaceSteps, StrikesFirst), ("corner", "corner-friction"), (1 / 480, 1 / 960)):
+            with self.subTest(kind=kind.__name__, problem=problem, step=step):
+                found = judged(kind(problem, 1, step).text())
+                self.assertLess(found["law_error"], 1e-9)
+                self.assertEqual({cause["cause"] for cause in found["causes"]}, {"time-step", "first-order-step"})
+
     def test_what_a_turn_of_first_order_leaves_of_the_law_is_the_step(self):
         for problem, turning, (gap, step) in itertools.product(("corner", "corner-friction"), ("new", "old", "momentum", "exponential"), ((0, 1 / 1000), (1, 1 / 250))):
             with self.subTest(problem=problem, turning=turning, gap=gap, step=step):
@@ -241,6 +282,31 @@ class Causes(unittest.TestCase):
                     causes = causes_of(code.text(step=step))
                     self.assertEqual((causes[0]["cause"], causes[0]["value"]), ("size", 0))
                     self.assertEqual("with the moment of inertia asked for" in causes[0]["words"], inertia_of_all)
+
+
+class Readings(unittest.TestCase):
+    """Signs, units and frames of a code of coarse steps: its start row and its flights tell them, whatever its impacts do."""
+
+    def test_they_are_named_before_the_steps(self):
+        def factors(*names, factor):
+            return lambda code, row: [x * (factor if name in names else 1) for name, x in zip(code.columns(), row)]
+        edits = {
+            "millimetres": factors("x", "z", "vx", "vz", factor=1e3),
+            "milliseconds": factors("t", factor=1e3),
+            "milliseconds, too": lambda code, row: [1e3 * row[0], *row[1:4], *(x / 1e3 for x in row[4:])],
+            "omega-sign": factors("omega", factor=-1),
+            "phi-sign": factors("phi", "omega", factor=-1),
+            "degrees": factors("phi", "omega", factor=180 / math.pi),
+            "exchanged": lambda code, row: [row[0], row[2], row[1], row[3], row[5], row[4], row[6]],
+            "exchanged, places": lambda code, row: [row[0], row[2], row[1], *row[3:]],
+            "lowest-point": lambda code, row: [*row[:2], min(code.height(row, k) for k in range(len(code.points))), *row[3:]],
+            "margin": lambda code, row: [*row[:2], row[2] - 0.05, *row[3:]],
+        }
+        for problem, (name, edit), gap, e in itertools.product(("box", "clatter-08"), edits.items(), (0, 1), (1, 0.9)):
+            code = with_numbers(StepCode(problem, gap, 1 / 960), e=e)
+            with self.subTest(name, problem=problem, gap=gap, e=e):
+                rows = [edit(code, row) for row in code.rows(end=1.3 * code.end())]
+                self.assertEqual(causes_of(Asked.text(code, rows, step="1/960"))[0]["cause"], name.split(",")[0])
 
 
 class Early(unittest.TestCase):
