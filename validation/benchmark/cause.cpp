@@ -577,7 +577,8 @@ std::vector<Cause> found_causes(const Answer& answer, const Reference& reference
 
 }  // namespace
 
-std::vector<Cause> causes_of(const Answer& answer, const Reference& reference, const Score& score, std::string& remark) {
+std::vector<Cause> causes_of(const Answer& answer, const Reference& reference, const Score& score,
+                             std::string& remark) {
   Trials trials;
   std::vector<Cause> causes = found_causes(answer, reference, score, trials);
   // A step of first order makes no law error, and a run's early end nothing at all.

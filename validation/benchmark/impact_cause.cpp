@@ -456,8 +456,8 @@ class ImpactCauses {
 };
 
 /// An inertia or levers so far off that no point of the body explains a jump: it is taken for one of the lowest point.
-std::vector<Cause> far_body_causes(const Reference& reference, const DeclaredLaw& law,
-                                   std::vector<FoundImpact> impacts, Trials& trials) {
+std::vector<Cause> far_body_causes(const Reference& reference, const DeclaredLaw& law, std::vector<FoundImpact> impacts,
+                                   Trials& trials) {
   if (reference.is_compliant) return {};
   for (FoundImpact& impact : impacts) {
     if (!impact.points.empty()) continue;
@@ -491,7 +491,8 @@ void add_far_inertia(const Answer& answer, const Reference& reference, const Dec
 
 bool Trials::spend(const FoundImpact& impact) {
   constexpr long of_a_face = 40;  // times what one point costs
-  left_ -= static_cast<long>(impact.bookings.size() + 2 * impact.of_pair.size()) * (impact.points.size() > 1 ? of_a_face : 1);
+  left_ -= static_cast<long>(impact.bookings.size() + 2 * impact.of_pair.size()) *
+           (impact.points.size() > 1 ? of_a_face : 1);
   return left_ >= 0;
 }
 

@@ -350,7 +350,9 @@ Report joined_report(const std::vector<const ReportCase*>& order) {
   Report report = worst.report;
   report.grid = cases;
   report.head.insert(report.head.begin(), "The worst case:");
-  std::string words = parts.size() == order.size() ? "" : fmt::format("{} cases: ", order.size());
+  std::string words = parts.size() == order.size() ? ""
+                      : parts.size() == 1          ? fmt::format("{} cases: ", order.size())
+                                                   : fmt::format("{} parts: ", parts.size());
   for (const std::vector<const ReportCase*>& of_part : parts) {
     words += &of_part == &parts.front() ? "" : "; ";
     if (std::ranges::all_of(of_part, has_margin)) {

@@ -61,7 +61,7 @@ constexpr const char* page_style =
     "h2.case{font-size:12pt}.notes li{font-size:8.5pt}.brief figure svg{max-height:3.2cm}.lines,.wide "
     "p,figcaption,pre{font-size:7.5pt;line-height:1.25}.beside "
     "figure{flex-basis:16rem}"
-    ".answer{font-size:13pt}}@page{margin:14mm}";
+    ".answer{font-size:13pt}}@page{size:A4;margin:14mm}";
 
 /// Without the declarations that only a file of its own may have.
 std::string svg_element(const std::string& svg) {
