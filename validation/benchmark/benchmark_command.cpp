@@ -98,7 +98,8 @@ int run_score(const BenchmarkInput& input) {
 int run_benchmark(const BenchmarkInput& input) {
   const std::vector<std::string> actions{"list", "show", "truth", "score"};
   if (input.action == "export" || input.action == "describe")
-    throw BadInput(fmt::format("benchmark '{}': must be one of {}; did you mean show?", input.action, fmt::join(actions, ", ")));
+    throw BadInput(
+        fmt::format("benchmark '{}': must be one of {}; did you mean show?", input.action, fmt::join(actions, ", ")));
   const std::size_t action = read_name_option("benchmark", input.action, actions);
   only_for(!input.law.empty(), "--law", "truth", action == 2);
   only_for(!input.columns.empty(), "--columns", "score", action == 3);

@@ -66,7 +66,8 @@ struct Fitted {
 /// where v is the mean over the step.  Nothing for |1 − 1/k| ≤ 0.01.
 [[nodiscard]] std::optional<Cause> velocity_scale_of(const Motion& motion, const Reference& reference);
 
-/// Whether places and attitudes change as velocities and spin say, (1), and velocities by gravity, for most of the steps.
+/// Whether places and attitudes change as velocities and spin say, (1), and velocities by gravity, for most of the
+/// steps.
 [[nodiscard]] bool moves_freely(const Motion& motion, const Reference& reference);
 
 /// Another gravity, or damping of the velocity, of the spin or of both, if one of them explains at least three quarters

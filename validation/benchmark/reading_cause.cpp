@@ -172,7 +172,8 @@ class ReadingCauses {
     for (const Reading& reading : table_.column("q0") ? space_readings : planar_readings)
       add(reading, [&] { return score_as(reading); });
     if (all_right_) return;
-    const Reading lowest{"lowest-point", "z is that of the lowest point, not of the centre of mass", [&](const Cells& at) {
+    const Reading lowest{"lowest-point", "z is that of the lowest point, not of the centre of mass",
+                         [&](const Cells& at) {
                            const space::Quaternion attitude = attitude_of(at).normalized();
                            at("z") -= reference_.arm(attitude, reference_.lowest(attitude)).z();
                          }};
@@ -283,12 +284,12 @@ class ReadingCauses {
     if (table_.rows() < few_rows && !(left <= reference_.tolerances[1])) return;
     if (is_right && !all_right_) causes_.clear();  // of these the start alone is right
     all_right_ |= is_right;
-    causes_.push_back({reading.name,
-                       {},
-                       by_start ? left_of_flights : left,
-                       fmt::format("{}: read so, {} right {}", reading.words,
-                                   is_right ? "all is" : "the start and the flights are",
-                                   misfit_words(is_right ? left : left_of_flights))});
+    causes_.push_back(
+        {reading.name,
+         {},
+         by_start ? left_of_flights : left,
+         fmt::format("{}: read so, {} right {}", reading.words, is_right ? "all is" : "the start and the flights are",
+                     misfit_words(is_right ? left : left_of_flights))});
   }
 
   const NumericTable& table_;

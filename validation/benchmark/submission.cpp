@@ -247,10 +247,11 @@ Score judge_list(const Answer& answer, const SubmissionHead& head, const Referen
 }
 
 Submission judge(const ReadFile& file, const SubmissionHead& head, const Reference& reference) {
-  Submission submission{
-      .path = file.table.path(),
-      .name = std::filesystem::path(file.table.path()).filename().string(),
-      .head = head, .is_list = file.is_list, .gradients = !file.gradients.empty()};
+  Submission submission{.path = file.table.path(),
+                        .name = std::filesystem::path(file.table.path()).filename().string(),
+                        .head = head,
+                        .is_list = file.is_list,
+                        .gradients = !file.gradients.empty()};
   const std::string other = "counter-clockwise";
   const Answer answer{
       .table = file.table,
@@ -401,7 +402,8 @@ void name_apart(std::vector<Submission>& submissions) {
     std::set<std::filesystem::path> folders;
     for (const std::filesystem::path& other : alike) folders.insert(above(other));
     if (alike.size() == 1) continue;
-    one.name = (folders.size() == alike.size() && path.has_parent_path() ? above(path) / path.filename() : path).string();
+    one.name =
+        (folders.size() == alike.size() && path.has_parent_path() ? above(path) / path.filename() : path).string();
   }
 }
 
