@@ -218,7 +218,7 @@ std::vector<Cause> chosen(std::vector<Cause> causes) {
   if (causes.empty()) return causes;
   const double most = well_explained * std::fmax(causes.front().misfit, least_misfit);
   std::erase_if(causes, [&](const Cause& cause) { return !(cause.misfit <= most); });
-  if (causes.size() > 2) causes.resize(2);
+  if (causes.size() > 2 && !causes[1].is_more) causes.resize(2);
   return causes;
 }
 
@@ -480,6 +480,22 @@ void add_replayed(const Diagnosed& run, double distance, std::vector<Cause>& cau
                                 three_digits(run.motion.step()), misfit_words(distance))});
 }
 
+/// Impacts that take several rows in a row, where the problem's are instants.
+void add_many_rows(const Diagnosed& run, std::vector<Cause>& causes) {
+  std::size_t count = 0, most = 0;
+  const std::span<const FoundImpact> asked = run.asked();
+  for (const FoundImpact& one : asked) {
+    const std::size_t rows = one.last_row - one.first_row;
+    const bool follows_law = law_error(run.reference, run.sequence.law, one) <= run.reference.tolerances[2];
+    count += rows > 1 && !follows_law ? 1 : 0, most = std::max(most, rows);
+  }
+  if (run.reference.is_compliant || count == 0 || 2 * count < asked.size()) return;
+  causes.push_back({"many-rows", static_cast<double>(most), Score::unknown,
+                    fmt::format("{} of {} impacts go on from row to row, up to {} steps: a solver that asks for the "
+                                "restitution anew in each iteration or step, or a soft contact",
+                                count, asked.size(), most)});
+}
+
 /// Causes of the impacts and the flights' step of first order, that one first without which the least would be left.
 std::vector<Cause> ranked(const Diagnosed& run, std::vector<Cause> causes, bool has_first_order) {
   constexpr double as_the_run = 0.1;
@@ -518,7 +534,7 @@ std::vector<Cause> ranked(const Diagnosed& run, std::vector<Cause> causes, bool 
 /// Another law, body or delay of the impacts, or the steps of the code.
 std::vector<Cause> causes_of_impacts(const Diagnosed& run, const Misses& misses, Trials& trials) {
   constexpr double free_flight = 1e-2;  // beyond, states before impacts are not those of the run
-  constexpr double same = 1e-6, alike = 0.05;
+  constexpr double same = 1e-6, alike = 0.02;
   const auto& impacts = run.impacts;
   std::vector<Cause> causes;
   const Stepping stepping = run.stepping(run.sequence.law);
@@ -530,10 +546,12 @@ std::vector<Cause> causes_of_impacts(const Diagnosed& run, const Misses& misses,
   const bool has_places = std::ranges::none_of(impacts, [](const FoundImpact& one) { return one.points.empty(); });
   if (causes.empty() && !has_places && !(distance <= same))
     causes = far_body_causes_of(run.answer, run.reference, run.sequence.law, impacts, trials);
-  if (causes.empty() && !(distance <= same)) add_delay(run.motion, run.reference, run.asked(), misses, causes);
+  if (causes.empty() && !(distance <= same) && !run.score.ends_early)
+    add_delay(run.motion, run.reference, run.asked(), misses, causes);
   if (causes.empty()) add_time_step(run.motion, run.reference, run.score, run.flight_left, impacts, causes);
   causes = chosen(std::move(causes));
   if (causes.empty() && distance <= alike) add_replayed(run, distance, causes);
+  if (causes.empty()) add_many_rows(run, causes);
   return ranked(run, std::move(causes), run.first_order.has_value());
 }
 

@@ -87,6 +87,7 @@ class ImpactCauses {
   /// Those on the body alone.
   std::vector<Cause> of_body() {
     if (!broken_.empty()) add_body();
+    if (!broken_.empty() && causes_.empty()) add_together();
     return std::move(causes_);
   }
 
@@ -109,6 +110,7 @@ class ImpactCauses {
     add_restitution();
     add_friction();
     add_body();
+    if (causes_.empty()) add_together();
     if (causes_.empty()) add_first_restitution();
     return std::move(causes_);
   }
@@ -185,6 +187,87 @@ class ImpactCauses {
     return -speed_of(i, impacts_[i].bookings.front().before).z();
   }
 
+  /// Two numbers or three at once.  A jump tells the inertia whatever the law is, r × P = k I ΔΩ, Newton's e is that of
+  /// its velocities, and friction the ratio of its impulses where it slips.  How the first impact was booked is not
+  /// known: each way gives other numbers, of which those of one fit all impacts.
+  void add_together() {
+    if (law_.law.law != analytic::RestitutionLaw::newton || impacts_.empty() || takes_steps()) return;
+    if (reference_.is_planar && broken_.size() < 2) return;  // three numbers fit any three velocities
+    // Alone the flights' own states fit other numbers nearly.
+    if (impacts_.front().begins_in_a_row && impacts_.front().bookings.size() == 1) return;
+    Together best;
+    for (const Booking& booking : impacts_.front().bookings) {
+      const Together found = numbers_of(booking);
+      if (!(found.e >= 0 && found.e <= 1 && found.inertia > 0.1 && found.inertia < 10)) continue;
+      for (Together one = found; const Cone cone : {Cone::round, Cone::pyramid, Cone::unequal}) {
+        one.cone = cone;
+        if (cone != Cone::round && (!has_friction() || reference_.is_planar)) break;
+        for (const double friction : {law_.law.friction_value, found.friction}) {
+          one.friction = friction;
+          one.misfit = misfit(change_of(one), 0, all());
+          if (one.misfit < best.misfit) best = one;
+        }
+      }
+    }
+    const double most = has_friction() ? explained * explained : explained;
+    if (!(best.misfit <= most * std::fmin(worst_, 1)) || is_of_the_step(best.misfit)) return;
+    const auto tell = [&](const char* name, std::optional<double> value, const std::string& words) {
+      const bool is_more = !causes_.empty();
+      causes_.push_back(
+          {name, value, best.misfit,
+           is_more ? fmt::format("{} with it explains {} {}", words, impacts_words(impacts_.size(), impacts_.size(), 0),
+                                 misfit_words(best.misfit))
+                   : "more than one at once: " + words});
+      causes_.back().is_more = is_more;
+    };
+    if (best.inertia != 1) tell("inertia", best.inertia, three_digits(best.inertia) + " times the moment of inertia");
+    const auto asked = [](double value) { return fmt::format(" ({} is asked)", shortest(value)); };
+    if (best.e != law_.law.restitution)
+      tell("restitution", best.e, "e = " + three_digits(best.e) + asked(law_.law.restitution));
+    if (best.friction != law_.law.friction_value)
+      tell("friction", best.friction, "friction " + three_digits(best.friction) + asked(law_.law.friction_value));
+    if (best.cone != Cone::round) {
+      const bool is_cut = best.cone == Cone::pyramid;
+      tell(
+          is_cut ? "friction-pyramid" : "friction-weights", {},
+          is_cut ? "a friction pyramid in place of the cone" : "friction brought back to the cone after unequal steps");
+    }
+    if (causes_.size() < 2) causes_.clear();
+  }
+
+  struct Together {
+    double inertia = 1, e = 0, friction = 0, misfit = Score::unknown;
+    Cone cone = Cone::round;
+  };
+
+  [[nodiscard]] Change change_of(const Together& numbers) const {
+    return [this, numbers](Reference& reference, DeclaredLaw& law, double) {
+      if (numbers.inertia != 1) reference.scale_inertia(numbers.inertia);
+      law.law.restitution = numbers.e;
+      if (has_friction()) law.law.friction_value = numbers.friction;
+      law.cone = numbers.cone;
+      law.is_moreau |= numbers.cone != Cone::round;
+    };
+  }
+
+  /// The numbers of the first impact so booked; those asked for where they are nearly these.
+  [[nodiscard]] Together numbers_of(const Booking& booking) const {
+    const auto& [before, after] = booking;
+    const space::Quaternion& turn = before.attitude;
+    const Vector3 change = turn.conjugate() * (after.angular_velocity - before.angular_velocity);
+    const Vector3 moment = turn * (reference_.body.inertia * change);
+    const Vector3 impulse = reference_.body.mass * (after.velocity - before.velocity);
+    const Vector3 asked = reference_.arm(turn, impacts_.front().points.front()).cross(impulse);
+    const auto near = [](double value, double wanted) {
+      return std::fabs(value - wanted) <= same * wanted ? wanted : value;
+    };
+    return {.inertia = near(asked.dot(moment) / moment.squaredNorm(), 1),
+            .e = near(-speed_of(0, after).z() / speed_of(0, before).z(), law_.law.restitution),
+            .friction = has_friction() ? near(impulse.head<2>().norm() / impulse.z(), law_.law.friction_value) : 0};
+  }
+
+  static constexpr double same = 1e-3;  ///< relative: numbers are those asked for
+
   /// Slow contacts that do not rebound, where faster ones follow the law.
   void add_threshold() {
     if (!(law_.law.restitution > 0.05) || broken_.size() == impacts_.size()) return;
@@ -215,7 +298,7 @@ class ImpactCauses {
       coupled = std::fmin(coupled, normal_alone(asked));
     }
     // Where friction does not change the normal impulse, it is that without friction whatever else is wrong.
-    if (!(left <= explained * std::fmin(worst_, coupled)) || is_of_the_step(left)) return;
+    if (!(left <= explained * explained * std::fmin(worst_, coupled)) || is_of_the_step(left)) return;
     causes_.push_back({"normal-first",
                        {},
                        left,

@@ -6,6 +6,7 @@ import re
 import shutil
 import subprocess
 import unittest
+from pathlib import Path
 
 from exact_motion import Asked, Motion, printed, scored, told
 from planar_code import Code, StepCode
