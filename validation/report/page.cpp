@@ -387,8 +387,8 @@ std::vector<HandoutPart> parts_of(const ReportCase& one, const Attitudes& attitu
 
 }  // namespace
 
-std::string page_of(const std::vector<ReportCase>& cases, const Attitudes& attitudes, bool is_short) {
-  const ReportCase& first = cases.front();
+std::string page_of(const ReportCase& first, const std::vector<const ReportCase*>& order, const Report& report,
+                    const Attitudes& attitudes, bool is_short) {
   const ReportInput& input = first.input;
   std::vector<std::string> lines;
   if (!input.title.empty()) {
@@ -396,23 +396,21 @@ std::string page_of(const std::vector<ReportCase>& cases, const Attitudes& attit
     if (!input.date.empty()) lines.front().insert(0, input.date + ", ");
   }
   std::vector<HandoutPart> parts;
-  if (cases.size() == 1) {
+  if (order.size() == 1) {
     for (const std::string& line : summary_of(first)) lines.push_back(line);
     parts = parts_of(first, attitudes, is_short, nullptr);
   } else {
-    const std::vector<const ReportCase*> order = ranked(cases);
-    const Report joined = joined_report(order);
     Report table;
-    table.grid = joined.grid;
+    table.grid = report.grid;
     std::vector<std::string> shared = shared_by(order, [](const ReportCase& one) { return one.found.notes; });
-    std::vector<std::string> notes(joined.notes.begin() + 2,
-                                   joined.notes.end());  // after the answer and the worst case
+    std::vector<std::string> notes(report.notes.begin() + 2,
+                                   report.notes.end());  // after the answer and the worst case
     notes.insert(notes.end(), shared.begin(), shared.end());
     for (const std::string& line : shared_by(order, summary_of)) {
       lines.push_back(line);
       shared.push_back(line);
     }
-    parts = {{"", fmt::format("<p class=\"answer\">{}.</p>\n", html_escaped(joined.notes.front())) + notes_html(notes) +
+    parts = {{"", fmt::format("<p class=\"answer\">{}.</p>\n", html_escaped(report.notes.front())) + notes_html(notes) +
                       handout_table(table) + legend_html(table.grid)}};
     std::set<std::string> said;  // what is said of one case is left out of the next
     for (const ReportCase* one : worst_cases(order)) {

@@ -77,7 +77,8 @@ class Written {
         continue;
       }
       Sink sink(one.file.path, one.file.option);
-      sink.write(one.form == Form::html ? page_of(cases, attitudes, one.is_short) : report_text(rows, style));
+      sink.write(one.form == Form::html ? page_of(cases.front(), order, report, attitudes, one.is_short)
+                                        : report_text(rows, style));
       sink.commit();
     }
     if (!input_.output.empty())

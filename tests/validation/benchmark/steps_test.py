@@ -188,6 +188,7 @@ class Space(unittest.TestCase):
                 with self.subTest(kind=kind.__name__, problem=problem, gap=gap, **factors):
                     told = {one["cause"]: one["value"] for one in causes_of(code.text(lasts=2)) if one["cause"] != "first-order-step"}
                     self.assertEqual(set(told), set(wanted))
+                    # The pose is that of a row, a step's turn at most from the contact's: that leaves three digits.
                     for name, value in wanted.items():
                         self.assertTrue(value is None or abs(told[name] / value - 1) < 1e-3, (name, told))
 
