@@ -87,7 +87,7 @@ int run_score(const BenchmarkInput& input) {
   if (submissions.empty()) return exit_status(FailureKind::bad_input);
   name_apart(submissions);
   Report report = score_report("benchmark", submissions, input.details);
-  add_unread(unread, report);
+  if (!unread.empty()) add_unread(unread, report);
   write_report(input.output, report);
   const Picture picture = score_picture(submissions);
   plot.write(picture, {"clatter benchmark score: " + picture.what});

@@ -314,7 +314,7 @@ StiffLimit stiff_limit(const Scene& scene, const numeric::Body& body, const Limi
   const auto run_at = [&](double stiffness) {  // the same damping over stiffness
     ++limit.runs;
     (limit.by_modulus ? world.ground.modulus : world.ground.stiffness) = stiffness;
-    if (!limit.by_modulus) world.ground.damping = sizes.damping_per_stiffness * stiffness;
+    if (!world.ground.has_dissipation()) world.ground.damping = sizes.damping_per_stiffness * stiffness;
     return numeric::simulate(body, world, start, wanted, accuracy);
   };
   double stiffness = limit.by_modulus ? scene.world.ground.modulus : scene.world.ground.stiffness;
