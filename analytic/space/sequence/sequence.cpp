@@ -601,13 +601,26 @@ class Run : public SequenceLoop<Sequence, ErrorGrowth> {
     end.position.head<2>() += (tail.end_time - time_) / 2 * (state_.velocity + tail.velocity_after).head<2>();
     end.velocity = tail.velocity_after;
     end.angular_velocity = tail.angular_velocity_after;
-    const Vector3 turn = (tail.end_time - time_) / 2 * (state_.angular_velocity + end.angular_velocity);
-    const ImpactRow& last = result_.rows.back();
-    if (turn.norm() > 0 && (!last.group || last.held > 0)) {
+    const Vector3 turn =
+        turn_on(tail.corners, (tail.end_time - time_) / 2 * (state_.angular_velocity + end.angular_velocity));
+    if (turn.norm() > 0) {
       end.attitude = (turn_by(turn) * end.attitude).normalized();
       end.position.z() = -(end.attitude * touching_place(body_, end.attitude, tail.corners.front())).z();
     }
     return end;
+  }
+
+  /// What is left of a turn whose beginning and end have all these points on the ground.
+  [[nodiscard]] Vector3 turn_on(const std::vector<int>& points, Vector3 turn) const {
+    const Corner first = touching_corner(body_, state_.attitude, points.front());
+    if (body_.lies_on(points.size()) || first.radius > 0) {
+      turn.head<2>().setZero();
+    } else if (points.size() == 2) {
+      const Vector3 edge = state_.attitude * (touching_place(body_, state_.attitude, points[1]) - first.place);
+      const Vector3 across = Vector3::UnitZ().cross(edge).normalized();
+      turn -= turn.dot(across) * across;
+    }
+    return turn;
   }
 
   void finish(Tail tail) {

@@ -152,6 +152,40 @@ BOOST_AUTO_TEST_CASE(throws_by_any_law_run_to_their_end_where_corners_come_to_st
   }
 }
 
+/// What rests has taken m(v + gT) from the ground, and a rod that rests lies level.
+BOOST_AUTO_TEST_CASE(rods_that_rock_from_end_to_end_come_to_lie_level_with_the_balance_of_their_momentum) {
+  std::mt19937_64 random(11);
+  std::uniform_real_distribution<double> uniform(0, 1);
+  Drop drop;
+  drop.body = cylinder(0.4, {.length = 0.2});
+  drop.gravity = 9.81;
+  constexpr int drops = CLATTER_TEST_SLOW_BUILD ? 8 : 40;
+  int summed = 0;
+  for (int n = 0; n < drops; ++n) {
+    const double angle = 1.5 * uniform(random), speed = 1 + 3 * uniform(random);
+    drop.attitude = Quaternion(Eigen::AngleAxisd(angle, Vector3::UnitY()));
+    drop.velocity = {0, 0, -speed};
+    drop.law.restitution = 0.7 + 0.2 * uniform(random);
+    drop.law.friction = FrictionKind::coulomb;
+    drop.law.friction_value = 0.1 + 0.4 * uniform(random);
+    drop.law.law = n % 2 == 0 ? RestitutionLaw::newton : RestitutionLaw::stronge;
+    constexpr double late = 60;
+    const Sequence s = impact_sequence(drop, {.impacts = 100'000, .until_rest = true, .times = {late}});
+    BOOST_TEST_CONTEXT("rod " << n << ": " << s.message) {
+      BOOST_CHECK(s.outcome == Outcome::at_rest);
+      if (s.tail) {
+        ++summed;
+        const double taken = drop.body.mass * (speed + drop.gravity * s.tail->end_time);
+        BOOST_TEST(std::fabs(s.total_normal_impulse - taken) <= 1e-8 * taken);
+      }
+      const State& end = s.states.back().state;
+      BOOST_TEST(std::fabs((end.attitude * Vector3::UnitX()).z()) <= 1e-12);
+      BOOST_TEST(std::fabs(end.position.z()) <= 1e-12 * drop.body.reach());
+    }
+  }
+  BOOST_TEST(summed >= drops / 2);
+}
+
 /// Where rows can no longer be predicted decides where a sequence ends, whether bounds are wanted or not.
 BOOST_AUTO_TEST_CASE(a_drop_followed_to_rest_is_the_same_without_bounds) {
   Drop drop;
