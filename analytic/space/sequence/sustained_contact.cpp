@@ -450,6 +450,26 @@ class ContactMotion {
     hold(state());
   }
 
+  /// Where the ground would have to pull, the corner that rises once it is free while the ground pushes the other; the
+  /// first if there is none.
+  [[nodiscard]] std::size_t rising(const GroundForces& pulled) const {
+    const State s = state();
+    const Vector3& w = s.angular_velocity;
+    std::size_t first = points_.size();
+    for (std::size_t i = 0; i < points_.size(); ++i) {
+      if (pulled.of_points[i].z() > 0) continue;
+      first = std::min(first, i);
+      std::vector<GroundPoint> others = points_;
+      others.erase(others.begin() + static_cast<std::ptrdiff_t>(i));
+      const GroundForces f = law_.forces(s, others);
+      const Vector3 arm = s.attitude * points_[i].place;
+      double rise = (f.turning.cross(arm) + w.cross(w.cross(arm))).z() - drop_.gravity;
+      for (const Vector3& force : f.of_points) rise += force.z() / drop_.body.mass;
+      if (f.of_points[0].z() > 0 && rise >= 0) return i;
+    }
+    return first;
+  }
+
   /// The corner leaves the ground; the velocity that is kept is that of the first.
   void leave(std::size_t number) {
     const State s = state();
@@ -473,7 +493,7 @@ class ContactMotion {
     const auto pulled = std::ranges::find_if(f.of_points, [](const Vector3& force) { return !(force.z() > 0); });
     if (event_ == Event::lifts || pulled != f.of_points.end()) {
       if (points_.size() > 1) {
-        leave(event_ == Event::lifts ? number_ : static_cast<std::size_t>(pulled - f.of_points.begin()));
+        leave(event_ == Event::lifts ? number_ : rising(f));
         if (!keep_or_begin_slip()) return open(slip_is_open);
       } else if (!is_free()) {
         return ended(ContactEnd::lift_off, "");
