@@ -20,6 +20,7 @@
 #include "validation/output/bad_input.hpp"
 #include "validation/output/number.hpp"
 #include "validation/output/numeric_table.hpp"
+#include "validation/output/suggestion.hpp"
 #include "validation/scene/keys.hpp"
 
 namespace clatter::validation {
@@ -269,8 +270,8 @@ const Problem& problem_named(const std::string& where, const std::string& id) {
   }
   std::string printable = id.substr(0, 40);
   for (char& c : printable) c = c < ' ' || c > '~' ? '?' : c;
-  throw BadInput(fmt::format("{}: no problem {}; did you mean {}?", where, printable.empty() ? "(empty)" : printable,
-                             nearest_name(id, ids)));
+  throw BadInput(
+      fmt::format("{}: no problem {}{}", where, printable.empty() ? "(empty)" : printable, suggestion(id, ids)));
 }
 
 std::vector<std::string> truth_laws(const Problem& problem) {

@@ -10,6 +10,7 @@
 
 #include "validation/output/bad_input.hpp"
 #include "validation/output/number.hpp"
+#include "validation/output/suggestion.hpp"
 #include "validation/run/scene_value.hpp"
 #include "validation/scene/option_values.hpp"
 
@@ -430,8 +431,8 @@ Requirement read_requirement(const std::string& name, const std::string& text) {
   names.pop_back();
   const auto at = std::find(names.begin(), names.end(), text);
   if (at == names.end()) {
-    throw BadInput(fmt::format("{} '{}': must be one of {}, or a largest error such as 1e-3; did you mean {}?", name,
-                               text, fmt::join(names, ", "), nearest_name(text, names)));
+    throw BadInput(fmt::format("{} '{}': must be one of {}, or a largest error such as 1e-3{}", name, text,
+                               fmt::join(names, ", "), suggestion(text, names, true)));
   }
   return {.verdict = static_cast<Verdict>(at - names.begin()), .error = {}};
 }

@@ -1,28 +1,39 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "validation/output/bad_input.hpp"
 
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <cstdio>
 #include <numeric>
+#include <utility>
 
+#include "validation/output/suggestion.hpp"
 #include "validation/output/symbols.hpp"
 
 namespace clatter::validation {
 namespace {
 
+/// Letters left out, put in or changed, and neighbours exchanged, one each.
 std::size_t edit_distance(const std::string& from, const std::string& to) {
-  std::vector<std::size_t> row(to.size() + 1);
+  std::vector<std::size_t> row(to.size() + 1), above, next;
   std::iota(row.begin(), row.end(), std::size_t{0});
   for (std::size_t i = 1; i <= from.size(); ++i) {
-    std::size_t diagonal = row[0];
-    row[0] = i;
+    next.assign(1, i);
     for (std::size_t j = 1; j <= to.size(); ++j) {
-      const std::size_t change = diagonal + (from[i - 1] != to[j - 1]);
-      diagonal = row[j];
-      row[j] = std::min({row[j] + 1, row[j - 1] + 1, change});
+      next.push_back(std::min({row[j] + 1, next[j - 1] + 1, row[j - 1] + (from[i - 1] != to[j - 1])}));
+      if (i > 1 && j > 1 && from[i - 1] == to[j - 2] && from[i - 2] == to[j - 1])
+        next[j] = std::min(next[j], above[j - 2] + 1);
     }
+    above = std::exchange(row, std::move(next));
   }
   return row.back();
+}
+
+/// Whether one may have meant `known`: it has what was typed as a part, or a third of its letters differ.
+bool is_near(const std::string& name, const std::string& known) {
+  return known.find(name) != std::string::npos ||
+         3 * edit_distance(name, known) <= std::max(name.size(), known.size()) + 1;
 }
 
 }  // namespace
@@ -36,6 +47,15 @@ std::string nearest_name(const std::string& name, const std::vector<std::string>
         return rank(a) < rank(b);
       });
   return nearest == candidates.end() ? std::string() : *nearest;
+}
+
+std::string suggestion(const std::string& name, const std::vector<std::string>& candidates, bool are_listed) {
+  constexpr std::size_t few = 12;
+  const std::string nearest = nearest_name(name, candidates);
+  const bool has_list = are_listed || (!candidates.empty() && candidates.size() <= few);
+  if (!has_list || is_near(name, nearest)) return fmt::format("; did you mean {}?", nearest);
+  return are_listed ? ""
+                    : fmt::format("; there {} {}", candidates.size() == 1 ? "is" : "are", fmt::join(candidates, ", "));
 }
 
 void say(const std::string& words) {

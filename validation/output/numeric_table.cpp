@@ -16,6 +16,7 @@
 #include "validation/output/bad_input.hpp"
 #include "validation/output/number.hpp"
 #include "validation/output/sink.hpp"
+#include "validation/output/suggestion.hpp"
 
 namespace clatter::validation {
 namespace {
@@ -167,7 +168,7 @@ class NumericTable::Parser {
     known.insert(known.end(), request_.words.begin(), request_.words.end());
     for (const auto& [name, column] : request_.names) {
       if (std::find(known.begin(), known.end(), name) != known.end()) continue;
-      throw BadInput("--columns: unknown column {}; did you mean {}?", shown_field(name), nearest_name(name, known));
+      throw BadInput("--columns: unknown column {}{}", shown_field(name), suggestion(name, known));
     }
   }
 

@@ -12,6 +12,7 @@
 #include "validation/command/options.hpp"
 #include "validation/output/bad_input.hpp"
 #include "validation/output/report.hpp"
+#include "validation/output/suggestion.hpp"
 #include "validation/output/version.hpp"
 #include "validation/scene/keys.hpp"
 
@@ -122,8 +123,8 @@ const Argument* find_option(const Command& command, const std::string& name) {
                    command.name);
   if (name == "--probe" || name == "--part")
     throw BadInput("{}: is for shock, sweep and report; leave it out of {}", name, command.name);
-  throw BadInput("option {}: unknown{}; did you mean {}?", name, command.name.empty() ? "" : " for " + command.name,
-                 nearest_name(name, command.option_names()));
+  throw BadInput("option {}: unknown{}{}", name, command.name.empty() ? "" : " for " + command.name,
+                 suggestion(name, command.option_names()));
 }
 
 /// Takes one command's arguments apart.

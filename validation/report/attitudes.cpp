@@ -188,6 +188,21 @@ std::optional<AttitudeSweep> sweep_attitudes(const ReportInput& input, const Att
   return sweep;
 }
 
+double AllAttitudes::worst_of_other_half() const {
+  const auto half_of = [](const SweptDrop& drop) { return drop.point / orientation_count % 2; };
+  double found = std::nan("");
+  for (const SweptDrop& one : drops) {
+    if (half_of(one) == half_of(drops[worst])) continue;
+    if (!std::isfinite(found) || is_worse(one.value, found)) found = one.value;
+  }
+  return found;
+}
+
+double AllAttitudes::spread() const {
+  const double apart = is_sample ? std::fabs(std::log(drops[worst].value / worst_of_other_half())) : 0;
+  return std::isfinite(apart) ? apart : 0;
+}
+
 std::optional<AllAttitudes> all_attitudes(const ReportInput& input, const Scene& given, const AttitudeSweep& sweep,
                                           const std::string& rank_by) {
   const SweepPlan& plan = sweep.plan;

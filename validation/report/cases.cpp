@@ -110,6 +110,36 @@ std::vector<std::vector<FragilePart>> groups_of(const std::vector<FragilePart>& 
   return groups;
 }
 
+/// A drop is followed to a digit more than the page says, where nobody asks for others.
+void settle_digits(ReportInput& input) {
+  const SceneValues values = scene_values(input.scene.source);
+  const auto is_said = [&](const Key& key) {
+    const std::string name = key.name;
+    return (name == "run.digits" || name == "run.tolerance" || name == "run.step") &&
+           (is_given(input.scene, key.flag) || values.has(name));
+  };
+  if (model_of(input) == Model::continuous && std::ranges::none_of(all_keys(), is_said))
+    input.scene.texts["--digits"] = "4";
+}
+
+/// Each part at its probe; one without a place at each, or where the ranking looks.
+std::vector<FragilePart> placed_parts(const ReportInput& input, const std::vector<Probe>& probes) {
+  const auto is_looked_at = [&](const Probe& probe) { return input.rank_by.ends_with("_" + probe.name); };
+  std::vector<FragilePart> placed;
+  for (FragilePart part : parts_of(input.parts, probes)) {
+    if (!part.probe.empty() || probes.size() < 2) placed.push_back(part);
+    else {
+      for (const Probe& probe : probes) {
+        part.probe = probe.name;
+        const bool is_there =
+            std::ranges::any_of(placed, [&](const auto& other) { return part_text(other) == part_text(part); });
+        if (!is_there && (std::ranges::none_of(probes, is_looked_at) || is_looked_at(probe))) placed.push_back(part);
+      }
+    }
+  }
+  return placed;
+}
+
 }  // namespace
 
 std::vector<ReportCase> cases_of(const ReportInput& given) {
@@ -133,6 +163,7 @@ std::vector<ReportCase> cases_of(const ReportInput& given) {
   std::vector<ReportCase> cases;
   const auto add = [&](ReportInput input, const std::vector<FragilePart>& group, bool is_first) {
     const bool is_turned = gives_attitude(input);
+    settle_digits(input);
     if (!is_turned && looks_at_all(input)) input.scene.texts["--orientation"] = "1";  // some one: the sweep has its own
     const Scene scene = shock_scene(input);
     require_worst_attitudes(input, scene);
@@ -147,12 +178,12 @@ std::vector<ReportCase> cases_of(const ReportInput& given) {
   };
   std::size_t count = 0;
   for (const ReportInput& input : inputs)
-    count += std::max<std::size_t>(parts_of(input.parts, probes_of(input)).size(), 1);
+    count += std::max<std::size_t>(placed_parts(input, probes_of(input)).size(), 1);
   if (count > most_cases)
     throw BadInput(fmt::format("{} cases of scenes, values and parts: more than {}", count, most_cases));
   for (const ReportInput& input : inputs) {
     const std::vector<Probe> probes = probes_of(input);
-    const std::vector<FragilePart> parts = parts_of(input.parts, probes);
+    const std::vector<FragilePart> parts = placed_parts(input, probes);
     if (parts.empty()) add(input, {}, true);
     for (const std::vector<FragilePart>& group : groups_of(parts, probes)) {
       for (const FragilePart& part : group) {
@@ -288,12 +319,14 @@ std::string margin_words(const std::vector<const ReportCase*>& cases) {
   const ReportCase &worst = *cases.front(), &mildest = *cases.back();
   const auto margin = [](const ReportCase& one) { return said(one.found.answer.blow->margin->value); };
   const char* const which = worst.found.ranking.by == Ranking::By::margin ? "least margin" : "margin in its worst drop";
+  const std::string worst_drop = fmt::format(
+      "{} in impact {}", worst.found.all ? ": " + worst.found.all->name + "," : ",", worst.found.answer.blow->impact);
   const auto failing =
       std::ranges::count_if(cases, [](const ReportCase* one) { return !(one->found.answer.blow->margin->value > 1); });
   if (cases.size() == 1) {
     const std::string name = worst.name();
-    return fmt::format("{} {}, {} {}{}", worst.part_name, worst.found.answer.blow->margin->verdict(), which,
-                       margin(worst), name.empty() ? "" : " (" + name + ")");
+    return fmt::format("{} {}, {} {}{}{}", worst.part_name, worst.found.answer.blow->margin->verdict(), which,
+                       margin(worst), name.empty() ? "" : " (" + name + ")", worst_drop);
   }
   const auto count = static_cast<std::ptrdiff_t>(cases.size());
   std::string words = failing == 0 || failing == count
@@ -301,7 +334,15 @@ std::string margin_words(const std::vector<const ReportCase*>& cases) {
                           : fmt::format("{} fails in {} of {} cases", worst.part_name, failing, count);
   words += fmt::format(", {} {} ({})", which, margin(worst), worst.name());
   if (margin(mildest) != margin(worst)) words += fmt::format(" to {} ({})", margin(mildest), mildest.name());
-  return words;
+  return words + worst_drop;
+}
+
+/// The value of what is varied: a key of the case by its place, and behind them the scene.
+std::string setting_of(const ReportCase& one, std::size_t place) {
+  return place == one.varied.size() ? one.scene() : one.varied[place].second;
+}
+std::string name_of_setting(const ReportCase& one, std::size_t place) {
+  return place == one.varied.size() ? "scene" : words_of(*one.varied[place].first);
 }
 
 /// How many times the value by which the cases of one part are ranked changes with each thing that is varied, all else
@@ -309,9 +350,6 @@ std::string margin_words(const std::vector<const ReportCase*>& cases) {
 std::vector<std::pair<std::string, double>> influences(const std::vector<const ReportCase*>& cases) {
   std::vector<std::pair<std::string, double>> times;
   const std::size_t keys = cases.front()->varied.size();
-  const auto setting = [&](const ReportCase& one, std::size_t place) {
-    return place == keys ? one.scene() : one.varied[place].second;
-  };
   for (std::size_t place = 0; place <= keys; ++place) {
     if (place == keys && !cases.front()->names_scene) continue;
     double most = 1;
@@ -319,14 +357,42 @@ std::vector<std::pair<std::string, double>> influences(const std::vector<const R
       for (const ReportCase* other : cases) {
         bool is_same_else = true;
         for (std::size_t i = 0; i <= keys; ++i)
-          is_same_else = is_same_else && (i == place || setting(*one, i) == setting(*other, i));
+          is_same_else = is_same_else && (i == place || setting_of(*one, i) == setting_of(*other, i));
         if (is_same_else) most = std::fmax(most, one->value() / other->value());
       }
     }
-    times.emplace_back(place == keys ? "scene" : words_of(*cases.front()->varied[place].first), most);
+    times.emplace_back(name_of_setting(*cases.front(), place), most);
   }
   std::ranges::stable_sort(times, std::ranges::greater{}, &std::pair<std::string, double>::second);
   return times;
+}
+
+/// Which first and next of what is ranked are less apart than the halves of their samples: values of what is varied, by
+/// the worst case of each, and parts; empty: none.
+std::string tie_words(const std::vector<std::vector<const ReportCase*>>& parts) {
+  std::string words;
+  const auto add = [&](const ReportCase& one, const ReportCase& next, const std::string& what, const auto& name) {
+    const auto &all = one.found.all, &others = next.found.all;
+    if (one.found.ranking.by != next.found.ranking.by || !all || !others) return;
+    if (std::fabs(std::log(one.value() / next.value())) < std::fmax(all->spread(), others->spread()))
+      words += fmt::format("{}{}{} ({}) and {} ({})", words.empty() ? "" : "; ", what, name(one), said(one.value()),
+                           name(next), said(next.value()));
+  };
+  if (parts.size() > 1)
+    add(*parts[0].front(), *parts[1].front(), "", [](const ReportCase& one) { return one.part_name; });
+  for (const std::vector<const ReportCase*>& cases : parts) {
+    const ReportCase& worst = *cases.front();
+    const std::size_t keys = worst.varied.size();
+    for (std::size_t place = 0; place < keys + (worst.names_scene ? 1 : 0); ++place) {
+      const auto next = std::ranges::find_if(
+          cases, [&](const ReportCase* one) { return setting_of(*one, place) != setting_of(worst, place); });
+      if (next == cases.end()) continue;
+      add(worst, **next, (parts.size() > 1 ? worst.part_name + ", " : "") + name_of_setting(worst, place) + " ",
+          [&](const ReportCase& one) { return setting_of(one, place); });
+    }
+  }
+  if (words.empty()) return "";
+  return "Less apart than the halves of the sample, so that more --drops may change which is worse: " + words;
 }
 
 /// What of the ground stays though e is ranged over; empty: nothing.
@@ -368,18 +434,22 @@ Report joined_report(const std::vector<const ReportCase*>& order) {
   report.notes = {words, worst.lead};
   Value::List moves;
   std::string influence;
-  const std::vector<const ReportCase*>& first = parts.front();
-  for (const auto& [name, times] : influences(first)) {
-    moves.emplace_back(Value::Fields{{"name", name}, {"times", times}});
-    influence += fmt::format("{}{} {} times", influence.empty() ? "" : ", ", name, said(times));
+  for (const std::vector<const ReportCase*>& of_part : parts) {
+    const std::string& part = of_part.front()->part_name;
+    const auto all = influences(of_part);
+    std::string of_it;
+    for (const auto& [name, times] : all) {
+      moves.emplace_back(Value::Fields{{"name", name}, {"times", times}});
+      if (!part.empty()) moves.back()["part"] = part;
+      of_it += fmt::format("{}{} {} times", of_it.empty() ? "" : ", ", name, said(times));
+    }
+    if (all.size() > 1) influence += (influence.empty() ? "" : "; ") + (parts.size() > 1 ? part + ": " : "") + of_it;
   }
-  if (moves.size() > 1) {
-    report.notes.push_back(
-        fmt::format("What moves {} most, all else the same: {}",
-                    first.front()->found.ranking.by == Ranking::By::margin
-                        ? "the least margin" + (parts.size() > 1 ? " of " + first.front()->part_name : "")
-                        : "the worst blow",
-                    influence));
+  if (!influence.empty())
+    influence.insert(0, fmt::format("What moves the {} most, all else the same: ",
+                                    worst.ranking.by == Ranking::By::margin ? "least margin" : "worst blow"));
+  for (const std::string& note : {influence, tie_words(parts)}) {
+    if (!note.empty()) report.notes.push_back(note);
   }
   if (const std::string fixed = fixed_words(order); !fixed.empty()) report.notes.push_back(fixed);
   report.fields["message"] = words;

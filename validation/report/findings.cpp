@@ -134,19 +134,20 @@ std::vector<std::string> notes_of_all(const AllAttitudes& all, const Answer& ans
         all.is_least_worst() ? "least margin" : "largest", in_unit(all, beyond->beyond_value),
         name_of_drop(all.scene, beyond->attitude, beyond->down), beyond->beyond_impact));
   }
-  // How far the worst of a sample is from that of all is told by two samples of half the size, of all attitudes each.
-  const auto half_of = [](const SweptDrop& drop) { return drop.point / orientation_count % 2; };
-  double of_rest = std::nan("");
-  for (const SweptDrop& one : all.drops) {
-    if (half_of(one) == half_of(worst)) continue;
-    if (!std::isfinite(of_rest) || all.is_worse(one.value, of_rest)) of_rest = one.value;
-  }
+  const double of_rest = all.worst_of_other_half();
   if (all.is_sample && of_rest != worst.value) {
-    notes.push_back(fmt::format("{} drops are a sample{}; more of them (--drops) can find a worse one",
-                                all.drops.size(),
-                                std::isfinite(of_rest) ? fmt::format(": the worst of one half has {}, of the other {}",
-                                                                     in_unit(all, worst.value), in_unit(all, of_rest))
-                                                       : ", one of each face, edge and corner"));
+    std::string words = std::isfinite(of_rest) ? fmt::format(": the worst of one half has {}, of the other {}",
+                                                             in_unit(all, worst.value), in_unit(all, of_rest))
+                                               : ", one of each face, edge and corner";
+    const SweptDrop* next = nullptr;  // the worst of the other faces, edges and corners
+    for (const std::size_t i : all.worst_of) {
+      if (i != all.worst && (!next || all.is_worse(all.drops[i].value, next->value))) next = &all.drops[i];
+    }
+    if (next && std::fabs(std::log(worst.value / next->value)) < all.spread())
+      words += fmt::format("; less apart from the worst is {}, with {}, which may be as bad",
+                           name_of_drop(all.scene, next->attitude, next->down), in_unit(all, next->value));
+    notes.push_back(
+        fmt::format("{} drops are a sample{}; more of them (--drops) can find a worse one", all.drops.size(), words));
   }
   constexpr double close = 0.02;  // of numbers to three digits whose errors were not looked for
   const auto place = std::ranges::find(all.worst_of, all.worst) - all.worst_of.begin();
@@ -160,6 +161,19 @@ std::vector<std::string> notes_of_all(const AllAttitudes& all, const Answer& ans
                                     : fmt::format("impact {} depends on digits that nobody has", answer.blow->impact)));
   }
   return notes;
+}
+
+/// What to read of a blow that is short against the part's period, or shorter than a shock machine's; empty: any of it.
+std::string reading_words(const Blow& blow, const Ranking& ranking) {
+  const auto part = ranking.part ? ranking.part->oscillator() : std::nullopt;
+  const double most = part ? 1 / (4 * part->frequency) : service_conditions().front().pulse.duration;
+  if (!ranking.has_peaks || !(equivalent_pulse(blow.velocity, blow.peak_g * standard_gravity).duration < most))
+    return "";
+  return fmt::format(
+      "The worst pulse is short{}: read the change of velocity and the spectrum{}, not the peak, which no "
+      "housing passes on",
+      part ? " against the part's period" : ", shorter than any of JESD22-B110B",
+      part ? " at the part's frequency" : "");
 }
 
 /// Shows how deep each impact goes, and in a pad of known thickness which part of that it is.
@@ -263,11 +277,6 @@ std::optional<Findings> findings_of(const ReportInput& input, const Scene& given
   found.lead = found.answer.words;
   say_doubts(scene, model, probes);
   found.notes = doubts_of(scene, model, probes);
-  if (ranking.part && ranking.part->probe.empty() && probes.size() > 1)
-    found.notes.push_back(fmt::format("The part {0} is judged at {1}{2}: --part {3}:{0} puts it elsewhere",
-                                      part_text(*ranking.part), probes[ranking.probe].name,
-                                      ranking.probe == 0 ? ", the first probe" : "",
-                                      probes[ranking.probe == 0 ? 1 : 0].name));
   if (const auto& all = found.all) {
     const SweptDrop& worst = all->drops[all->worst];
     Value& answer = fields["answer"];
@@ -305,6 +314,8 @@ std::optional<Findings> findings_of(const ReportInput& input, const Scene& given
     found.lead += "; " + overlap;
     fields["overlap"] = overlap;
   }
+  if (found.answer.blow) found.notes.push_back(reading_words(*found.answer.blow, ranking));
+  std::erase(found.notes, "");
   for (const std::string& note : assumed_words(scene, model, found.answer.blow.value_or(Blow{.impact = 1})))
     found.notes.push_back(note);
   fields["answer"]["notes"] = found.notes;

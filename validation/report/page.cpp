@@ -194,7 +194,8 @@ std::string sequence_picture_html(const Scene& scene) {
 }
 
 /// Pulses or changes of velocity at the probes, then pictures of them and of their spectra.
-std::string shock_html(const ShockRun& run, ShockView view, int impact) {
+/// @param of_part  the probe of the part, whose spectra alone are drawn; none: those of each
+std::string shock_html(const ShockRun& run, ShockView view, int impact, std::optional<std::size_t> of_part) {
   if (run.continuous) view.rows = ShockRows::pulses;
   const Report report = shock_report(run, view);
   std::string html = handout_table(report) + legend_html(report.table());
@@ -204,14 +205,15 @@ std::string shock_html(const ShockRun& run, ShockView view, int impact) {
                         "What an accelerometer reads at the probes, from each touch-down on. Two humps in one impact "
                         "are two touches of which one begins before the other has ended.");
   }
-  Picture picture = shock_picture(run, view);
-  picture.scene.clear();  // which the page has
-  if (picture.panels.empty()) return html;
-  return html +
-         handout_picture(picture, view.parts.empty()
-                                      ? "Response spectra with and without the second blow."
-                                      : "Response spectra with and without the second blow, and all blows beside the "
-                                        "damage boundary of the part.");
+  for (std::size_t probe = of_part.value_or(0); probe < (of_part ? *of_part + 1 : run.probes.size()); ++probe) {
+    Picture picture = shock_picture(run, view, probe);
+    picture.scene.clear();  // which the page has
+    if (picture.panels.empty()) continue;
+    html += handout_picture(
+        picture, fmt::format("Response spectra of {} with and without the second blow{}", run.probes[probe].name,
+                             of_part ? ", and all blows beside the damage boundary of the part." : "."));
+  }
+  return html;
 }
 
 std::vector<std::string> assumptions(const Scene& scene, Model model, const KeyNames& unsettled) {
@@ -268,7 +270,8 @@ std::string trust_words(const ShockRun& run) {
 
 std::string accuracy_html(const Scene& scene, const ShockRun& run) {
   std::vector<std::string> items{
-      fmt::format("{} digits were asked for; digits that are not known are not printed, and ? marks rows that a start "
+      fmt::format("the drop is followed to {} digits (--digits); those that are not known are not printed, and ? "
+                  "marks rows that a start "
                   "known to 16 digits does not determine",
                   scene.accuracy.digits)};
   double closure = 0;
@@ -302,15 +305,6 @@ std::vector<RankedDrop> dots_of(const AllAttitudes& all) {
                     fmt::format("{}: {} {}", name_of_drop(all.scene, drop.attitude, drop.down),
                                 significant(drop.value, 4), all.column.unit)});
   return dots;
-}
-
-/// What to read of blows on a floor that is hard.
-std::string peak_advice(const Scene& scene, Model model) {
-  if (model == Model::discrete || scene.world.ground.is_pad()) return "";
-  return "<p>Near a level face a rigid body on a hard floor gets a peak of thousands of g within microseconds, which "
-         "no "
-         "housing passes on: read the change of velocity, and the spectrum at the part's frequency, not the "
-         "peak.</p>\n";
 }
 
 std::string notes_html(const std::vector<std::string>& notes) {
@@ -372,9 +366,11 @@ std::vector<HandoutPart> parts_of(const ReportCase& one, const Attitudes& attitu
   if (is_short) return parts;
   if (all) parts.push_back({"Attitudes", attitudes_html(*all, attitudes)});
   parts.push_back({"Shock at points of the body",
-                   found.run.probes.empty() ? "<p>No probe was named: give --probe NAME:X,Y,Z, or [[probe]] in the "
-                                              "scene file.</p>\n"
-                                            : peak_advice(scene, model) + shock_html(found.run, one.view, impact)});
+                   found.run.probes.empty()
+                       ? "<p>No probe was named: give --probe NAME:X,Y,Z, or [[probe]] in the "
+                         "scene file.</p>\n"
+                       : shock_html(found.run, one.view, impact,
+                                    found.ranking.part ? std::optional(found.ranking.probe) : std::nullopt)});
   parts.push_back({fmt::format("The impacts, {} model", name_of(model)),
                    handout_table(found.impacts) + legend_html(found.impacts.table()) +
                        (found.run.continuous ? "" : sequence_picture_html(scene))});
@@ -388,7 +384,7 @@ std::vector<HandoutPart> parts_of(const ReportCase& one, const Attitudes& attitu
 }  // namespace
 
 std::string page_of(const ReportCase& first, const std::vector<const ReportCase*>& order, const Report& report,
-                    const Attitudes& attitudes, bool is_short) {
+                    const Attitudes& attitudes, bool is_short, const std::string& lack) {
   const ReportInput& input = first.input;
   std::vector<std::string> lines;
   if (!input.title.empty()) {
@@ -419,6 +415,7 @@ std::string page_of(const ReportCase& first, const std::vector<const ReportCase*
       }
     }
   }
+  if (!lack.empty()) parts.insert(parts.begin(), {"", "<p class=\"answer\"><b>" + html_escaped(lack) + ".</b></p>\n"});
   return handout_page(input.title.empty() ? first.found.report.title : input.title, !input.title.empty(), lines, parts);
 }
 

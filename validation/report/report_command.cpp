@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <optional>
 #include <string>
@@ -63,26 +64,38 @@ class Written {
     }
   }
 
-  void write(const std::vector<ReportCase>& cases, const Attitudes& attitudes) const {
+  /// What there is: of fewer cases than were asked for, marked as that, in files beside those that were asked for.
+  void write(const std::vector<ReportCase>& cases, std::size_t asked, const Attitudes& attitudes) const {
     const std::vector<const ReportCase*> order = ranked(cases);
     const bool is_one = cases.size() == 1;
-    const Report report = is_one ? cases.front().found.report : joined_report(order);
+    Report report = is_one ? cases.front().found.report : joined_report(order);
+    std::string lack;
+    if (cases.size() < asked) {
+      lack = fmt::format("INCOMPLETE: interrupted after {} of {} cases", cases.size(), asked);
+      report.head.insert(report.head.begin(), lack);
+      report.fields["incomplete"] = lack;
+    }
+    const auto path_of = [&](const RunFile& file) {
+      const bool is_file = !file.path.empty() && !destination_of(file).is_stream;
+      return file.path + (is_file && !lack.empty() ? ".part" : "");
+    };
     Report rows = report;
     if (input_.row_form == ReportInput::RowForm::attitude) rows.grid = attitudes_of_cases(order);
     for (const File& one : files_) {
       constexpr Format formats[]{Format::json, Format::table, Format::csv, Format::json, Format::markdown};
       const TextStyle style{.format = formats[static_cast<std::size_t>(one.form)], .bare = input_.is_bare};
       if (&one == &files_.front() && one.form != Form::html) {
-        write_report({style, one.file.path}, rows);
+        write_report({style, path_of(one.file)}, rows);
         continue;
       }
-      Sink sink(one.file.path, one.file.option);
-      sink.write(one.form == Form::html ? page_of(cases.front(), order, report, attitudes, one.is_short)
+      Sink sink(path_of(one.file), one.file.option);
+      sink.write(one.form == Form::html ? page_of(cases.front(), order, report, attitudes, one.is_short, lack)
                                         : report_text(rows, style));
       sink.commit();
     }
+    const std::string found = is_one ? cases.front().found.lead : report.notes.front();
     if (!input_.output.empty())
-      say(fmt::format("{}: {}", input_.output, is_one ? cases.front().found.lead : report.notes.front()));
+      say(fmt::format("{}: {}{}", path_of(files_.front().file), lack.empty() ? "" : lack + ": ", found));
   }
 
  private:
@@ -94,6 +107,16 @@ class Written {
   const ReportInput& input_;
   std::vector<File> files_;
 };
+
+/// Says how long the other cases are going to take, where that is long, by what the first took: its drops, which parts
+/// of one scene share, and its worst drop's run, which each case has [s].
+void say_forecast(double sweep, double run, std::ptrdiff_t sweeps, std::size_t cases) {
+  constexpr double long_wait = 20;
+  const double left = std::fmax(static_cast<double>(sweeps) - 1, 0) * sweep + static_cast<double>(cases - 1) * run;
+  if (left > long_wait && !shows_progress())
+    say(fmt::format("1 of {} cases took {:.0f} s: {}; fewer --drops and --no-sensitivity are faster", cases,
+                    sweep + run, time_left(left)));
+}
 
 int run_report(const ReportInput& input) {
   require_date(input.date);
@@ -109,21 +132,30 @@ int run_report(const ReportInput& input) {
   std::optional<AttitudeSweep> swept;
   long long before = 0;
   int status = 0;
+  std::size_t done = 0;
+  double sweep_time = 0;
+  const auto seconds = [begin = std::chrono::steady_clock::now()] {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  };
   for (ReportCase& one : cases) {
     if (!looks_at_all(one.input)) {
       swept.reset();
     } else if (one.begins_sweep) {
       swept = sweep_attitudes(one.input, attitudes, one.swept_with, progress, before, interrupt);
-      if (!swept) return interrupted_status;
+      if (!swept) break;
       before += attitudes.drops;
+      if (done == 0) sweep_time = seconds();
     }
     auto found = findings_of(one.input, one.given, one.is_turned, swept ? &*swept : nullptr, one.view, interrupt);
-    if (!found) return interrupted_status;
+    if (!found) break;
     one.found = std::move(*found);
+    if (++done == 1) say_forecast(sweep_time, seconds() - sweep_time, sweeps, cases.size());
     status = std::max(status, status_of(one.found.scene, one.found.run));
   }
-  written.write(cases, attitudes);
-  return status;
+  const std::size_t asked = cases.size();
+  cases.erase(cases.begin() + static_cast<std::ptrdiff_t>(done), cases.end());
+  if (done > 0) written.write(cases, asked, attitudes);
+  return done < asked ? interrupted_status : status;
 }
 
 }  // namespace
@@ -181,6 +213,8 @@ Command report_command() {
         "A number of the scene takes several values, 0.3:0.7:0.1 or 0.3,0.5, a name several names, --floor "
         "concrete,wood: each is a case; the answer says for each part how far its margin goes, and what moves it "
         "most.\n"
+        "Each worst drop is followed to 4 digits (--digits); an interrupted run leaves its finished cases in "
+        "FILE.part.\n"
         "The page has all in itself, asks for nothing from anywhere and prints.  Needs gnuplot.";
   });
 }

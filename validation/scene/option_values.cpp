@@ -7,6 +7,7 @@
 
 #include "validation/output/bad_input.hpp"
 #include "validation/output/number.hpp"
+#include "validation/output/suggestion.hpp"
 
 namespace clatter::validation {
 
@@ -38,8 +39,7 @@ std::size_t read_name_option(const std::string& option, const std::string& text,
   for (std::size_t i = 0; i < names.size(); ++i) {
     if (names[i] == text) return i;
   }
-  throw BadInput("{} '{}': must be one of {}; did you mean {}?", option, text, fmt::join(names, ", "),
-                 nearest_name(text, names));
+  throw BadInput("{} '{}': must be one of {}{}", option, text, fmt::join(names, ", "), suggestion(text, names, true));
 }
 
 }  // namespace clatter::validation

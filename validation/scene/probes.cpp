@@ -11,6 +11,7 @@
 
 #include "validation/output/bad_input.hpp"
 #include "validation/output/number.hpp"
+#include "validation/output/suggestion.hpp"
 #include "validation/scene/argument.hpp"
 #include "validation/scene/body_properties.hpp"
 #include "validation/scene/pad.hpp"
@@ -50,9 +51,7 @@ const Probe& probe_named(const std::vector<Probe>& probes, const std::string& na
     names.push_back(probe.name);
   }
   throw BadInput(names.empty() ? fmt::format("{}: no probe is named {}: there is none", where, name)
-                               : fmt::format("{}: no probe is named {}; did you mean {}? There {} {}", where, name,
-                                             nearest_name(name, names), names.size() == 1 ? "is" : "are",
-                                             fmt::join(names, ", ")));
+                               : fmt::format("{}: no probe is named {}{}", where, name, suggestion(name, names)));
 }
 
 std::vector<Probe> read_probes(const SceneValues& values) {

@@ -17,6 +17,7 @@
 #include "validation/output/bad_input.hpp"
 #include "validation/output/number.hpp"
 #include "validation/output/sink.hpp"
+#include "validation/output/suggestion.hpp"
 #include "validation/scene/body_properties.hpp"
 #include "validation/scene/floors.hpp"
 #include "validation/scene/keys.hpp"
@@ -477,7 +478,7 @@ std::vector<std::string> case_names() {
 std::string_view case_text(const std::string& name) {
   const std::vector<std::string> names = case_names();
   if (std::find(names.begin(), names.end(), name) != names.end()) return embedded_text(case_path(name));
-  throw BadInput("case '{}': there is none of this name; did you mean {}?", name, nearest_name(name, names));
+  throw BadInput("case '{}': there is none of this name{}", name, suggestion(name, names));
 }
 
 SceneValues scene_values(const std::string& source) {
@@ -488,7 +489,7 @@ SceneValues scene_values(const std::string& source) {
   const std::vector<std::string> names = case_names();
   if (std::find(names.begin(), names.end(), source) != names.end())
     return {case_path(source), case_text(source), scene_keys()};
-  throw BadInput("{}: neither a file nor a case; did you mean {}?", source, nearest_name(source, names));
+  throw BadInput("{}: neither a file nor a case{}", source, suggestion(source, names));
 }
 
 std::string name_of_source(const std::string& path) {

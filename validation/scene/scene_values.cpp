@@ -13,6 +13,7 @@
 #include "validation/output/bad_input.hpp"
 #include "validation/output/number.hpp"
 #include "validation/output/sink.hpp"
+#include "validation/output/suggestion.hpp"
 #include "validation/output/symbols.hpp"
 #include "validation/scene/option_values.hpp"
 
@@ -149,8 +150,8 @@ class SceneParser {
       for (const auto& [name, value] : table) {
         const std::string part(name.str());
         if (part != "name" && part != "place" && part != "part")
-          throw BadInput("{}: {}.{}: unknown key; did you mean {}.{}?", position(values_.path_, name.source()),
-                         probes_name, part, probes_name, nearest_name(part, {"name", "place", "part"}));
+          throw BadInput("{}: {}.{}: unknown key{}", position(values_.path_, name.source()), probes_name, part,
+                         suggestion(part, {"name", "place", "part"}));
         add_value(fmt::format("{}.{}.{}", probes_name, i, part), value);
       }
     }
@@ -164,7 +165,7 @@ class SceneParser {
 
   void check_key(const std::string& key, const std::string& where) const {
     if (std::find(known_.begin(), known_.end(), key) != known_.end()) return;
-    throw BadInput("{}: {}: unknown key; did you mean {}?", where, key, nearest_name(key, known_));
+    throw BadInput("{}: {}: unknown key{}", where, key, suggestion(key, known_));
   }
 
   void check_table(const std::string& key, const std::string& where) const {
@@ -175,7 +176,7 @@ class SceneParser {
       throw BadInput("{}: {}: must be a value, not a table", where, key);
     std::vector<std::string> tables;
     for (const std::string& name : known_) tables.push_back(name.substr(0, name.rfind('.')));
-    throw BadInput("{}: {}: unknown table; did you mean {}?", where, key, nearest_name(key, tables));
+    throw BadInput("{}: {}: unknown table{}", where, key, suggestion(key, tables));
   }
 
   void add_value(const std::string& key, const toml::node& node) {
@@ -344,7 +345,7 @@ std::size_t SceneValues::name(const std::string& key, std::size_t fallback,
   const auto* given = std::get_if<std::string>(&at(key).value);
   if (!given) refuse(key, allowed);
   const auto found = std::find(names.begin(), names.end(), *given);
-  if (found == names.end()) refuse(key, fmt::format("{}; did you mean {}?", allowed, nearest_name(*given, names)));
+  if (found == names.end()) refuse(key, allowed + suggestion(*given, names, true));
   return static_cast<std::size_t>(found - names.begin());
 }
 

@@ -55,6 +55,7 @@ std::vector<Column> pulse_columns() {
   std::vector<Column> columns{
       word_column("probe", "probe", "name of the point"),
       {"n", "n", "", "number of the impact, from 1"},
+      word_column("model", "model", "continuous, or measured: of a record"),
       {"delta_v", "|ΔV|", "m/s", "size of the change of the point's velocity"},
       {"peak_g", "peak", "g", "largest size of the specific force, in units of 9.80665 m/s²"},
       {"pulse_duration", "T", "s", "of the half sine with this change of velocity and peak: π |ΔV|/(2 peak)"},
@@ -62,7 +63,7 @@ std::vector<Column> pulse_columns() {
       {"height", "h", "m", "of fall with this change of velocity and the impact's own restitution"},
       word_column(
           "condition", "B110",
-          "mildest service condition of JESD22-B110B, H, G, B, F, A, E, D or C, that covers both; -: harder than any"),
+          "mildest service condition of JESD22-B110B, H, G, B, F, A, E, D or C, that covers both; -: beyond all"),
       {"margin_rectangle", "rectangle", "",
        "fragility over the part's acceleration under a rectangle of this |ΔV| and "
        "peak: at most 1, it fails"},
@@ -71,9 +72,8 @@ std::vector<Column> pulse_columns() {
        "the same under the blow's own history, which may have several humps; of a part known by a test the oscillator "
        "with its damage boundary"},
       word_column("part", "part", "whose margins these are, as --part takes it"),
-      {"restitution", "e", "", "of the impact, by the continuous model", false},
-      word_column("model", "model", "continuous, or measured: of a record")};
-  for (const std::size_t of : {2U, 3U, 4U, 5U, 6U, 8U, 9U, 10U}) columns.push_back(error_column(columns[of]));
+      {"restitution", "e", "", "of the impact, by the continuous model", false}};
+  for (const std::size_t of : {3U, 4U, 5U, 6U, 7U, 9U, 10U, 11U}) columns.push_back(error_column(columns[of]));
   return columns;
 }
 
@@ -82,7 +82,7 @@ Row pulse_row(const Pulse& pulse, int digits, const FragilePart* part) {
   const Estimated &velocity = pulse.velocity, &peak = pulse.peak;
   const double of_v = relative(velocity.error, velocity.value), of_a = relative(peak.error, peak.value);
   const TestPulse half_sine = equivalent_pulse(velocity.value, peak.value);
-  Row row{Cell(pulse.probe), Cell(pulse.impact)}, errors;
+  Row row{Cell(pulse.probe), Cell(pulse.impact), Cell(pulse.model)}, errors;
   const auto add = [&](double value, double of_value) {
     const Estimated number{value, std::fabs(value) * of_value};
     row.push_back(std::isfinite(value) ? measured_cell(number, digits) : Cell());
@@ -104,7 +104,6 @@ Row pulse_row(const Pulse& pulse, int digits, const FragilePart* part) {
   row.push_back(part ? Cell(part_text(*part)) : Cell());
   row.emplace_back(pulse.restitution, 4);
   if (!std::isfinite(pulse.restitution)) row.back() = Cell();
-  row.emplace_back(pulse.model);
   row.insert(row.end(), errors.begin(), errors.end());
   return row;
 }
@@ -118,7 +117,7 @@ bool are_mixed(const std::vector<Pulse>& pulses) {
 }  // namespace
 
 Grid pulse_grid(const std::vector<Pulse>& pulses, int digits, const std::vector<FragilePart>& parts) {
-  Grid grid{pulse_columns(), {}, 2};
+  Grid grid{pulse_columns(), {}, 3};
   const bool has_history = std::ranges::any_of(pulses, [&](const Pulse& pulse) {
     return pulse.row &&
            std::ranges::any_of(parts, [&](const auto& part) { return pulse.row->response_of(part).has_value(); });
@@ -204,9 +203,10 @@ std::string boundary_words(const FragilePart& part) {
                                   significant(damage_boundary(part, shapes[0]).critical_velocity, 6));
   for (std::size_t i = 0; i < 2; ++i) {
     const DamageBoundary boundary = damage_boundary(part, shapes[i]);
-    words += fmt::format("; {}: A_c = {} g from {} m/s on", shape_words[i],
+    words += fmt::format("; {}: A_c = {} g from {} m/s on, |ΔV| alone decides up to {:.3g} ms", shape_words[i],
                          significant(boundary.critical_acceleration / standard_gravity, 6),
-                         significant(boundary.corner_velocity, 6));
+                         significant(boundary.corner_velocity, 6),
+                         1e3 * boundary.corner_velocity / (pulse_area(shapes[i]) * boundary.critical_acceleration));
   }
   return words;
 }
@@ -224,7 +224,9 @@ std::vector<std::string> pulse_notes(const std::vector<FragilePart>& parts, cons
     notes.push_back(fmt::format("{}: judged at each of {}; --part {}:{} is one at {} alone", unbound, names,
                                 probes.front().name, part_text(parts.front()), probes.front().name));
   for (const FragilePart& part : parts) notes.push_back(boundary_words(part));
-  std::string ladder = "JESD22-B110B, half sines, 2AT/π, height without rebound:";
+  std::string ladder =
+      "B110: mildest condition of JESD22-B110B that covers |ΔV| and peak, - beyond all; half sines, "
+      "2AT/π, height without rebound:";
   for (const ServiceCondition& one : service_conditions()) {
     ladder += fmt::format("{} {} {} g {} ms {:.3f} m/s {:.3f} m", one.name == 'H' ? "" : ";", one.name,
                           significant(one.pulse.acceleration / standard_gravity, 4),

@@ -590,10 +590,11 @@ Report shock_report(const ShockRun& run, const ShockView& view) {
   return report;
 }
 
-Picture shock_picture(const ShockRun& run, const ShockView& view) {
+Picture shock_picture(const ShockRun& run, const ShockView& view, std::optional<std::size_t> of_probe) {
   Picture picture{.what = fmt::format("Response spectra, {}", quality_words(run.request.quality)),
                   .scene = run.scene.summary(run.continuous ? Model::continuous : Model::discrete)};
   for (std::size_t probe = 0; probe < run.probes.size(); ++probe) {
+    if (of_probe && probe != *of_probe) continue;
     std::vector<NamedSpectrum> shown = shown_spectra(run, probe);
     const Spectrum* const discrete = run.whole(probe, false);
     if (!shown.empty() && run.continuous && discrete && run.parted.are_one(discrete->impacts))

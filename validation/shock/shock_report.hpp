@@ -44,7 +44,8 @@ struct ShockView {
   std::optional<double> rate{};         ///< the table is the history at this rate instead [Hz]
 };
 [[nodiscard]] Report shock_report(const ShockRun& run, const ShockView& view);
-/// The spectra of pseudo-velocity, a panel for each probe, and the damage boundary.
-[[nodiscard]] Picture shock_picture(const ShockRun& run, const ShockView& view);
+/// The spectra of each probe, or of one alone, and the damage boundaries.
+[[nodiscard]] Picture shock_picture(const ShockRun& run, const ShockView& view,
+                                    std::optional<std::size_t> of_probe = std::nullopt);
 
 }  // namespace clatter::validation

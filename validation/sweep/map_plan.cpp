@@ -11,6 +11,7 @@
 
 #include "validation/output/bad_input.hpp"
 #include "validation/output/number.hpp"
+#include "validation/output/suggestion.hpp"
 #include "validation/scene/failure.hpp"
 #include "validation/scene/option_values.hpp"
 
@@ -75,8 +76,8 @@ void check_class(const std::string& text, const MapQuantity& quantity, const std
   const std::string_view count = std::string_view(wanted).substr(wanted.starts_with(">=") ? 2 : 0);
   if (counts && read_integer(count, number) && number >= 1) return;
   if (std::find(words.begin(), words.end(), wanted) != words.end()) return;
-  throw BadInput(fmt::format("--quantity {}: must be {}{}; did you mean {}?", text, counts ? "a number from 1, " : "",
-                             fmt::join(words, ", "), nearest_name(wanted, words)));
+  throw BadInput(fmt::format("--quantity {}: must be {}{}{}", text, counts ? "a number from 1, " : "",
+                             fmt::join(words, ", "), suggestion(wanted, words, true)));
 }
 
 void read_quantity(const std::string& text, const MapRequest& request, MapPlan& plan) {

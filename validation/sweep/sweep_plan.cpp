@@ -13,6 +13,7 @@
 #include "validation/output/bad_input.hpp"
 #include "validation/output/number.hpp"
 #include "validation/output/report.hpp"
+#include "validation/output/suggestion.hpp"
 #include "validation/run/discrete_scene.hpp"
 #include "validation/run/scene_value.hpp"
 #include "validation/scene/body_properties.hpp"
@@ -119,8 +120,7 @@ Setting read_setting(const std::string& given, const Drawing& drawing) {
   Setting setting{.key = given.substr(0, equal), .text = given.substr(equal + 1), .axis = {}};
   const std::vector<std::string> keys = settable_keys();
   if (std::find(keys.begin(), keys.end(), setting.key) == keys.end()) {
-    throw BadInput(
-        fmt::format("--set {}: unknown key; did you mean {}?", setting.key, nearest_name(setting.key, keys)));
+    throw BadInput(fmt::format("--set {}: unknown key{}", setting.key, suggestion(setting.key, keys)));
   }
   if (setting.text.empty()) throw BadInput(fmt::format("--set {}: the value is empty", setting.key));
   if (setting.key == attitude_key) {
@@ -452,8 +452,8 @@ void choose_ranking(const SweepRequest& request, SweepPlan& plan) {
     if (!column.words && !column.name.ends_with("_error")) names.push_back(column.name);
   }
   if (std::ranges::find(names, request.rank_by) == names.end())
-    throw BadInput(fmt::format("--rank-by {}: must be a column of numbers; did you mean {}?", request.rank_by,
-                               nearest_name(request.rank_by, names)));
+    throw BadInput(fmt::format("--rank-by {}: must be a column of numbers{}", request.rank_by,
+                               suggestion(request.rank_by, names)));
   plan.layout.rank_by = request.rank_by;
 }
 

@@ -12,6 +12,7 @@
 #include "validation/output/number.hpp"
 #include "validation/output/numeric_table.hpp"
 #include "validation/output/report.hpp"
+#include "validation/output/suggestion.hpp"
 #include "validation/output/symbols.hpp"
 
 using namespace clatter::validation;
@@ -151,7 +152,14 @@ BOOST_AUTO_TEST_CASE(rows_read_back_from_csv_are_the_rows_that_were_written) {
 }
 
 BOOST_AUTO_TEST_CASE(the_nearest_name_is_the_one_with_fewest_changes) {
-  BOOST_TEST(nearest_name("sequnce", {"angles", "sequence", "explain"}) == "sequence");
+  const std::vector<std::string> commands{"angles", "sequence", "explain"}, floors{"steel", "wood"};
+  BOOST_TEST(nearest_name("sequnce", commands) == "sequence");
+  BOOST_TEST(suggestion("sequnce", commands) == "; did you mean sequence?");
+  // Neighbours exchanged are one change; a part of a name is near it; what is far from all gets their list, once.
+  BOOST_TEST(suggestion("wodo", floors) == "; did you mean wood?");
+  BOOST_TEST(suggestion("ang", commands) == "; did you mean angles?");
+  BOOST_TEST(suggestion("tile", floors) == "; there are steel, wood");
+  BOOST_TEST(suggestion("tile", floors, true) == "");
 }
 
 BOOST_AUTO_TEST_CASE(a_foreign_text_moves_no_cursor_and_stays_readable) {

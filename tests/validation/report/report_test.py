@@ -1,12 +1,18 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """`clatter report`: the page has all in itself, its answer is the sweep's worst and what the commands beside it say."""
 
+import html
+import itertools
 import json
 import math
+import os
 import re
 import shlex
+import signal
+import subprocess
 
-from run_folder import EmptyFolder, json_of, rows_of, run
+from run_folder import PROGRAM, EmptyFolder, json_of, rows_of, run
+from waiting import computing_seconds, until
 
 PROBE = ("--probe", "camera:0.048,0.016,0.0045")
 FEW = ("--impacts", "2", "--frequencies", "100:3000:4", "--no-sensitivity")
@@ -189,7 +195,15 @@ class Report(EmptyFolder):
             failing = sum(case["verdict"] == "fails" for case in own)
             verdict = f"fails in {failing} of 4 cases" if 0 < failing < 4 else f"{own[0]['verdict']} in all 4 cases"
             ends = " to ".join("{margin:.3g} ({scene}, e = {restitution})".format(**case) for case in (own[0], own[-1]))
-            self.assertIn(f"{name} {verdict}, least margin {ends}", found["message"])
+            self.assertIn("{} {}, least margin {}: {attitude}, in impact {impact}".format(name, verdict, ends, **own[0]), found["message"])
+            times = {"scene": 1, "e": 1}
+            for one, other in itertools.product(own, own):
+                differ = [name for name, column in (("scene", "scene"), ("e", "restitution")) if one[column] != other[column]]
+                if len(differ) == 1:
+                    times[differ[0]] = max(times[differ[0]], one["margin"] / other["margin"])
+            self.assertEqual({move["name"]: round(move["times"], 9) for move in found["moves"] if move["part"] == name},
+                             {one: round(ratio, 9) for one, ratio in times.items()})
+            self.assertRegex(html.unescape(page.split("</ul>")[0]), rf"What moves the least margin most, all else the same: .*{name}: \w+ [\d.]+ times, ")
         floors, parts, headings = set(), set(), []
         for case in cases:  # the worst of each floor, and of each part
             if case["scene"] not in floors or case["part"] not in parts:
@@ -234,6 +248,61 @@ class Report(EmptyFolder):
                              (("--gravity", "1:200:1"), "more than 100"), (("--digits", "2:12:1", "--gravity", "1:10:1"), "110 cases"), (("--also", "page.pdf"), "--also 'page.pdf': must end in")):
             self.refused(words, "report", *scene, *wrong, "--format", "json")
 
+    def test_cases_less_apart_than_the_halves_of_their_samples_are_not_told_apart(self):
+        scene = (*BOX, "--impacts", "1", *PROBE, *OPTIONS[:-1], "52", "--floor", "concrete", "--floor-restitution", "0.5", "--part", "300:500")
+        told = []
+        for pair in (("9.81", "9.82"), ("9.81", "19")):
+            margins, spreads = [], []
+            for gravity in pair:
+                answer = self.json_of("report", *scene, "--gravity", gravity)["answer"]
+                halves = re.search(r"the worst of one half has (\S+), of the other ([\d.]+)", " ".join(answer["notes"])).groups()
+                margins.append(answer["margin"])
+                spreads.append(math.log(float(halves[1]) / float(halves[0])))
+            page = self.page(*scene, "--gravity", ",".join(pair), "--short")
+            told.append("gravity {1} ({3:.3g}) and {0} ({2:.3g})".format(*pair, *margins) in page)
+            self.assertEqual(told[-1], math.log(margins[0] / margins[1]) < max(spreads), (margins, spreads))
+            self.assertEqual(told[-1], "more --drops may change which is worse" in page)
+        self.assertEqual(told, [True, False])
+
+    def test_a_drop_is_followed_to_four_digits_unless_others_are_asked_for(self):
+        scene = (*BOX, "--impacts", "1", *PROBE, *OPTIONS, "--floor", "concrete", "--part", "300:500")
+        self.write("fixed.toml", SCENE.replace("[run]", "[run]\ndigits = 5") + "floor = 'concrete'\n")
+        for arguments, digits in ((scene, 4), ((*scene, "--digits", "6"), 6), (("fixed.toml", *PROBE, *OPTIONS), 5)):
+            found = self.json_of("report", *arguments)
+            self.assertEqual(found["scene"]["run"]["digits"], digits)
+            again = self.json_of(*shlex.split(found["commands"][1])[1:])
+            self.assertEqual(again["impacts"], found["shock"]["impacts"])
+        page = self.page(*scene)
+        self.assertIn("followed to 4 digits (--digits)", page)
+        numbers = re.findall(r">(-?[\d.]+(?:e-?\d+)?)<", page.split("<h2>Shock")[1].split("<h2>Accuracy")[0])
+        self.assertGreater(len(numbers), 10)
+        for number in numbers:
+            self.assertLessEqual(len(number.split("e")[0].replace(".", "").strip("-0")), 4, number)
+
+    def test_interrupted_it_leaves_the_finished_cases_beside_the_file_marked_as_that(self):
+        self.write("short.toml", SCENE + "floor = 'concrete'\n")
+        self.write("long.toml", (SCENE + "floor = 'concrete'\n").replace("impacts = 1", "impacts = 100000"))  # it bounces for ever
+        arguments = ("report", "short.toml", "long.toml", *PROBE, "--part", "300:500", *OPTIONS, "--output", "page.html", "--also", "rows.csv", "--also", "all.json")
+        self.write("page.html", "before")
+        seconds = 1  # of computing, until one case is done
+        while not os.path.exists(self.path("page.html.part")):
+            with subprocess.Popen([PROGRAM, *arguments], cwd=self.folder, stderr=subprocess.PIPE, text=True) as process:
+                until(lambda: process.poll() is not None or computing_seconds(process.pid) >= seconds)
+                process.send_signal(signal.SIGINT)
+                told = process.stderr.read()
+            self.assertEqual(process.returncode, 130, told)
+            seconds *= 2
+        lack = "INCOMPLETE: interrupted after 1 of 2 cases"
+        self.assertEqual((self.read("page.html"), os.path.exists(self.path("rows.csv"))), ("before", False))
+        self.assertIn(f"page.html.part: {lack}: camera ", told)
+        page = self.read("page.html.part")
+        self.assertLess(page.index(lack), page.index("least margin"))
+        self.assertTrue(page.endswith("</html>\n"))
+        self.assertIn(f"# {lack}\n", self.read("rows.csv.part"))
+        self.assertEqual(json.loads(self.read("all.json.part"))["incomplete"], lack)
+        alone = self.json_of("report", "short.toml", *PROBE, "--part", "300:500", *OPTIONS)
+        self.assertEqual(json.loads(self.read("all.json.part"))["answer"], alone["answer"])
+
     def test_a_part_belongs_to_its_probe_by_flag_and_by_file(self):
         scene = SCENE + "floor = 'concrete'\n"
         probes = "[[probe]]\nname = 'camera'\nplace = [0.048, 0.016, 0.0045]\n{}[[probe]]\nname = 'crystal'\nplace = [-0.02, 0, 0]\n{}"
@@ -262,10 +331,16 @@ class Report(EmptyFolder):
         self.assertNotIn("delta_v", page.split("Commands that give")[0])
         short = self.page("full.toml", *options, "--short")
         self.assertEqual(("<h2>Attitudes" in short, short.count("The body as it touches")), (False, 2))
-        # An unbound one goes to the first, and says so.
-        unbound = self.json_of("report", "bare.toml", *options, "--part", "300:500")
-        self.assertEqual(unbound["answer"]["margin"], next(case["margin"] for case in by_file["cases"] if case["probe"] == "camera"))
-        self.assertIn("The part 300:500 is judged at camera, the first probe: --part crystal:300:500", " ".join(unbound["answer"]["notes"]))
+        # The crystal's part bore 2 ms, as one of 1/(2 T) = 250 Hz does.
+        quarters = {"camera": 1e3 / (4 * 300), "crystal": 1e3 / (4 * 250)}
+        self.assertTrue(all(case["pulse_ms"] < quarters[case["probe"]] for case in by_file["cases"]))
+        self.assertIn("short against the part's period: read the change of velocity", html.unescape(short))
+        # An unbound one is judged at each, as shock does, or where the ranking looks.
+        unbound = self.json_of("report", "bare.toml", *options, "--part", "300:500")["cases"]
+        self.assertEqual([(case["part"], case["probe"]) for case in unbound], [("camera:300:500", "camera"), ("crystal:300:500", "crystal")])
+        self.assertEqual(unbound[0]["margin"], next(case["margin"] for case in by_file["cases"] if case["probe"] == "camera"))
+        looked_at = self.json_of("report", "bare.toml", *options, "--part", "300:500", "--rank-by", "margin_crystal")["answer"]
+        self.assertEqual((looked_at["probe"], looked_at["margin"]), ("crystal", unbound[1]["margin"]))
         self.refused("no probe is named crysta; did you mean crystal?", "report", "bare.toml", *options, "--part", "crysta:300g", "--format", "json")
         self.write("bad.toml", scene + probes.format("", "part = '15q'\n"))
         self.refused("bad.toml:17:8: probe.1.part", "report", "bad.toml", *options, "--format", "json")

@@ -89,7 +89,7 @@ class Floors(Folder):
     def test_what_cannot_be_is_refused_in_a_line(self):
         one = "give one of them, not both"
         self.each_refused({
-            "--floor stell": "did you mean steel", "--floor wood --stiffness 1e9": one, "--floor wood --ground-modulus 1e9": one,
+            "--floor stell": "did you mean steel", "--floor tile": "must be one of concrete, steel, asphalt, wood\n", "--floor wood --stiffness 1e9": one, "--floor wood --ground-modulus 1e9": one,
             "--floor wood --body-modulus 1e9 --body-material abs": one, "--body-material abs": "only for a ground with a modulus or a floor",
             "--floor concrete --floor-restitution 0.4 --dissipation 1": "not both",
             "--floor concrete --floor-restitution 0": "greater than 0"}, "simulate", *FLAT)

@@ -106,6 +106,8 @@ class Measured(EmptyFolder):
                          [("camera", "measured", "camera:300:100"), ("camera", "continuous", "camera:300:100")])
         self.assertEqual(blows[1], beside[0])
         self.assertEqual({one["probe"] for one in found["spectra"]}, {"camera"})
+        (row, _) = rows_of("shock", "--measured", "a.csv", *options, "--rows", "pulse", cwd=self.folder)
+        self.assertEqual(list(row)[:3], ["probe", "n", "model"], "what tells rows apart comes first")
         for more, words in ((("--rows", "pulse"), ("no model beyond half", "measured")), (("--plot", "a.svg"), ("sim. |ΔV|", "sim. peak", "sim. width"))):
             table = self.run_program("shock", "--measured", "a.csv", *options, *more).stdout
             for word in words:

@@ -4,6 +4,7 @@
 import json
 import math
 import random
+import re
 import unittest
 
 import numpy as np
@@ -156,6 +157,12 @@ class Parts(unittest.TestCase):
                 self.assertGreaterEqual(blow["margin_history"], exact / axes)
                 rings_more += exact < 0.98 * min(blow["margin_rectangle"], blow["margin_half_sine"])
         self.assertGreater(rings_more, 10, "some ring more than by one pulse")
+
+    def test_notes_say_up_to_how_long_a_pulse_the_change_of_velocity_decides(self):
+        """Below the corner of a boundary: f T = 1/2 of a rectangle, of a half sine where its response is largest."""
+        table = printed("shock", *PHONE, "--part", "500:300", "--rows", "pulse").replace("\n", " ")
+        self.assertEqual([float(number) for number in re.findall(r"alone decides up to (\S+) ms", table)], [1, round(0.809936785 / 0.5, 2)])
+        self.assertIn("covers |ΔV| and peak, - beyond all", table)
 
     def test_several_parts_have_a_row_each_and_one_prints_what_it_prints_alone(self):
         parts = ("300:500", "300g", "900g:0.7ms")
