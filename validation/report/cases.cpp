@@ -2,6 +2,7 @@
 #include "validation/report/cases.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -409,6 +410,20 @@ std::string fixed_words(const std::vector<const ReportCase*>& cases) {
 
 }  // namespace
 
+std::vector<std::string> part_answers(const std::vector<const ReportCase*>& order) {
+  std::vector<std::string> answers;
+  for (const std::vector<const ReportCase*>& of_part : by_part(order)) {
+    const ReportCase& one = *of_part.front();
+    const std::string name = one.name();
+    answers.push_back(std::ranges::all_of(of_part, has_margin)
+                          ? margin_words(of_part)
+                          : fmt::format("{}{}{}", name.empty() ? "" : "the worst is " + name + ": ",
+                                        one.part_name.empty() ? "" : one.part_name + ": ",
+                                        one.found.answer.blow ? one.found.lead : one.found.answer.words));
+  }
+  return answers;
+}
+
 Report joined_report(const std::vector<const ReportCase*>& order) {
   const Findings& worst = order.front()->found;
   const Grid cases = cases_grid(order);
@@ -419,18 +434,7 @@ Report joined_report(const std::vector<const ReportCase*>& order) {
   std::string words = parts.size() == order.size() ? ""
                       : parts.size() == 1          ? fmt::format("{} cases: ", order.size())
                                                    : fmt::format("{} parts: ", parts.size());
-  for (const std::vector<const ReportCase*>& of_part : parts) {
-    words += &of_part == &parts.front() ? "" : "; ";
-    if (std::ranges::all_of(of_part, has_margin)) {
-      words += margin_words(of_part);
-      continue;
-    }
-    const ReportCase& one = *of_part.front();
-    const std::string name = one.name();
-    words += fmt::format("{}{}{}", name.empty() ? "" : "the worst is " + name + ": ",
-                         one.part_name.empty() ? "" : one.part_name + ": ",
-                         one.found.answer.blow ? one.found.lead : one.found.answer.words);
-  }
+  words += fmt::format("{}", fmt::join(part_answers(order), "; "));
   report.notes = {words, worst.lead};
   Value::List moves;
   std::string influence;

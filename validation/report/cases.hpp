@@ -50,6 +50,9 @@ struct ReportCase {
 /// The cases that are the worst of their scene and floor or of their part, in the order of the cases.
 [[nodiscard]] std::vector<const ReportCase*> worst_cases(const std::vector<const ReportCase*>& order);
 
+/// Each part's answer in a sentence, the worst part first.
+[[nodiscard]] std::vector<std::string> part_answers(const std::vector<const ReportCase*>& order);
+
 /// One report of several cases: the fields of the worst, and all in a table, or the attitudes of each.
 [[nodiscard]] Report joined_report(const std::vector<const ReportCase*>& order);
 

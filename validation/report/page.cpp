@@ -26,7 +26,7 @@ namespace {
 struct HandoutPart {
   std::string title;
   std::string html;
-  bool is_case = false;  ///< whether a case's parts begin here
+  const char* kind = "";  ///< of its heading: "case" begins those of a case, "brief" is one of several on a page
 };
 
 constexpr const char* page_style =
@@ -38,10 +38,12 @@ constexpr const char* page_style =
     "h1{font-size:1.2rem;font-weight:normal;color:var(--soft);margin:0}h1.given{font-size:1.6rem;color:var(--ink)}"
     "h2.case{font-size:1.5rem;margin-top:2.5rem;border-bottom:3px solid "
     "var(--body)}h2{font-size:1.2rem;margin-top:1.5rem;"
-    "border-bottom:1px solid var(--line)}.answer{font-size:1.35rem;line-height:1.3;margin:.4rem 0;max-width:none}"
+    "border-bottom:1px solid var(--line)}.answer{font-size:1.35rem;line-height:1.3;margin:.4rem "
+    "0;max-width:none}.several{font-size:1.15rem}"
+    ".brief>*{flex:1 1 20rem}"
     ".notes ul{margin:.4rem 0;padding-left:1.2rem}.notes li{font-size:.9rem;line-height:1.35;max-width:none}"
     ".lines{font-size:.9rem;line-height:1.35;max-width:none;color:var(--soft);margin-top:.3rem}.wide{overflow-x:auto}"
-    ".beside{display:flex;flex-wrap:wrap;gap:0 1rem}"
+    ".beside,.brief{display:flex;flex-wrap:wrap;gap:0 1rem}"
     ".beside figure{flex:1 1 20rem;margin:.5rem 0;align-self:flex-start}"
     "table{border-collapse:collapse;font-size:.85rem;font-variant-numeric:tabular-nums}"
     "th,td{padding:.15rem .6rem;border-bottom:1px solid var(--line);vertical-align:bottom;white-space:nowrap}"
@@ -55,13 +57,17 @@ constexpr const char* page_style =
     "@media print{:root{color-scheme:light;--ink:#1a1a1a;--soft:#444;--paper:#fff;--line:#ccc;--box:#f4f4f4;"
     "--body:#2a6f97}*{print-color-adjust:exact;-webkit-print-color-adjust:exact}body{font-size:9.5pt;max-width:none;"
     "padding:0}h2{break-after:avoid;margin-top:.8rem}figure,tr,pre{break-inside:avoid}.wide{overflow:visible}"
-    "table{font-size:7.5pt}th,td{padding:.05rem .25rem;white-space:normal}figure.plot svg{max-height:9.6cm}"
+    "table{font-size:7.5pt}th,td{padding:.05rem .25rem;white-space:normal}figure.plot svg{max-height:12.2cm}"
     "h2.case{break-before:page;margin-top:0}p,ul,pre,figure{margin:.25rem "
     "0}ul{padding-left:1.2rem}p,li{max-width:none;line-height:1.3}"
-    "h2.case{font-size:12pt}.notes li{font-size:8.5pt}.brief figure svg{max-height:3.2cm}.lines,.wide "
+    "h2{break-inside:avoid}h2.case{font-size:12pt}.notes "
+    "li{font-size:8.5pt}.brief{break-inside:avoid;flex-wrap:nowrap}.brief>:first-child{flex:5}"
+    ".brief>.beside{flex:3;display:block}.brief p,.brief li,.brief figcaption{font-size:7.5pt;line-height:1.2}.brief "
+    "figure,.brief ul{margin:.1rem 0}.brief figure svg{max-height:2.2cm}h2.brief{font-size:10pt;margin:.4rem 0 .2rem}"
+    ".lines,.wide "
     "p,figcaption,pre{font-size:7.5pt;line-height:1.25}.beside "
     "figure{flex-basis:16rem}"
-    ".answer{font-size:13pt}}@page{size:A4;margin:14mm}";
+    ".answer{font-size:13pt}.several{font-size:10.5pt}}@page{size:A4;margin:14mm}";
 
 /// Without the declarations that only a file of its own may have.
 std::string svg_element(const std::string& svg) {
@@ -98,11 +104,12 @@ std::string handout_page(const std::string& title, bool given, const std::vector
   for (const std::string& line : lines) html += html_escaped(line) + "<br>\n";
   html += "</p>\n";
   for (const HandoutPart& part : parts)
-    html += "<section>\n" +
-            (part.title.empty()
-                 ? ""
-                 : fmt::format("<h2{}>{}</h2>\n", part.is_case ? " class=\"case\"" : "", html_escaped(part.title))) +
-            part.html + "</section>\n";
+    html +=
+        "<section>\n" +
+        (part.title.empty() ? ""
+                            : fmt::format("<h2{}>{}</h2>\n", *part.kind ? fmt::format(" class=\"{}\"", part.kind) : "",
+                                          html_escaped(part.title))) +
+        part.html + "</section>\n";
   return html + "</body></html>\n";
 }
 
@@ -339,13 +346,12 @@ std::vector<HandoutPart> parts_of(const ReportCase& one, const Attitudes& attitu
   const int impact = found.answer.blow ? found.answer.blow->impact : 1;
   const bool is_brief = is_short && shared;  // one of several that are to stand on one page
   std::string pictures = fmt::format(
-      "<div class=\"beside{}\"><figure>{}<figcaption>The body as it touches in impact {}{}</figcaption></figure>\n",
-      is_brief ? " brief" : "", body_picture(body, attitude_in(found.run, impact), found.run.probes, centre), impact,
-      found.run.probes.empty() ? "." : "; a hollow dot lies inside or behind.");
+      "<div class=\"beside\"><figure>{}<figcaption>The body as it touches in impact {}{}</figcaption></figure>\n",
+      body_picture(body, attitude_in(found.run, impact), found.run.probes, centre), impact,
+      found.run.probes.empty() ? "." : "; hollow: inside or behind.");
   if (all) {
     pictures += fmt::format(
-        "<figure>{}<figcaption>All drops by the direction that is down in the body{}; the ring is the "
-        "worst.</figcaption></figure>",
+        "<figure>{}<figcaption>All drops by what is down in the body{}; ring: the worst.</figcaption></figure>",
         attitude_map(dots_of(*all), all->worst, ranked_words(all->column), all->is_least_worst()),
         scene.is_released() ? " at the release" : "");
   }
@@ -362,7 +368,10 @@ std::vector<HandoutPart> parts_of(const ReportCase& one, const Attitudes& attitu
     for (const std::string& line : own(summary_of(one))) answer += html_escaped(line) + "<br>\n";
     answer += "</p>\n";
   }
-  std::vector<HandoutPart> parts{{heading, answer + pictures + "</div>\n", shared && !is_short}};
+  pictures += "</div>\n";
+  std::vector<HandoutPart> parts{
+      is_brief ? HandoutPart{heading, "<div class=\"brief\"><div>" + answer + "</div>" + pictures + "</div>\n", "brief"}
+               : HandoutPart{heading, answer + pictures, shared ? "case" : ""}};
   if (is_short) return parts;
   if (all) parts.push_back({"Attitudes", attitudes_html(*all, attitudes)});
   parts.push_back({"Shock at points of the body",
@@ -406,8 +415,12 @@ std::string page_of(const ReportCase& first, const std::vector<const ReportCase*
       lines.push_back(line);
       shared.push_back(line);
     }
-    parts = {{"", fmt::format("<p class=\"answer\">{}.</p>\n", html_escaped(report.notes.front())) + notes_html(notes) +
-                      handout_table(table) + legend_html(table.grid)}};
+    std::string answers;
+    const std::vector<std::string> of_parts = part_answers(order);
+    for (const std::string& words : of_parts)
+      answers +=
+          fmt::format("<p class=\"answer{}\">{}.</p>\n", of_parts.size() > 1 ? " several" : "", html_escaped(words));
+    parts = {{"", answers + notes_html(notes) + handout_table(table) + legend_html(table.grid)}};
     std::set<std::string> said;  // what is said of one case is left out of the next
     for (const ReportCase* one : worst_cases(order)) {
       for (HandoutPart& part : parts_of(*one, attitudes, is_short, &shared)) {

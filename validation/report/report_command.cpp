@@ -68,18 +68,19 @@ class Written {
   void write(const std::vector<ReportCase>& cases, std::size_t asked, const Attitudes& attitudes) const {
     const std::vector<const ReportCase*> order = ranked(cases);
     const bool is_one = cases.size() == 1;
-    Report report = is_one ? cases.front().found.report : joined_report(order);
-    std::string lack;
-    if (cases.size() < asked) {
-      lack = fmt::format("INCOMPLETE: interrupted after {} of {} cases", cases.size(), asked);
-      report.head.insert(report.head.begin(), lack);
-      report.fields["incomplete"] = lack;
-    }
+    const Report report = is_one ? cases.front().found.report : joined_report(order);
+    const std::string lack =
+        cases.size() < asked ? fmt::format("INCOMPLETE: interrupted after {} of {} cases", cases.size(), asked) : "";
     const auto path_of = [&](const RunFile& file) {
       const bool is_file = !file.path.empty() && !destination_of(file).is_stream;
       return file.path + (is_file && !lack.empty() ? ".part" : "");
     };
     Report rows = report;
+    if (!lack.empty()) {
+      rows.head.insert(rows.head.begin(), lack);
+      rows.remarks.insert(rows.remarks.begin(), lack);
+      rows.fields["incomplete"] = lack;
+    }
     if (input_.row_form == ReportInput::RowForm::attitude) rows.grid = attitudes_of_cases(order);
     for (const File& one : files_) {
       constexpr Format formats[]{Format::json, Format::table, Format::csv, Format::json, Format::markdown};
@@ -96,6 +97,7 @@ class Written {
     const std::string found = is_one ? cases.front().found.lead : report.notes.front();
     if (!input_.output.empty())
       say(fmt::format("{}: {}{}", path_of(files_.front().file), lack.empty() ? "" : lack + ": ", found));
+    else if (!lack.empty()) say(lack);
   }
 
  private:

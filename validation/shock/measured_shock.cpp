@@ -612,25 +612,29 @@ PicturePanel record_panel(const MeasuredShock& shock, const ShockRun* simulated)
       row.push_back(shock.record.values[i][static_cast<int>(axis)] / standard_gravity);
   }
   if (!simulated || !simulated->continuous) return panel;
-  // A sensor's axes may lie otherwise than the body's, so that sizes are what compares.  A rigid body's peak may be a
-  // hundred times what a housing passes on, beside which a record is a flat line.
-  constexpr double most_times = 4;
-  const double times_simulated = shock.blows.front().peak_size.value / simulated->rows().front().value.peak_size;
-  const double factor = times_simulated * most_times < 1 || times_simulated > most_times ? times_simulated : 1;
-  const std::string legend = "size, simulated" + (factor == 1 ? "" : " × " + significant(factor, 3));
-  panel.columns.push_back({"simulated", "g", legend});
-  panel.plot.curves.push_back({.x = "time", .y = "simulated", .legend = legend, .style = FigureCurve::Style::dashed});
-  for (std::vector<double>& row : panel.rows) row.push_back(no_number);
   std::vector<std::vector<double>> felt = felt_history(*simulated, [](const numeric::HistoryPiece&) { return true; });
   const double level = part_of_peak * simulated->rows().front().value.peak_size / standard_gravity;
   const auto start = std::ranges::find_if(felt, [&](const std::vector<double>& row) { return row[1] > level; });
-  if (start == felt.end()) return panel;
-  const double first = start->front();
+  const double first = start == felt.end() ? 0 : start->front();
+  std::erase_if(felt, [&](const std::vector<double>& row) {
+    return row[0] - first < -room || row[0] - first > end - begin + room;
+  });
+  // A sensor's axes may lie otherwise than the body's, so that sizes are what compares; and a rigid body's peak may be
+  // a hundred times what a housing passes on, beside which a record is a flat line.
+  constexpr double most_times = 4;
+  double recorded = 0, largest = 0;
+  for (const MeasuredBlow& blow : shock.blows) recorded = std::fmax(recorded, blow.peak_size.value / standard_gravity);
+  for (const std::vector<double>& row : felt) largest = std::fmax(largest, row[1]);
+  if (!(largest > 0)) return panel;
+  const bool is_near = largest < most_times * recorded && recorded < most_times * largest;
+  const double factor = is_near ? 1 : recorded / largest;
+  const std::string legend = "size, simulated" + (is_near ? "" : " × " + significant(factor, 3));
+  panel.columns.push_back({"simulated", "g", legend});
+  panel.plot.curves.push_back({.x = "time", .y = "simulated", .legend = legend, .style = FigureCurve::Style::dashed});
+  for (std::vector<double>& row : panel.rows) row.push_back(no_number);
   for (const std::vector<double>& row : felt) {
-    const double time = row[0] - first;
-    if (time < -room || time > end - begin + room) continue;
     panel.rows.emplace_back(panel.columns.size(), no_number);
-    panel.rows.back().front() = time;
+    panel.rows.back().front() = row[0] - first;
     panel.rows.back().back() = factor * row[1];
   }
   return panel;

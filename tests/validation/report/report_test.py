@@ -271,7 +271,8 @@ class Report(EmptyFolder):
             found = self.json_of("report", *arguments)
             self.assertEqual(found["scene"]["run"]["digits"], digits)
             again = self.json_of(*shlex.split(found["commands"][1])[1:])
-            self.assertEqual(again["impacts"], found["shock"]["impacts"])
+            for mine, other in zip(found["shock"]["impacts"], again["impacts"], strict=True):
+                self.assertEqual((mine["peak_g"], mine["delta_v"]), (other["peak_g"], other["delta_v"]))
         page = self.page(*scene)
         self.assertIn("followed to 4 digits (--digits)", page)
         numbers = re.findall(r">(-?[\d.]+(?:e-?\d+)?)<", page.split("<h2>Shock")[1].split("<h2>Accuracy")[0])
