@@ -150,8 +150,9 @@ class SceneParser {
       for (const auto& [name, value] : table) {
         const std::string part(name.str());
         if (part != "name" && part != "place" && part != "part")
-          throw BadInput("{}: {}.{}: unknown key{}", position(values_.path_, name.source()), probes_name, part,
-                         suggestion(part, {"name", "place", "part"}));
+          throw BadInput(
+              "{}: {}.{}: unknown key{}", position(values_.path_, name.source()), probes_name, part,
+              suggestion(fmt::format("{}.{}", probes_name, part), {"probe.name", "probe.place", "probe.part"}));
         add_value(fmt::format("{}.{}.{}", probes_name, i, part), value);
       }
     }

@@ -113,7 +113,16 @@ class Measured(EmptyFolder):
             for word in words:
                 self.assertIn(word, table)
         self.assertIn("camera, impact 1, continuous", self.read("a.svg"))
-        self.assertIn(">size, simulated<", self.read("a.svg"))
+        # Where one is more than four times the other, the simulated one is drawn as high as the record's in the time that is
+        # shown, to a width of the record's blow after it.
+        history = [(float(row["time"]), math.hypot(*(float(row[f"camera_{axis}"]) for axis in "xyz")) / G)
+                   for row in rows_of("shock", "drop.toml", *options[2:], "--rate", "1e6", cwd=self.folder)]
+        begin = next(time for time, size in history if size > 0.1 * blows[1]["peak_g"])
+        largest = max(size for time, size in history if time - begin < 2 * found["impacts"][0]["width"])
+        times = blows[0]["peak_g"] / largest
+        self.assertFalse(0.25 < times < 4)
+        factor = float(re.search(r">size, simulated × ([\d.]+)<", self.read("a.svg")).group(1))
+        self.assertAlmostEqual(factor / times, 1, delta=0.02)
         self.refused("--probe: required, where on the body the record was taken: a NAME of the scene's, or NAME:X,Y,Z, not 2 points: camera, crystal",
                      "shock", "--measured", "a.csv", "--against", "drop.toml")
 

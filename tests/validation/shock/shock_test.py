@@ -160,7 +160,7 @@ class Parts(unittest.TestCase):
 
     def test_notes_say_up_to_how_long_a_pulse_the_change_of_velocity_decides(self):
         """Below the corner of a boundary: f T = 1/2 of a rectangle, of a half sine where its response is largest."""
-        table = printed("shock", *PHONE, "--part", "500:300", "--rows", "pulse").replace("\n", " ")
+        table = " ".join(printed("shock", *PHONE, "--part", "500:300", "--rows", "pulse").split())
         self.assertEqual([float(number) for number in re.findall(r"alone decides up to (\S+) ms", table)], [1, round(0.809936785 / 0.5, 2)])
         self.assertIn("covers |ΔV| and peak, - beyond all", table)
 
