@@ -20,7 +20,6 @@
 #include "validation/output/bad_input.hpp"
 #include "validation/output/number.hpp"
 #include "validation/output/numeric_table.hpp"
-#include "validation/output/suggestion.hpp"
 #include "validation/scene/keys.hpp"
 
 namespace clatter::validation {

@@ -10,7 +10,6 @@
 
 #include "validation/output/bad_input.hpp"
 #include "validation/output/number.hpp"
-#include "validation/output/suggestion.hpp"
 #include "validation/run/scene_value.hpp"
 #include "validation/scene/option_values.hpp"
 

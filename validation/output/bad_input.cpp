@@ -8,7 +8,6 @@
 #include <numeric>
 #include <utility>
 
-#include "validation/output/suggestion.hpp"
 #include "validation/output/symbols.hpp"
 
 namespace clatter::validation {

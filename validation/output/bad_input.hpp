@@ -21,6 +21,10 @@ class BadInput : public std::runtime_error {
 
 /// The candidate nearest to `name` by edit distance, of those that have it as a part if there are any.
 [[nodiscard]] std::string nearest_name(const std::string& name, const std::vector<std::string>& candidates);
+/// "; did you mean steel?"; where the candidates are few and none is near, these: "; there are steel, wood".
+/// @param are_listed  the words before it have the candidates already, however many they are
+[[nodiscard]] std::string suggestion(const std::string& name, const std::vector<std::string>& candidates,
+                                     bool are_listed = false);
 
 /// While such an object lives, what comes up in its thread is kept here in place of being written: the words of say(),
 /// or the reports of write_report().  One at a time in a thread.

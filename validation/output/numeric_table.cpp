@@ -16,7 +16,6 @@
 #include "validation/output/bad_input.hpp"
 #include "validation/output/number.hpp"
 #include "validation/output/sink.hpp"
-#include "validation/output/suggestion.hpp"
 
 namespace clatter::validation {
 namespace {

@@ -12,7 +12,6 @@
 #include "validation/command/options.hpp"
 #include "validation/output/bad_input.hpp"
 #include "validation/output/report.hpp"
-#include "validation/output/suggestion.hpp"
 #include "validation/output/version.hpp"
 #include "validation/scene/keys.hpp"
 

@@ -29,7 +29,7 @@ template <class Value>
   if (found != table.end()) return found->second;
   std::vector<std::string> names;
   for (const auto& entry : table) names.push_back(entry.first);
-  throw BadInput(name + ": unknown argument; did you mean " + nearest_name(name, names) + "?");
+  throw BadInput(name + ": unknown argument" + suggestion(name, names));
 }
 
 /// Flags of `clatter simulate` and the keys of the scene file whose place they take; also planar, contact_gravity,

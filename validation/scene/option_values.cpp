@@ -7,7 +7,6 @@
 
 #include "validation/output/bad_input.hpp"
 #include "validation/output/number.hpp"
-#include "validation/output/suggestion.hpp"
 
 namespace clatter::validation {
 

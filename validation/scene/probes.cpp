@@ -11,7 +11,6 @@
 
 #include "validation/output/bad_input.hpp"
 #include "validation/output/number.hpp"
-#include "validation/output/suggestion.hpp"
 #include "validation/scene/argument.hpp"
 #include "validation/scene/body_properties.hpp"
 #include "validation/scene/pad.hpp"

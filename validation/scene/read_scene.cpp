@@ -17,7 +17,6 @@
 #include "validation/output/bad_input.hpp"
 #include "validation/output/number.hpp"
 #include "validation/output/sink.hpp"
-#include "validation/output/suggestion.hpp"
 #include "validation/scene/body_properties.hpp"
 #include "validation/scene/floors.hpp"
 #include "validation/scene/keys.hpp"

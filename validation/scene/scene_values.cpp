@@ -13,7 +13,6 @@
 #include "validation/output/bad_input.hpp"
 #include "validation/output/number.hpp"
 #include "validation/output/sink.hpp"
-#include "validation/output/suggestion.hpp"
 #include "validation/output/symbols.hpp"
 #include "validation/scene/option_values.hpp"
 

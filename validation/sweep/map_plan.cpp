@@ -11,7 +11,6 @@
 
 #include "validation/output/bad_input.hpp"
 #include "validation/output/number.hpp"
-#include "validation/output/suggestion.hpp"
 #include "validation/scene/failure.hpp"
 #include "validation/scene/option_values.hpp"
 

@@ -13,7 +13,6 @@
 #include "validation/output/bad_input.hpp"
 #include "validation/output/number.hpp"
 #include "validation/output/report.hpp"
-#include "validation/output/suggestion.hpp"
 #include "validation/run/discrete_scene.hpp"
 #include "validation/run/scene_value.hpp"
 #include "validation/scene/body_properties.hpp"

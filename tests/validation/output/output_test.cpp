@@ -12,7 +12,6 @@
 #include "validation/output/number.hpp"
 #include "validation/output/numeric_table.hpp"
 #include "validation/output/report.hpp"
-#include "validation/output/suggestion.hpp"
 #include "validation/output/symbols.hpp"
 
 using namespace clatter::validation;
