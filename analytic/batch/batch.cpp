@@ -141,7 +141,9 @@ std::size_t BatchDrops::count() const {
 Drop BatchDrops::drop(std::size_t i) const {
   return {.body = body,
           .inclination = Angle::from_radians(number_at(inclination, i)),
-          .velocity = {number_at(normal, i), number_at(tangential, i), number_at(angular, i)},
+          .velocity = {.normal = number_at(normal, i),
+                       .tangential = number_at(tangential, i),
+                       .angular = number_at(angular, i)},
           .gravity = number_at(gravity, i),
           .law = {.restitution = number_at(restitution, i),
                   .friction = number_at(impulse_ratio, i) != 0 ? FrictionKind::impulse_ratio : FrictionKind::none,
@@ -156,9 +158,12 @@ void BatchDrops::validate() const {
   }
 }
 
-BatchOutcome scalar_outcome(const Drop& drop, int limit) {
+namespace {
+
+/// @param drop  makes it, unless its numbers are none
+BatchOutcome outcome_of_scalar(auto&& drop, int limit) {
   try {
-    return outcome_of(impact_sequence(drop, {.impacts = limit}));
+    return outcome_of(impact_sequence(drop(), {.impacts = limit}));
   } catch (const OutsideModelError&) {
     return without_numbers(BatchEnd::outside);
   } catch (const NumericalError&) {
@@ -166,6 +171,12 @@ BatchOutcome scalar_outcome(const Drop& drop, int limit) {
   } catch (const std::domain_error&) {
     return without_numbers(BatchEnd::refused);
   }
+}
+
+}  // namespace
+
+BatchOutcome scalar_outcome(const Drop& drop, int limit) {
+  return outcome_of_scalar([&]() -> const Drop& { return drop; }, limit);
 }
 
 void run_lanes(const BatchDrops& drops, const BatchRequest& request, std::size_t first,
@@ -189,7 +200,7 @@ void run_batch(const BatchDrops& drops, const BatchRequest& request, std::size_t
                std::span<BatchOutcome> outcomes, batch::Kernel kernel) {
   run_lanes(drops, request, first, outcomes, kernel);
   for (std::size_t i = 0; i < outcomes.size(); ++i) {
-    if (outcomes[i].is_scalar) outcomes[i] = scalar_outcome(drops.drop(first + i), request.limit);
+    if (outcomes[i].is_scalar) outcomes[i] = outcome_of_scalar([&] { return drops.drop(first + i); }, request.limit);
   }
 }
 

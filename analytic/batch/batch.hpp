@@ -63,7 +63,8 @@ using batch::BatchRequest;
 [[nodiscard]] BatchOutcome scalar_outcome(const Drop& drop, int limit);
 
 /// The outcomes of drops first … first + outcomes.size() − 1, each as impact_sequence() has it, up to `request.limit`
-/// impacts; of those with infinitely many `impacts` is how many were followed.
+/// impacts; of those with infinitely many `impacts` is how many were followed.  What is no drop is `refused`; the
+/// others go on.
 ///
 /// Vectors of drops take a fixed number of Halley steps from a guess to each root.  A drop's root counts if a last
 /// step of Newton proves it to half an ulp beside the rounding of h, within a piece of h in which it is the first, and

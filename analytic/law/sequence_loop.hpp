@@ -9,6 +9,7 @@
 #include <sstream>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "analytic/base/errors.hpp"
 #include "analytic/law/impact_law.hpp"
@@ -57,7 +58,8 @@ class SequenceLoop {
  protected:
   using AnyTail = typename decltype(AnySequence::tail)::value_type;
 
-  explicit SequenceLoop(const SequenceOptions& options) : options_(options) {}
+  explicit SequenceLoop(const SequenceOptions& options, std::vector<double> times = {})
+      : options_(options), times_(std::move(times)) {}
 
   /// Runs the impacts; what ends them early keeps the rows so far.  @throws what `go_on` throws before the first row
   void follow(auto&& go_on) {
@@ -75,7 +77,12 @@ class SequenceLoop {
     if (growth_->predictable() && known == result_.rows.size()) return;
     result_.message += result_.end_predictable ? "; another sequence with the same end is possible"
                                                : "; errors have grown so far that another sequence is possible";
-    if (known < result_.rows.size()) result_.message += " from impact " + std::to_string(known + 1) + " on";
+    if (known == result_.rows.size()) return;
+    result_.message += " from impact " + std::to_string(known + 1) + " on";
+    if (const auto& row = result_.rows[known]; known > 0 && is_tie(row))
+      result_.message +=
+          ", a tie: its corners strike at once, and no digit tells which is first; a drop of the plane, "
+          "or another attitude, has none";
   }
 
   [[nodiscard]] bool is_last_row() const { return result_.rows.size() >= static_cast<std::size_t>(options_.impacts); }
@@ -88,9 +95,7 @@ class SequenceLoop {
   }
 
   /// Whether a state is asked for before this time that is not there yet.
-  [[nodiscard]] bool awaits(double until) const {
-    return next_time_ < options_.times.size() && options_.times[next_time_] < until;
-  }
+  [[nodiscard]] bool awaits(double until) const { return next_time_ < times_.size() && times_[next_time_] < until; }
 
   /// Whether something is asked for of the time until then, so that no sum may stand for it.
   [[nodiscard]] bool is_watched(double until) const { return until > options_.until || awaits(until); }
@@ -166,12 +171,19 @@ class SequenceLoop {
   }
 
   const SequenceOptions& options_;
+  const std::vector<double> times_;  ///< at which states are wanted
   std::optional<AnyGrowth> growth_;
-  std::size_t next_time_ = 0;    ///< of SequenceOptions::times
+  std::size_t next_time_ = 0;
   bool end_is_certain_ = false;  ///< although errors decide the order of the last impacts
   AnySequence result_;
 
  private:
+  /// Whether several corners arrive together at the end of a flight, as in the plane the vertices of a flat body do.
+  static bool is_tie(const auto& row) {
+    if constexpr (requires { row.corners; }) return row.corners.size() > row.held + 1;
+    return false;
+  }
+
   /// Called while the error is handled.
   void end_early(Outcome outcome, const std::exception& error) {
     if (result_.rows.empty()) throw;

@@ -2,10 +2,8 @@
 // What an impact sequence is asked for, and how it ends: the same in the plane and in space.
 #pragma once
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
-#include <vector>
 
 #include "analytic/base/errors.hpp"
 
@@ -24,22 +22,16 @@ struct SequenceOptions {
   /// corners have stayed on the ground while the body turns, and ends where the body has to settle on one face and no
   /// impact can be predicted any more.
   bool until_rest = false;
-  /// With until_rest, in space: ends as soon as the face is known on which the body must come to rest (Sequence::rest).
+  /// With until_rest: ends as soon as the face is known on which the body must come to rest; in the plane, where the
+  /// rest itself is found at once, no sooner than that.
   bool until_face = false;
   /// No impact after this time since the first is followed [s].
   double until = std::numeric_limits<double>::infinity();
-  /// In space: ascending times since the first impact at which the state is wanted (Sequence::states), not before the
-  /// release or, without one, that impact [s].
-  std::vector<double> times{};
 
   /// @throws std::domain_error naming the field, its value and what is allowed.
   void validate() const {
     detail::require(impacts >= 1, "impacts", impacts, "at least 1");
     detail::require(!std::isnan(until), "until", until, "a number");
-    const bool is_ascending = std::is_sorted(times.begin(), times.end()) &&
-                              std::all_of(times.begin(), times.end(), [](double time) { return std::isfinite(time); });
-    detail::require(is_ascending, "number of times", static_cast<double>(times.size()),
-                    "of finite ones in ascending order");
     detail::require(digits >= 1 && digits <= 15, "digits", digits, "between 1 and 15");
   }
 };

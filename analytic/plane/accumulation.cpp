@@ -101,11 +101,10 @@ std::optional<Tail> bouncing_tail(const BodyMotion& motion, const ImpactLaw& law
   if (!slid) return {};
   return Tail{.end_time = motion.time() + left,
               .normal_impulse = normal,
-              .tangential_impulse = slid->impulse,
+              .tangential_impulse = {slid->impulse, 0},
               .vertices = last.vertices,
               .closed_form = true,
-              .after = {.tangential = slid->slip},
-              .after_error = {}};
+              .velocity_after = {slid->slip, 0, 0}};
 }
 
 std::optional<Tail> resting_tail(const BodyMotion& motion, const ImpactLaw& law, const BodyMotion::Strike& last) {
@@ -130,11 +129,10 @@ std::optional<Tail> resting_tail(const BodyMotion& motion, const ImpactLaw& law,
   const PlanarVelocity v = motion.velocity();
   return Tail{.end_time = motion.time(),
               .normal_impulse = -body.mass * v.normal,
-              .tangential_impulse = sticks ? -body.mass * v.tangential : 0,
+              .tangential_impulse = {sticks ? -body.mass * v.tangential : 0, 0},
               .vertices = departure.touching,
               .closed_form = true,
-              .after = {.tangential = sticks ? 0 : v.tangential},
-              .after_error = {}};
+              .velocity_after = {sticks ? 0 : v.tangential, 0, 0}};
 }
 
 bool may_accumulate(const ImpactLaw& law) { return law.restitution < 1 || law.has_cone(); }
@@ -193,12 +191,10 @@ std::optional<Tail> Accumulation::periodic(int period, const Tolerance& toleranc
               .end_time_error = time->error,
               .normal_impulse = impulse->value,
               .normal_impulse_error = impulse->error,
-              .tangential_impulse = ratio * impulse->value,
+              .tangential_impulse = {ratio * impulse->value, 0},
               .tangential_impulse_error = 2 * std::fabs(ratio - ratio_before) / (1 - shrinks) * impulse->value +
                                           std::fabs(ratio) * impulse->error,
-              .vertices = vertices(period),
-              .after = {},
-              .after_error = {}};
+              .vertices = vertices(period)};
 }
 
 /// The last impacts took next to no time, and those before them little more than they.
@@ -220,11 +216,9 @@ std::optional<Tail> Accumulation::vanishing(const Tolerance& tolerance) const {
               .end_time_error = 4 * time,
               .normal_impulse = impulse,
               .normal_impulse_error = 4 * impulse,
-              .tangential_impulse = ratio * impulse,
+              .tangential_impulse = {ratio * impulse, 0},
               .tangential_impulse_error = 4 * (1 + std::fabs(ratio)) * impulse,
-              .vertices = vertices(period),
-              .after = {},
-              .after_error = {}};
+              .vertices = vertices(period)};
 }
 
 std::optional<Tail> Accumulation::extrapolate(const Tolerance& tolerance) const {
@@ -239,28 +233,32 @@ std::optional<Tail> Accumulation::extrapolate(const Tolerance& tolerance) const 
 void end_state(const BodyMotion& motion, ImpactMode mode, Tail& tail) {
   const PlanarVelocity v = motion.velocity();
   const PlanarBody& body = motion.body();
-  const double normal = tail.normal_impulse, tangential = tail.tangential_impulse;
+  const double normal = tail.normal_impulse, tangential = tail.tangential_impulse.x();
   const double along = motion.local_departure().gravity_along;
-  tail.after = {.tangential = v.tangential + tangential / body.mass + along * tail.end_time};
-  tail.after_error = {.tangential = tail.tangential_impulse_error / body.mass + std::fabs(along) * tail.end_time_error};
+  PlanarVelocity after{.tangential = v.tangential + tangential / body.mass + along * tail.end_time};
+  PlanarVelocity error{.tangential =
+                           tail.tangential_impulse_error / body.mass + std::fabs(along) * tail.end_time_error};
   if (std::popcount(tail.vertices) != 1) {
-    if (mode == ImpactMode::stick || mode == ImpactMode::slip_stick) tail.after.tangential = 0;
+    if (mode == ImpactMode::stick || mode == ImpactMode::slip_stick) after.tangential = 0;
     const double share = std::fmin(tail.normal_impulse_error / normal, 1.0);  // of the motion that may be left
-    tail.after_error.normal = share * std::fabs(v.normal);
-    tail.after_error.angular = share * std::fabs(v.angular);
+    error.normal = share * std::fabs(v.normal);
+    error.angular = share * std::fabs(v.angular);
+    tail.set_after(after);
+    tail.set_errors(error);
     return;
   }
   const ContactPoint d = motion.contact_point(std::countr_zero(tail.vertices));
   const double inertia = body.mass * body.gyration_square;
   const double way =
       (std::fabs(v.angular) + (normal + std::fabs(tangential)) * body.reach() / inertia) * body.reach() * tail.end_time;
-  tail.after.angular = v.angular + (tangential * d.normal - normal * d.tangential) / inertia;
-  tail.after.normal = tail.after.angular * d.tangential;
-  tail.after_error.angular =
-      (tail.tangential_impulse_error * std::fabs(d.normal) + tail.normal_impulse_error * std::fabs(d.tangential) +
-       way * (normal + std::fabs(tangential))) /
-      inertia;
-  tail.after_error.normal = tail.after_error.angular * std::fabs(d.tangential) + way * std::fabs(tail.after.angular);
+  after.angular = v.angular + (tangential * d.normal - normal * d.tangential) / inertia;
+  after.normal = after.angular * d.tangential;
+  error.angular = (tail.tangential_impulse_error * std::fabs(d.normal) +
+                   tail.normal_impulse_error * std::fabs(d.tangential) + way * (normal + std::fabs(tangential))) /
+                  inertia;
+  error.normal = error.angular * std::fabs(d.tangential) + way * std::fabs(after.angular);
+  tail.set_after(after);
+  tail.set_errors(error);
 }
 
 bool keeps_its_mode(const BodyMotion& motion, const Tail& tail, ImpactMode mode) {
@@ -270,7 +268,8 @@ bool keeps_its_mode(const BodyMotion& motion, const Tail& tail, ImpactMode mode)
       contact_inertia(body.gyration_square, motion.contact_point(motion.local_departure().reference));
   const double turning = std::fabs(motion.velocity().angular);
   const double change =
-      (inertia.tangential * std::fabs(tail.tangential_impulse) + std::fabs(inertia.coupling) * tail.normal_impulse) /
+      (inertia.tangential * std::fabs(tail.tangential_impulse.x()) +
+       std::fabs(inertia.coupling) * tail.normal_impulse) /
           body.mass +
       (turning * turning * body.reach() + std::fabs(motion.local_departure().gravity_along)) * tail.end_time;
   return 2 * change < std::fabs(motion.slip());

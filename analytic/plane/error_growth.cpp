@@ -294,7 +294,7 @@ double ErrorGrowth::total_impulse() const {
 void ErrorGrowth::add_to(const BodyMotion& motion, Tail& tail) const {
   if (!predictable_) {
     tail.end_time_error = tail.normal_impulse_error = tail.tangential_impulse_error = unknown;
-    tail.after_error = {.normal = unknown, .tangential = unknown, .angular = unknown};
+    tail.set_errors({.normal = unknown, .tangential = unknown, .angular = unknown});
     return;
   }
   const Departure from = motion.local_departure();
@@ -307,13 +307,17 @@ void ErrorGrowth::add_to(const BodyMotion& motion, Tail& tail) const {
       (rebounds ? bound(at_normal, 2 * epsilon * size) : bound(moves.normal, 2 * epsilon * size)) / size;
   tail.end_time_error += bound(at_time, epsilon * motion.time()) + relative * (tail.end_time - motion.time());
   tail.normal_impulse_error += relative * tail.normal_impulse;
-  tail.tangential_impulse_error += relative * std::fabs(tail.tangential_impulse);
-  tail.after_error.tangential += bound(moves.tangential, 2 * epsilon * std::fabs(v.tangential)) +
-                                 relative * std::fabs(tail.after.tangential - v.tangential);
-  if (tail.after.angular == 0) return;
-  tail.after_error.normal += bound(moves.normal, 2 * epsilon * std::fabs(v.normal));
-  tail.after_error.angular +=
-      bound(at_turn, epsilon * std::fabs(v.angular)) + relative * std::fabs(tail.after.angular - v.angular);
+  tail.tangential_impulse_error += relative * std::fabs(tail.tangential_impulse.x());
+  PlanarVelocity error{.normal = tail.normal_velocity_error,
+                       .tangential = tail.tangential_velocity_error,
+                       .angular = tail.angular_velocity_error};
+  error.tangential += bound(moves.tangential, 2 * epsilon * std::fabs(v.tangential)) +
+                      relative * std::fabs(tail.velocity_after.x() - v.tangential);
+  if (const double turning = tail.angular_velocity_after.y(); turning != 0) {
+    error.normal += bound(moves.normal, 2 * epsilon * std::fabs(v.normal));
+    error.angular += bound(at_turn, epsilon * std::fabs(v.angular)) + relative * std::fabs(turning - v.angular);
+  }
+  tail.set_errors(error);
 }
 
 // Errors of an impact's numbers, and what the impact adds to them (error_growth.hpp).
@@ -388,6 +392,7 @@ void ErrorGrowth::fill(const BodyMotion& motion, const StruckState& struck, cons
   e.inclination = bound(at_angle, epsilon * std::fabs(row.inclination));
   e.approach_speed = bound(at_normal, epsilon * std::fabs(u));
   e.tangential_impulse = bound(d.tangential, of_impulse * tangential_size(struck, impact));
+  e.impulse = std::hypot(e.normal_impulse, e.tangential_impulse);
   if (impact.normal_impulse > 0) {
     e.restitution = bound(restitution, 4 * epsilon);
     e.impulse_ratio = bound(ratio, 2 * of_impulse * std::fabs(impact.impulse_ratio()));
@@ -453,10 +458,11 @@ void ErrorGrowth::fill_after(const BodyMotion& motion, const StruckState& struck
   const PlanarVelocity& after = row.impact.after;
   const MotionGradients moves(struck.body, struck.place, after, motion.local_departure().gravity);
   RowErrors& e = row.error;
-  e.after = {.normal = bound(moves.normal, 2 * epsilon * (std::fabs(row.before.normal) + std::fabs(after.normal))),
-             .tangential = bound(moves.tangential,
-                                 2 * epsilon * (std::fabs(row.before.tangential) + std::fabs(after.tangential))),
-             .angular = bound(at_turn, epsilon * std::fabs(after.angular))};
+  e.normal_velocity_after = bound(moves.normal, 2 * epsilon * (std::fabs(row.before.normal) + std::fabs(after.normal)));
+  e.tangential_velocity_after =
+      bound(moves.tangential, 2 * epsilon * (std::fabs(row.before.tangential) + std::fabs(after.tangential)));
+  e.velocity_after = std::hypot(e.normal_velocity_after, e.tangential_velocity_after);
+  e.angular_velocity_after = bound(at_turn, epsilon * std::fabs(after.angular));
   e.energy_after = bound(moves.energy, 2 * epsilon * (std::fabs(row.energy_before) + std::fabs(row.energy_after)));
   if (motion.local_departure().gravity_along == 0) return;
   // The way along the slope is no number of the state: what the energy is known to, impacts alone change.

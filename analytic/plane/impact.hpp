@@ -15,9 +15,15 @@
 
 namespace clatter::analytic {
 
+/// Comes first in a struct whose members are to be given by name: {0, 0, -1} is then none.
+struct ByName {
+  explicit ByName() = default;
+};
+
 /// Velocity of a planar body [m/s, rad/s]; angular > 0 turns z towards x (clockwise on the page), the
 /// sign of Eq. 8.
 struct PlanarVelocity {
+  [[no_unique_address]] ByName by_name{};
   double normal = 0;      ///< of the centre of mass, up
   double tangential = 0;  ///< of the centre of mass, to the right
   double angular = 0;     ///< Ω = ω_y

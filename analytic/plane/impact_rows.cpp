@@ -37,8 +37,9 @@ void apply(const Scales& scale, Impact& impact) {
 void apply(const Scales& scale, RowErrors& error) {
   scale(of::time, error.start);
   scale(of::speed, error.approach_speed);
-  scale(of::impulse, error.normal_impulse, error.tangential_impulse);
-  apply(scale, error.after);
+  scale(of::impulse, error.impulse, error.normal_impulse, error.tangential_impulse);
+  scale(of::speed, error.velocity_after, error.normal_velocity_after, error.tangential_velocity_after);
+  scale(of::rate, error.angular_velocity_after);
   scale(of::energy, error.energy_before, error.energy_after, error.energy_loss);
 }
 
@@ -59,8 +60,9 @@ void apply(const Scales& scale, Tail& tail) {
   scale(of::time, tail.end_time, tail.end_time_error);
   scale(of::impulse, tail.normal_impulse, tail.normal_impulse_error, tail.tangential_impulse,
         tail.tangential_impulse_error);
-  apply(scale, tail.after_error);
-  apply(scale, tail.after);
+  scale(of::speed, tail.velocity_after, tail.velocity_error, tail.normal_velocity_error,
+        tail.tangential_velocity_error);
+  scale(of::rate, tail.angular_velocity_after, tail.angular_velocity_error);
 }
 
 }  // namespace
@@ -104,6 +106,18 @@ void Units::to_si(Sequence& sequence) const {
   if (sequence.tail) apply(scales_, *sequence.tail);
 }
 
+void Tail::set_after(const PlanarVelocity& after) {
+  velocity_after = {after.tangential, 0, after.normal};
+  angular_velocity_after = {0, after.angular, 0};
+}
+
+void Tail::set_errors(const PlanarVelocity& error) {
+  normal_velocity_error = error.normal;
+  tangential_velocity_error = error.tangential;
+  velocity_error = std::hypot(error.normal, error.tangential);
+  angular_velocity_error = error.angular;
+}
+
 void Drop::validate() const {
   law.validate();
   require(law.ratio_direction == Eigen::Vector2d::UnitX(), "impulse ratio's direction along x", law.ratio_direction.x(),
@@ -131,6 +145,11 @@ void Drop::validate() const {
     require(std::isfinite(vertex.x) && std::isfinite(vertex.z), "vertex", std::isfinite(vertex.x) ? vertex.z : vertex.x,
             "finite");
   }
+  if (release_height) {
+    require(std::isfinite(*release_height) && *release_height > touch_height(body, inclination), "release height",
+            *release_height, "finite and above that at which the body touches");
+    require(gravity_along == 0, "gravity along the ground", gravity_along, "0 with a release height");
+  }
   // k² of lengths beyond 1e±150 m overflows or loses its digits.
   require(std::isnormal(body.gyration_square) && body.gyration_square > 0, "gyration radius squared",
           body.gyration_square, "a positive double that is not subnormal");
@@ -139,8 +158,16 @@ void Drop::validate() const {
 using detail::epsilon;
 using detail::infinite;
 
-Drop after_free_fall(const Drop& release, double height) {
+double touch_height(const PlanarBody& body, const Angle& inclination) {
+  double lowest = infinite;
+  for (int i = 0; i < body.vertex_count; ++i)
+    lowest = std::fmin(lowest, body.contact_point(i, inclination.sine, inclination.cosine).normal);
+  return -lowest;
+}
+
+Drop after_free_fall(const Drop& release) {
   release.validate();
+  const double height = release.release_height.value();
   const PlanarVelocity& v = release.velocity;
   const double sense = v.angular < 0 ? -1 : 1;
   std::array<VertexHeight, max_vertices> heights;
@@ -155,7 +182,6 @@ Drop after_free_fall(const Drop& release, double height) {
                   .rate = std::fabs(v.angular),
                   .versine = -d.normal,
                   .sine = sense * d.tangential};
-    if (!(heights[k].height > 0)) throw std::domain_error("a vertex of the released body is not above the ground");
     const FirstRoot root = first_root(heights[k], touch.time.value_or(detail::never));
     if (root.time && (!touch.time || *root.time < *touch.time)) first = i, touch = root;
   }
@@ -173,6 +199,7 @@ Drop after_free_fall(const Drop& release, double height) {
     if (i != first && other.velocity < 0 && !(other.height > 2 * error_of(other))) late = infinite;
   }
   Drop drop = release;
+  drop.release_height.reset();
   if (v.angular != 0)
     drop.inclination = Angle::from_radians(std::remainder(release.inclination.radians - v.angular * t, 2 * pi));
   drop.velocity.normal -= release.gravity * t;

@@ -27,9 +27,12 @@ struct RowErrors {
   double inclination = detail::infinite, contact_angle = detail::infinite;  ///< [rad]
   double approach_speed = detail::infinite;                                 ///< [m/s]
   double restitution = detail::infinite;
-  double normal_impulse = detail::infinite, tangential_impulse = detail::infinite;  ///< [N·s]
+  double impulse = detail::infinite;  ///< on the length of the error; then of the components [N·s]
+  double normal_impulse = detail::infinite, tangential_impulse = detail::infinite;
   double impulse_ratio = detail::infinite;
-  PlanarVelocity after{.normal = detail::infinite, .tangential = detail::infinite, .angular = detail::infinite};
+  double velocity_after = detail::infinite;  ///< likewise [m/s]
+  double normal_velocity_after = detail::infinite, tangential_velocity_after = detail::infinite;
+  double angular_velocity_after = detail::infinite;  ///< [rad/s]
   double energy_before = detail::infinite, energy_after = detail::infinite, energy_loss = detail::infinite;  ///< [J]
 };
 
@@ -42,15 +45,19 @@ struct FreeFall {
   double normal_error = 0;       ///< of V_n [m/s]
 };
 
-/// The body as it touches the ground for the first time.
+/// The body as it touches the ground for the first time.  With a release height, the body as it is let go to fly
+/// freely, turning, until then.
 struct Drop {
   PlanarBody body;
   Angle inclination;         ///< in [−180°, 180°]; from 0° to 90° end a is low
   PlanarVelocity velocity;   ///< of the centre of mass, before the first impact
   double gravity = 0;        ///< towards the ground, >= 0 [m/s²]
   double gravity_along = 0;  ///< along x, where the ground slopes [m/s²]
+  /// Height of the centre of mass above the ground, which is level then [m]; for a fall of h until the lowest point
+  /// touches h + touch_height(body, inclination).
+  std::optional<double> release_height{};
   ImpactLaw law;
-  std::optional<FreeFall> fall{};  ///< that has ended in this touch
+  std::optional<FreeFall> fall{};  ///< that has ended in this touch: after_free_fall()
 
   /// @throws std::domain_error naming the field, its value and what is allowed.
   void validate() const;
@@ -95,12 +102,19 @@ struct Tail {
   double end_time_error = 0;  ///< [s]
   double normal_impulse = 0;  ///< sum over the remaining impacts [N·s]
   double normal_impulse_error = 0;
-  double tangential_impulse = 0;  ///< likewise
-  double tangential_impulse_error = 0;
+  Eigen::Vector2d tangential_impulse = Eigen::Vector2d::Zero();  ///< likewise, world frame as in space
+  double tangential_impulse_error = 0;                           ///< of vectors: bounds on the length of the error
   VertexSet vertices = 0;
   bool closed_form = false;
-  PlanarVelocity after;  ///< at the end
-  PlanarVelocity after_error;
+  Eigen::Vector3d velocity_after = Eigen::Vector3d::Zero();  ///< of the centre of mass at the end [m/s]
+  double velocity_error = 0, normal_velocity_error = 0, tangential_velocity_error = 0;
+  Eigen::Vector3d angular_velocity_after = Eigen::Vector3d::Zero();  ///< [rad/s]
+  double angular_velocity_error = 0;
+
+  /// Velocity at the end.
+  void set_after(const PlanarVelocity& after);
+  /// Bounds on the errors of its components.
+  void set_errors(const PlanarVelocity& error);
 };
 
 /// A body that slides along the ground after its last impact.
@@ -123,6 +137,8 @@ struct Sequence {
   double total_normal_impulse = 0;  ///< rows and tail [N·s]
   /// Bound on its error; infinite without SequenceOptions::amplification or if a row cannot be predicted [N·s].
   double total_normal_impulse_error = 0;
+  double first_flight = 0;        ///< time from the release to the first impact [s]
+  double first_flight_error = 0;  ///< bound on its error [s]
   /// Whether the outcome is certain, and not only that of one of the sequences that the errors leave open.
   bool end_predictable = false;
   int root_evaluations = 0;
@@ -143,14 +159,14 @@ class Units {
   detail::Scales scales_;
 };
 
-// A body in the plane that is let go above the ground and flies freely, turning, to its first touch.
+/// Height of the centre of mass above the lowest vertex [m].
+[[nodiscard]] double touch_height(const PlanarBody& body, const Angle& inclination);
 
 /// The drop as it touches for the first time: inclination α₀ − Ω t, V_n − g t, with the first root of the vertices'
 /// heights and the errors that rounding of the numbers given leaves in it.
-/// @param release  attitude, velocity and gravity as it is let go, on level ground
-/// @param height  of the centre of mass then [m]
+/// @param release  with a release height
 /// @throws std::domain_error if a vertex is not above the ground then, or none ever reaches it; NumericalError as
 ///         first_root()
-[[nodiscard]] Drop after_free_fall(const Drop& release, double height);
+[[nodiscard]] Drop after_free_fall(const Drop& release);
 
 }  // namespace clatter::analytic

@@ -168,13 +168,15 @@ class Run : public SequenceLoop<Sequence, ErrorGrowth> {
   }
 
   void finish(Tail tail) {
-    const bool slides_on = slides(tail.after, tail.after_error.tangential);
+    const PlanarVelocity after{.normal = tail.velocity_after.z(),
+                               .tangential = tail.velocity_after.x(),
+                               .angular = tail.angular_velocity_after.y()};
+    const bool slides_on = slides(after, tail.tangential_velocity_error);
     if (growth_) growth_->add_to(motion_, tail);
-    const bool tips = tips_over(tail.vertices, tail.after);
-    if (slides_on && tail.after.angular == 0 && !tips)
-      note_slide(tail.end_time,
-                 std::fabs(tail.after.tangential) > tail.after_error.tangential ? tail.after.tangential : 0);
-    end_in(tail, tail.after.angular != 0 || tips, slides_on, tips ? over_the_edge : stays(tail.vertices));
+    const bool tips = tips_over(tail.vertices, after);
+    if (slides_on && after.angular == 0 && !tips)
+      note_slide(tail.end_time, std::fabs(after.tangential) > tail.tangential_velocity_error ? after.tangential : 0);
+    end_in(tail, after.angular != 0 || tips, slides_on, tips ? over_the_edge : stays(tail.vertices));
   }
 
   /// Whether the body moves along the ground at the end, as far as an extrapolation can tell, or begins to.
@@ -243,9 +245,10 @@ void require_representable(const Sequence& sequence) {
   }
 }
 
-Sequence run_sequence(const Drop& drop, const SequenceOptions& options, bool sums_only) {
-  drop.validate();
+Sequence run_sequence(const Drop& given, const SequenceOptions& options, bool sums_only) {
+  given.validate();
   options.validate();
+  const Drop drop = given.release_height ? after_free_fall(given) : given;
   const Units units(drop);
   const Drop internal = units.to_internal(drop);
   require_representable(drop, internal);
@@ -253,6 +256,7 @@ Sequence run_sequence(const Drop& drop, const SequenceOptions& options, bool sum
   Run run(internal, own, sums_only);
   Sequence sequence = run.run();
   units.to_si(sequence);
+  if (drop.fall) sequence.first_flight = drop.fall->time, sequence.first_flight_error = drop.fall->time_error;
   require_representable(sequence);
   const Unphysical& found = run.unphysical();
   std::string warning = law_warning(drop.law.friction, found, units.energy(found.created));

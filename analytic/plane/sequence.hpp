@@ -20,7 +20,7 @@ namespace clatter::analytic {
 ///         parameters are out of range; OutsideModelError if the first impact jams; NumericalError if gravity,
 ///         tangential velocity or spin in units of the body's length and downward speed, or results in SI units, are
 ///         beyond the doubles, or the first impact cannot be computed.
-[[nodiscard]] Sequence impact_sequence(const Drop& drop, const SequenceOptions& options);
+[[nodiscard]] Sequence impact_sequence(const Drop& drop, const SequenceOptions& options = {});
 
 /// impact_sequence() without what no sum over the rows needs: their amplification and all errors
 /// but `predictable`, `relative` and those of start, contact angle, normal impulse and energy loss.

@@ -23,7 +23,7 @@ HEAD = '''# SPDX-License-Identifier: GPL-3.0-or-later
 from collections.abc import Iterable, Mapping
 from typing import Any, Literal, overload
 
-from clatter.arguments import (Axis, Model, Over, Part, Parts, Path, Probes, Progress, Scene, Scenes, ShockRows, Swept,
+from clatter.arguments import (Axis, MapQuantity, Model, Over, Part, Parts, Path, Probes, Progress, Scene, Scenes, ShockRows, Swept,
                                SweepRows)
 from clatter.arrays import Array
 from clatter.findings import (Explanation, Gradient, Measured, Plan, Problem, Ranking, Rows, Scored, Summary, Table,
@@ -46,19 +46,24 @@ NOTHING = "None"  # of samples none of which has a value
 
 
 def declaration(name: str, function: Any) -> str:
-    """The function with its own parameters as they are written, and the keys; of a sweep one with and one without summary."""
+    """The function with its own parameters as they are written, and the keys; of a sweep one with and one without summary, of a
+    map one with samples, whose quantity is NAME=CLASS, and one without."""
     own = inspect.signature(inspect.unwrap(function))
     changes = own.parameters.get("changes")
     swept = changes is not None and changes.annotation == "SweptKey"
 
-    def declared(is_summary: bool | None, returned: str) -> str:
+    def declared(is_other: bool | None, returned: str) -> str:
         parameters = []
         for one in inspect.signature(function).parameters.values():
             known = own.parameters.get(one.name)
             annotation = known.annotation if known else "Swept | None" if swept else f"{KEYS[one.name].type_name()} | None"
             default = "" if one.default is one.empty else f" = {one.default!r}"
-            if one.name == "summary" and is_summary is not None:
-                annotation, default = f"Literal[{is_summary}]", "" if is_summary else default
+            if one.name == "summary" and is_other is not None:
+                annotation, default = f"Literal[{is_other}]", "" if is_other else default
+            if one.name == "samples" and is_other is not None:
+                annotation, default = ("int", "") if is_other else ("None", default)
+            if one.name == "quantity" and is_other is False:
+                annotation = "MapQuantity"
             if one.kind is one.KEYWORD_ONLY and "*" not in parameters:
                 parameters.append("*")
             parameters.append(f"{one.name}: {annotation}{default}")
@@ -66,6 +71,8 @@ def declaration(name: str, function: Any) -> str:
             f"def {name}() -> {returned}: ...\n"
     if "summary" in own.parameters:
         return f"@overload\n{declared(False, 'Rows')}@overload\n{declared(True, 'Summary')}"
+    if "quantity" in own.parameters:
+        return "".join(f"@overload\n{declared(is_other, own.return_annotation)}" for is_other in (False, True))
     return declared(None, own.return_annotation)
 
 

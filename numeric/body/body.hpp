@@ -40,7 +40,9 @@ class Body {
   /// The facets as they are with coplanar neighbours merged: the body's shape, however its faces are meshed.
   [[nodiscard]] const Facets& outline() const { return outline_of_.empty() ? facets_ : outline_; }
   /// The outline's vertex of a vertex of the facets; −1 within a face or a straight edge.
-  [[nodiscard]] int outline_vertex(int vertex) const { return outline_of_.empty() ? vertex : outline_of_[vertex]; }
+  [[nodiscard]] int outline_vertex(int vertex) const {
+    return outline_of_.empty() ? vertex : outline_of_[static_cast<std::size_t>(vertex)];
+  }
   /// Largest distance of a vertex from the centre of mass, of a smooth shape SmoothShape::reach [m].
   [[nodiscard]] double radius() const { return radius_; }
   /// Half the extent along the body's x axis [m].

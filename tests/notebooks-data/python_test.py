@@ -11,6 +11,7 @@ import subprocess
 import sys
 import tempfile
 import tomllib
+import typing
 import unittest
 import warnings
 from concurrent.futures import ThreadPoolExecutor
@@ -414,7 +415,8 @@ worst: clatter.Record = clatter.report("phone-damped")[0]
 peaks: float | None = clatter.report(["phone-damped", "phone-corner"], floor=("concrete", "wood"), floor_restitution=[0.3, 0.5]).answer.peak_g
 notes: list[str] = clatter.report("phone-damped", part={"camera": (500, 300)}).answer.notes
 losses: clatter.Record | None = run.energy_losses
-clatter.map(over={"angle": (1, 60), "restitution": "0.1:1:log"})
+clatter.map(over={"angle": (1, 60), "restitution": "0.1:1:log"}, quantity="ratio")
+clatter.map(over={"angle": (1, 60), "restitution": (0.1, 1)}, quantity="hardest=1", samples=9)
 figure = clatter.figure(7, gravity_numbers=1)
 rows: clatter.Rows = clatter.sweep("phone-damped", probe={"camera": (0, 0, 0)}, part="100")
 counts: dict[str, dict[str, int]] = clatter.sweep("rod-10", angle=[1, 2], summary=True).texts
@@ -423,7 +425,8 @@ counts: dict[str, dict[str, int]] = clatter.sweep("rod-10", angle=[1, 2], summar
                  "run.accuracy.achieve", 'clatter.sequence(angle="x")', 'clatter.plan("rod-10").choice.modle', "run.at(1)[0:1] + 1",
                  'clatter.simulate("phone-damped").outcme', 'clatter.report("rod-10").answr', 'clatter.report("rod-10").answer.peakg',
                  'clatter.shock("rod-10", model="discret")', 'clatter.shock("rod-10", rows="spectra")', 'clatter.sweep("rod-10", rows="impacts")',
-                 'clatter.shock("rod-10", axis="w")', 'clatter.shock("rod-10", until=1)', 'clatter.report("rod-10", rate=1)']
+                 'clatter.shock("rod-10", axis="w")', 'clatter.shock("rod-10", until=1)', 'clatter.report("rod-10", rate=1)',
+                 'clatter.map(over={"angle": (1, 60), "restitution": (0.1, 1)}, quantity="impulse")']
         with tempfile.TemporaryDirectory() as folder:
             path = Path(folder, "call.py")
             path.write_text(right + "\n".join(wrong), encoding="utf-8")
@@ -432,6 +435,22 @@ counts: dict[str, dict[str, int]] = clatter.sweep("rod-10", angle=[1, 2], summar
         lines = {int(number) for number in re.findall(r"call.py:(\d+): error", done.stdout)}
         first = right.count("\n") + 1
         self.assertEqual(lines, set(range(first, first + len(wrong))), done.stdout + done.stderr)
+
+    def test_quantities_of_maps_are_the_programs(self):
+        with self.assertRaisesRegex(clatter.BadInput, f"must be one of {', '.join(typing.get_args(clatter.arguments.MapQuantity))};"):
+            clatter.map(over={"angle": (1, 60), "restitution": (0.1, 1)}, quantity="lost")
+
+    def test_what_another_model_has_is_said_to_be_there(self):
+        row = clatter.sequence(angle=10)[1]
+        with self.assertRaisesRegex(AttributeError, "no 'indentation' in an impact of the discrete model; those of simulate"):
+            row.indentation
+        with self.assertRaisesRegex(KeyError, "no 'work_friction' .*simulate"):
+            row["work_friction"]
+        with self.assertRaisesRegex(AttributeError, "no 'corners' .*bodies in space"):
+            row.corners
+        other = clatter.simulate("phone-damped", impacts=1)[0]
+        self.assertTrue(all(name in other for name in clatter.Impact._simulated))
+        self.assertTrue(all(name in clatter.sequence("phone-corner")[0] for name in clatter.Impact._in_space))
 
     def test_fields_are_what_their_stub_says(self):
         """Of all cases: the stub is made from a few results."""

@@ -107,7 +107,8 @@ std::vector<Drop> shrunk(Drop drop, const ImpactRow& row, double time) {
 
 /// The same along each of the body's axes.
 std::vector<space::Drop> shrunk(const space::Drop& drop, const space::ImpactRow& row, double time) {
-  const double depth = row.approach_speed * time / (2 * std::numbers::pi);  // of the pressure centre, in the mean
+  const double depth =
+      row.impact.approach_speed * time / (2 * std::numbers::pi);  // of the pressure centre, in the mean
   std::vector<space::Drop> all(3, drop);
   for (int axis = 0; axis < 3; ++axis) {
     const double reach = std::fabs(row.corners.front().place[axis]);
@@ -321,8 +322,8 @@ FaceTipping face_tipping(const space::Drop& drop, const space::ImpactRow& row) {
   const Vector3 moment = Vector3(0, 0, -depth).cross(group.impulse) + group.moment.z() * Vector3::UnitZ();
   const Vector3 turn = axes * here.body.inertia.inverse() * (axes.transpose() * moment);
   const double tipped = turn.head<2>().norm(), reach = here.body.reach();
-  FaceTipping tipping{.lean = tipped * reach / row.approach_speed, .size = {}};
-  const double speed = depth * tipped + tipping.lean * tipping.lean * row.approach_speed;
+  FaceTipping tipping{.lean = tipped * reach / row.impact.approach_speed, .size = {}};
+  const double speed = depth * tipped + tipping.lean * tipping.lean * row.impact.approach_speed;
   const MotionNumbers by_rule = motion_numbers(impact_of(row).value),
                       evenly = motion_numbers(impact_of(even.rows[0]).value);
   MotionNumbers& size = tipping.size;

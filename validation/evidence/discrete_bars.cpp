@@ -138,9 +138,9 @@ void judge_row(const ImpactRow& row, const oracle::EventImpact<Real>& truth, Row
   judge("restitution", i.restitution(), e.restitution, truth.separation / truth.approach);
   judge("Pn", i.normal_impulse, e.normal_impulse, truth.normal_impulse);
   judge("Pt", i.tangential_impulse, e.tangential_impulse, truth.tangential_impulse);
-  judge("Vn", i.after.normal, e.after.normal, truth.after.normal);
-  judge("Vt", i.after.tangential, e.after.tangential, truth.after.tangential);
-  judge("Omega", i.after.angular, e.after.angular, truth.after.angular);
+  judge("Vn", i.after.normal, e.normal_velocity_after, truth.after.normal);
+  judge("Vt", i.after.tangential, e.tangential_velocity_after, truth.after.tangential);
+  judge("Omega", i.after.angular, e.angular_velocity_after, truth.after.angular);
   judge("E", row.energy_before, e.energy_before, truth.energy_before);
   judge("E'", row.energy_after, e.energy_after, truth.energy_after);
   judge("loss", i.energy_loss, e.energy_loss, truth.energy_before - truth.energy_after);
@@ -173,10 +173,11 @@ void judge_tail(const Sequence& sequence, const oracle::EventSequence<Real>& tru
   }
   judge("tail end", tail.end_time, tail.end_time_error + time_left, truth.impacts.back().time);
   judge("tail Pn", tail.normal_impulse, tail.normal_impulse_error + impulse_left, normal);
-  judge("tail Pt", tail.tangential_impulse, tail.tangential_impulse_error + impulse_left, tangential);
+  judge("tail Pt", tail.tangential_impulse.x(), tail.tangential_impulse_error + impulse_left, tangential);
   const double speed_left = impulse_left / scene.mass, reach = scene.length;
-  judge("tail Vt", tail.after.tangential, tail.after_error.tangential + speed_left, last.after.tangential);
-  judge("tail Omega", tail.after.angular, tail.after_error.angular + 20 * speed_left / reach, last.after.angular);
+  judge("tail Vt", tail.velocity_after.x(), tail.tangential_velocity_error + speed_left, last.after.tangential);
+  judge("tail Omega", tail.angular_velocity_after.y(), tail.angular_velocity_error + 20 * speed_left / reach,
+        last.after.angular);
 }
 
 void judge_end(const Sequence& sequence, const oracle::EventSequence<Real>& truth, const BarScene& scene,

@@ -264,7 +264,7 @@ Measured hardest_blow_of_the_phone(CaseRuns&) {
   drop.attitude = Eigen::AngleAxisd(tilt, Eigen::Vector3d(std::sin(direction), -std::cos(direction), 0));
   drop.velocity = {0, 0, -1};
   const auto full = impact_sequence(drop, {.impacts = static_cast<int>(at) + 1, .amplification = false});
-  const double speed = full.rows.size() > at ? full.rows[at].approach_speed : NAN;
+  const double speed = full.rows.size() > at ? full.rows[at].impact.approach_speed : NAN;
   return {speed, std::fabs(speed - hardest->strikes[at].approach), Finding::holds,
           fmt::format("impact {} of an elastic phone tilted by {} rad", at + 1, tilt)};
 }

@@ -81,18 +81,20 @@ class PlanarImpact {
 
   void flight() {
     const analytic::Departure& d = row_.departure;
-    const analytic::PlanarVelocity& e = last_->error.after;
+    const analytic::RowErrors& e = last_->error;
     writer_.open(fmt::format("The flight to impact {}", n_),
                  {fmt::format("After impact {} the body flies freely: its centre of mass on a parabola, turning at a "
                               "constant rate. The earliest to arrive is {}.",
                               n_ - 1, ends(row_.flight.arrival.vertices))});
-    alpha0_ = writer_.found(number(after_last("α"), d.inclination * degrees, "°", last_->error.inclination * degrees),
+    alpha0_ = writer_.found(number(after_last("α"), d.inclination * degrees, "°", e.inclination * degrees),
                             {"inclination at departure, positive with end a low"});
-    vn0_ = writer_.found(number(after_last("V_n"), d.normal, "m/s", e.normal, speed_),
+    vn0_ = writer_.found(number(after_last("V_n"), d.normal, "m/s", e.normal_velocity_after, speed_),
                          {"velocity of the centre of mass along the normal, after that impact"});
-    vt0_ = writer_.found(number(after_last("V_t"), last_->impact.after.tangential, "m/s", e.tangential, speed_),
-                         {"along the ground"});
-    w0_ = writer_.found(number(after_last("Ω"), d.angular, "rad/s", e.angular), {"angular velocity, clockwise"});
+    vt0_ = writer_.found(
+        number(after_last("V_t"), last_->impact.after.tangential, "m/s", e.tangential_velocity_after, speed_),
+        {"along the ground"});
+    w0_ = writer_.found(number(after_last("Ω"), d.angular, "rad/s", e.angular_velocity_after),
+                        {"angular velocity, clockwise"});
     const bool levels = d.inclination * d.angular > 0 && std::fabs(d.inclination) <= std::numbers::pi / 2;
     if (drop_.body.uniform_thin_rod && levels && row_.flight.arrival.vertex != d.reference) rod_equation();
     else height_equation();
@@ -445,12 +447,13 @@ class PlanarImpact {
   };
   [[nodiscard]] Unknowns unknowns() const {
     const analytic::Impact& impact = row_.impact;
-    const analytic::PlanarVelocity &after = impact.after, &error = row_.error.after;
-    return {.p = number("P_n", impact.normal_impulse, "N·s", row_.error.normal_impulse),
-            .pt = number("P_t", impact.tangential_impulse, "N·s", row_.error.tangential_impulse),
-            .vn = number("V_n", after.normal, "m/s", error.normal, speed_),
-            .vt = number("V_t", after.tangential, "m/s", error.tangential, speed_),
-            .w = number("Ω", after.angular, "rad/s", error.angular)};
+    const analytic::PlanarVelocity& after = impact.after;
+    const analytic::RowErrors& error = row_.error;
+    return {.p = number("P_n", impact.normal_impulse, "N·s", error.normal_impulse),
+            .pt = number("P_t", impact.tangential_impulse, "N·s", error.tangential_impulse),
+            .vn = number("V_n", after.normal, "m/s", error.normal_velocity_after, speed_),
+            .vt = number("V_t", after.tangential, "m/s", error.tangential_velocity_after, speed_),
+            .w = number("Ω", after.angular, "rad/s", error.angular_velocity_after)};
   }
 
   /// The lines of Eq. 8 with what they ask for.

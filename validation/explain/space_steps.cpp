@@ -43,7 +43,7 @@ double relative_error(const ImpactRow& row, double reach) {
   const space::RowErrors& error = row.error;
   if (!error.predictable) return std::numeric_limits<double>::infinity();
   const space::Impact& struck = row.impact;
-  const double speed = std::max({row.before.velocity.norm(), struck.velocity_after.norm(), row.approach_speed});
+  const double speed = std::max({row.before.velocity.norm(), struck.velocity_after.norm(), struck.approach_speed});
   const double rate =
       std::max({row.before.angular_velocity.norm(), struck.angular_velocity_after.norm(), speed / reach});
   const double time = row.flight.time;
@@ -60,7 +60,7 @@ class SpatialImpact {
       : scene_(scene), drop_(drop), n_(n), row_(sequence.rows[static_cast<std::size_t>(n - 1)]),
         departure_(departure_of(drop, sequence, n)), struck_(row_.impact), reach_(drop.body.reach()),
         writer_(relative_error(row_, reach_)), given_(write_body(writer_, drop.body.mass, drop.gravity)),
-        speed_(std::max({row_.before.velocity.norm(), struck_.velocity_after.norm(), row_.approach_speed})) {}
+        speed_(std::max({row_.before.velocity.norm(), struck_.velocity_after.norm(), struck_.approach_speed})) {}
 
   std::vector<Step> steps() {
     inertia_b_ = writer_.given({"I_b", drop_.body.inertia, "kg·m²"}, {"inertia about the centre of mass, body axes"});
@@ -456,7 +456,7 @@ class SpatialImpact {
       const std::string index = std::to_string(++count);
       const auto [arm, velocity] =
           contact(corner, index, (is_rim ? "the centre of the rim of " : "") + names({corner.index}));
-      writer_.computed("u_" + index, "m/s", -up(velocity), {"its speed of approach"}, row_.approach_speed);
+      writer_.computed("u_" + index, "m/s", -up(velocity), {"its speed of approach"}, struck_.approach_speed);
       if (!first) first = arm;
     }
     heights(*first);

@@ -10,7 +10,6 @@
 
 #include "analytic/base/errors.hpp"
 #include "analytic/law/viscoelastic.hpp"
-#include "analytic/plane/body_motion.hpp"
 #include "analytic/plane/impact_rows.hpp"
 #include "analytic/space/flight/body.hpp"
 #include "validation/output/bad_input.hpp"
@@ -138,16 +137,18 @@ std::optional<analytic::PlanarBody> symmetric_outline(const numeric::Body& body)
 analytic::Drop planar_drop(const Scene& scene, const analytic::PlanarBody& body) {
   const analytic::Angle inclination = analytic::Angle::from_degrees(scene.angle_deg);
   const Vector3 velocity = scene.touch_velocity();
-  const auto touch = [&] { return analytic::BodyMotion(body, inclination, {}, 0).centre_height(); };
-  const double normal = scene.height ? -scene.fallen_speed(touch()) : velocity.z();
-  const analytic::Drop drop{
+  const double touch = touch_height(body, inclination);
+  const double normal = scene.height ? -scene.fallen_speed(touch) : velocity.z();
+  analytic::Drop drop{
       .body = body,
       .inclination = inclination,
       .velocity = {.normal = normal, .tangential = velocity.x(), .angular = scene.touch_angular_velocity().y()},
       .gravity = scene.world.pull().down,
       .gravity_along = scene.world.pull().along,
       .law = discrete_law(scene).law};
-  return scene.is_released() ? analytic::after_free_fall(drop, scene.release_height(touch())) : drop;
+  if (!scene.is_released()) return drop;
+  drop.release_height = scene.release_height(touch);
+  return analytic::after_free_fall(drop);
 }
 
 /// The same in space, where an impulse ratio acts along x.
@@ -386,7 +387,7 @@ double first_approach_speed(const DiscreteDrop& drop) {
   }
   const auto& in_space = std::get<space::Drop>(drop);
   if (in_space.release_height)
-    return impact_sequence(in_space, {.impacts = 1, .amplification = false}).rows.front().approach_speed;
+    return impact_sequence(in_space, {.impacts = 1, .amplification = false}).rows.front().impact.approach_speed;
   const auto at = [&, reach = in_space.body.reach()](const Vector3& arm) {
     take(arm.z(), -(in_space.velocity + in_space.angular_velocity.cross(arm)).z(), reach);
   };
@@ -603,8 +604,8 @@ void add_states(const PreparedScene& prepared, Run& run) {
   if (!scene.has_times()) return;
   const std::vector<double> times = state_times(scene, run);
   const analytic::SequenceOptions options{
-      .impacts = 1'000'000, .digits = scene.accuracy.digits, .until_rest = true, .until = times.back(), .times = times};
-  for (const space::StateAt& state : impact_sequence(in_space(prepared), options).states)
+      .impacts = 1'000'000, .digits = scene.accuracy.digits, .until_rest = true, .until = times.back()};
+  for (const space::StateAt& state : impact_sequence(in_space(prepared), options, times).states)
     run.states.push_back(motion_at(state));
 }
 

@@ -59,8 +59,8 @@ Numbers errors_of(const analytic::RowErrors& error) {
           .restitution = error.restitution,
           .impulse_ratio = error.impulse_ratio,
           .impulse = {error.tangential_impulse, 0, error.normal_impulse},
-          .velocity_after = velocity(error.after),
-          .angular_velocity_after = rotation(error.after),
+          .velocity_after = {error.tangential_velocity_after, 0, error.normal_velocity_after},
+          .angular_velocity_after = {0, error.angular_velocity_after, 0},
           .energy_before = error.energy_before,
           .energy_after = error.energy_after,
           .energy_loss = error.energy_loss};
@@ -72,7 +72,7 @@ Numbers values_of(const space::ImpactRow& row) {
   return {.start = row.start,
           .inclination_deg = inclination,
           .contact_angle_deg = std::fabs(inclination),
-          .approach_speed = row.approach_speed,
+          .approach_speed = impact.approach_speed,
           .restitution = impact.restitution(),
           .impulse_ratio = impact.impulse.x() / impact.impulse.z(),
           .impulse = entry(impact.impulse),
@@ -138,12 +138,12 @@ RunTail tail_of(const analytic::Tail& tail) {
   found.sum.end = analytic::PlanarBody::vertex_set_name(tail.vertices);
   value.start = tail.end_time;
   error.start = tail.end_time_error;
-  value.impulse = {tail.tangential_impulse, 0, tail.normal_impulse};
+  value.impulse = {tail.tangential_impulse.x(), 0, tail.normal_impulse};
   error.impulse = {tail.tangential_impulse_error, 0, tail.normal_impulse_error};
-  value.velocity_after = velocity(tail.after);
-  error.velocity_after = velocity(tail.after_error);
-  value.angular_velocity_after = rotation(tail.after);
-  error.angular_velocity_after = rotation(tail.after_error);
+  value.velocity_after = entry(tail.velocity_after);
+  error.velocity_after = {tail.tangential_velocity_error, 0, tail.normal_velocity_error};
+  value.angular_velocity_after = entry(tail.angular_velocity_after);
+  error.angular_velocity_after = {0, tail.angular_velocity_error, 0};
   return found;
 }
 
@@ -457,7 +457,7 @@ Run run_of(const space::Sequence& sequence) {
     run.impacts.push_back(impact_of(row, static_cast<int>(run.impacts.size()) + 1));
   if (!sequence.rows.empty() && sequence.rows.front().flight.time > 0) {
     const space::ImpactRow& first = sequence.rows.front();
-    run.first_touch = first_touch({first.flight.time, sequence.first_flight_error}, first.before);
+    run.first_touch = first_touch({sequence.first_flight, sequence.first_flight_error}, first.before);
   }
   return run;
 }

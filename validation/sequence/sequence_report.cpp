@@ -165,7 +165,7 @@ void add_group_notes(const DiscreteRun& found, const OutcomeSets& sets, std::vec
       return;
     }
     const space::ImpactRow& row = std::get<space::Sequence>(found.sequence).rows[i];
-    const double speed = std::max(row.before.velocity.norm(), row.approach_speed);
+    const double speed = std::max(row.before.velocity.norm(), row.impact.approach_speed);
     std::string words =
         fmt::format("impact {}: {}, {}", i + 1, landing_words(row.corners), convention_words(*row.group));
     if (set.velocity_spread > 1e-6 * speed || !set.is_complete()) words += ", by convention; " + tilt_words(set);

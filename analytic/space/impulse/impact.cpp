@@ -34,6 +34,7 @@ Impact strike(const Body& body, const State& before, const ContactVelocity& velo
   const Vector3& v = velocity.value;
   Impact impact;
   impact.contact_before = impact.contact_after = v;
+  impact.approach_speed = -v.z();
   impact.velocity_after = before.velocity;
   impact.angular_velocity_after = before.angular_velocity;
   impact.slip_stop_impulse = std::numeric_limits<double>::quiet_NaN();

@@ -17,6 +17,7 @@ struct Impact {
   Vector3 impulse = Vector3::Zero();         ///< P, world frame [N·s]
   Vector3 contact_before = Vector3::Zero();  ///< velocity of the corner before, world frame [m/s]
   Vector3 contact_after = Vector3::Zero();
+  double approach_speed = 0;                         ///< of the corner; largest of a group [m/s]
   Vector3 velocity_after = Vector3::Zero();          ///< of the centre of mass, world frame [m/s]
   Vector3 angular_velocity_after = Vector3::Zero();  ///< world frame [rad/s]
   double compression_impulse = 0;                    ///< p_c, P_n at the end of compression [N·s]

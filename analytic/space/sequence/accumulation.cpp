@@ -54,7 +54,7 @@ std::optional<Tail> bouncing_tail(const Drop& drop, const ImpactRow& last) {
   const Vector3 arm = is_ball ? Vector3(Vector3::Zero()) : last.before.attitude * last.corners.front().place;
   if (!last.group && (arm.head<2>() != Vector2::Zero() || impact.impulse.head<2>() != Vector2::Zero())) return {};
   if (!(impact.velocity_after.z() >= 0)) return {};
-  const double w = e * last.approach_speed, mass = drop.body.mass;  // to the last digits, however small e is
+  const double w = e * last.impact.approach_speed, mass = drop.body.mass;  // to the last digits, however small e is
   Tail tail;
   tail.end_time = last.start + 2 * w / (drop.gravity * (1 - e));
   tail.normal_impulse = mass * (1 + e) * w / (1 - e);
@@ -184,8 +184,11 @@ void Rattling::touch(int corner) {
 }
 
 void Rattling::add(const ImpactRow& row) {
-  Round round{
-      .arrived = {}, .touched = {}, .time = row.start, .approach_speed = row.approach_speed, .after = state_after(row)};
+  Round round{.arrived = {},
+              .touched = {},
+              .time = row.start,
+              .approach_speed = row.impact.approach_speed,
+              .after = state_after(row)};
   for (const Corner& corner : row.corners) touch(corner.index);
   for (std::size_t i = 0; i + row.held < row.corners.size(); ++i) round.arrived.push_back(row.corners[i].index);
   std::ranges::sort(round.arrived);
@@ -315,7 +318,7 @@ void add_errors(const Drop& drop, const ImpactRow& last, Tail& tail) {
   const double normal = tail.normal_impulse, left = tail.end_time - last.start;
   // A hop takes 2u/|h″|.
   const double bend = 4 * reach * turning * (e.angular_velocity_after + turning * e.attitude);
-  const double share = e.approach_speed / last.approach_speed +
+  const double share = e.approach_speed / last.impact.approach_speed +
                        (bend > 0 && !last.group ? bend / std::fabs(last.flight.acceleration) : 0);
   tail.end_time_error += e.start + share * left;
   tail.normal_impulse_error += share * normal;

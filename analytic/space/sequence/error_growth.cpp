@@ -273,7 +273,7 @@ void ErrorGrowth::strike(const Strike& strike, const StrikeDerivatives& closed, 
   if (row.group && !is_given && turns && row.held == 0) predictable_ = false;
   if (row.group && row.group->is_open) predictable_ = false;
   if (!predictable_) return;
-  if (!(row.approach_speed > 0) || row.impact.impulse.norm() == 0) return give_up();
+  if (!(row.impact.approach_speed > 0) || row.impact.impulse.norm() == 0) return give_up();
   append(is_hop(row)
              ? without_approach(
                    arriving, approach_gradient(row.before.attitude, row.corners.front(), row.before.angular_velocity),

@@ -36,7 +36,8 @@ void apply(const Scales& scale, State& state) {
 
 void apply(const Scales& scale, Impact& impact) {
   scale(of::impulse, impact.impulse, impact.compression_impulse, impact.slip_stop_impulse);
-  scale(of::speed, impact.contact_before, impact.contact_after, impact.velocity_after, impact.least_slip);
+  scale(of::speed, impact.contact_before, impact.contact_after, impact.velocity_after, impact.least_slip,
+        impact.approach_speed);
   scale(of::rate, impact.angular_velocity_after);
   scale(of::energy, impact.energy_loss);
 }
@@ -67,7 +68,7 @@ void apply(const Scales& scale, ImpactRow& row) {
   apply(scale, row.impact);
   if (row.group) apply(scale, *row.group);
   scale(of::time, row.start, row.error.start);
-  scale(of::speed, row.approach_speed, row.error.approach_speed, row.error.velocity_after);
+  scale(of::speed, row.error.approach_speed, row.error.velocity_after);
   scale(of::impulse, row.error.impulse);
   scale(of::rate, row.error.angular_velocity_after);
   scale(of::energy, row.energy_before, row.energy_after, row.error.energy_before, row.error.energy_after);
@@ -137,8 +138,12 @@ Drop SequenceUnits::to_internal(Drop drop) const {
 SequenceOptions SequenceUnits::to_internal(SequenceOptions options) const {
   const Scales scale = scales_.inverse();
   scale(of::time, options.until);
-  for (double& time : options.times) scale(of::time, time);
   return options;
+}
+
+double SequenceUnits::to_internal(double time) const {
+  scales_.inverse()(of::time, time);
+  return time;
 }
 
 double SequenceUnits::energy(double internal) const {
@@ -162,7 +167,7 @@ void SequenceUnits::to_si(Sequence& sequence) const {
   apply(scales_, sequence.near_miss);
   scales_(of::acceleration, sequence.end_acceleration);
   scales_(of::impulse, sequence.total_normal_impulse, sequence.total_normal_impulse_error);
-  scales_(of::time, sequence.first_flight_error);
+  scales_(of::time, sequence.first_flight, sequence.first_flight_error);
 }
 
 void Drop::validate() const {
@@ -235,6 +240,7 @@ Impact impact_of(const GroupImpact& group, const State& before, const Vector3& p
   return {.impulse = group.impulse,
           .contact_before = velocity_at(before, place),
           .contact_after = group.velocity_after + group.angular_velocity_after.cross(arm),
+          .approach_speed = group.approach_speed,
           .velocity_after = group.velocity_after,
           .angular_velocity_after = group.angular_velocity_after,
           .compression_impulse = missing,
@@ -264,7 +270,6 @@ void strike_row(const Body& body, const ImpactLaw& law, ImpactRow& row, StrikeDe
   if (row.corners.size() > 1 || corner.radius > 0) {
     row.group = group_impact(body, row.before, row, law);
     row.impact = impact_of(*row.group, row.before, corner.place);
-    row.approach_speed = row.group->approach_speed;
     if (derivatives != nullptr) derivatives->setConstant(missing);
     return;
   }
@@ -284,7 +289,6 @@ void strike_row(const Body& body, const ImpactLaw& law, ImpactRow& row, StrikeDe
   }
   row.impact = derivatives != nullptr ? strike(body, before, velocity, corner, law, *derivatives)
                                       : strike(body, before, velocity, corner.place, law);
-  row.approach_speed = -velocity.value.z();
 }
 
 Impact struck_again(const Body& body, const ImpactLaw& law, const ImpactRow& row, const State& before) {

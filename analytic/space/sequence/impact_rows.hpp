@@ -35,7 +35,9 @@ struct Drop {
 };
 
 /// A drop of the plane as one in space: the inclination α is a turn by −α about y, V_t, V_n and Ω are V_x, V_z and ω_y.
-/// @param body  in space, with the planar one as its outline in the plane y = 0: make_box() and make_rod() of one size
+/// @param body  in space, with the planar one as its outline in the plane y = 0: make_box() and make_rod() of one size.
+///   A box has two corners at each end that touch at once, and which of them leads is known to no digit: its bounds end
+///   there; those of outline(), which cannot leave the plane, do not.
 [[nodiscard]] inline Drop in_space(const analytic::Drop& drop, Body body) {
   const double half = drop.inclination.radians / 2;
   return {.body = std::move(body),
@@ -44,8 +46,10 @@ struct Drop {
           .angular_velocity = {0, drop.velocity.angular, 0},
           .gravity = drop.gravity,
           .gravity_along = drop.gravity_along,
+          .release_height = drop.release_height,
           .law = drop.law};
 }
+[[nodiscard]] inline Drop in_space(const analytic::Drop& drop) { return in_space(drop, outline(drop.body)); }
 
 /// Translational, rotational and potential energy, zero at the ground below the first touch's centre of mass [J].
 [[nodiscard]] double mechanical_energy(const Drop& drop, const State& state);
@@ -73,7 +77,6 @@ struct ImpactRow {
   Impact impact;
   std::optional<GroupImpact> group;  ///< if several corners arrived, or all of a rim that lies level
   std::size_t held = 0;              ///< how many of the corners, the last ones, were on the ground already
-  double approach_speed = 0;         ///< of the corner; largest of the group [m/s]
   double energy_before = 0;          ///< translational + rotational + potential (z = 0 at the ground) [J]
   double energy_after = 0;
   /// Relative change of this row's quantities (attitude in radians, time, impulse) per relative change of the drop's
@@ -213,7 +216,7 @@ struct Sequence {
   std::optional<Tail> tail;
   std::vector<SustainedContact> contacts;  ///< that the sequence went through, with SequenceOptions::until_rest
   std::optional<Standing> standing;        ///< if sustained_contact: on which corners
-  std::vector<StateAt> states;             ///< at SequenceOptions::times
+  std::vector<StateAt> states;             ///< at the times asked for
   std::optional<LastMotion> last_motion;   ///< where it is known what the body does after all that
   std::optional<Rest> rest;                ///< if what is left of the motion can end on one face only
   double energy_at_end =
@@ -225,8 +228,8 @@ struct Sequence {
   /// Bound on its error; infinite where errors are not followed, or a row cannot be predicted and the body does not
   /// come to rest for certain, which bounds it by m (g T + v) [N·s].
   double total_normal_impulse_error = detail::infinite;
-  /// Bound on the error of the time from the release to the first impact, which is rows.front().flight.time [s].
-  double first_flight_error = 0;
+  double first_flight = 0;        ///< time from the release to the first impact [s]
+  double first_flight_error = 0;  ///< bound on its error [s]
   /// Whether the outcome is certain, and not only that of one of the sequences that the errors leave open.
   bool end_predictable = false;
   int root_evaluations = 0;  ///< of the rotation, over all flights
@@ -238,6 +241,7 @@ class SequenceUnits {
   explicit SequenceUnits(const Drop& drop);
   [[nodiscard]] Drop to_internal(Drop drop) const;
   [[nodiscard]] SequenceOptions to_internal(SequenceOptions options) const;
+  [[nodiscard]] double to_internal(double time) const;
   void to_si(Sequence& sequence) const;
   [[nodiscard]] double energy(double internal) const;
 

@@ -58,8 +58,9 @@ constexpr double most_turn = 1e-5;
 /// The loop of impacts, in internal units.
 class Run : public SequenceLoop<Sequence, ErrorGrowth> {
  public:
-  Run(const Drop& drop, const SequenceOptions& options)
-      : SequenceLoop(options), drop_(drop), body_(drop_.body), principal_(body_.inertia), reach_(body_.reach()) {
+  Run(const Drop& drop, const SequenceOptions& options, std::vector<double> times)
+      : SequenceLoop(options, std::move(times)), drop_(drop), body_(drop_.body), principal_(body_.inertia),
+        reach_(body_.reach()) {
     state_ = given_state(drop_);
   }
 
@@ -107,7 +108,7 @@ class Run : public SequenceLoop<Sequence, ErrorGrowth> {
     flown = first_contact(body_, flight, {});
     result_.root_evaluations += flown.evaluations;
     if (flown.end != FlightEnd::contact) throw std::domain_error("the released body never reaches the ground");
-    time_ = -flown.time;
+    time_ = -(result_.first_flight = flown.time);
     way_error_ = epsilon * *drop_.release_height;
     while (awaits(time_)) note({}, false, {}, infinite);  // before the release
     note_flight(flight, Vector3::Zero(), 0);
@@ -365,7 +366,7 @@ class Run : public SequenceLoop<Sequence, ErrorGrowth> {
   void note(const std::optional<State>& state, bool touches, const StateErrors& error, double height,
             bool is_level = false) {
     StateAt at;
-    at.time = options_.times[next_time_++];
+    at.time = times_[next_time_++];
     at.rows = result_.rows.size();
     at.touches = touches;
     at.is_known = state.has_value();
@@ -389,7 +390,7 @@ class Run : public SequenceLoop<Sequence, ErrorGrowth> {
   /// Notes the states of the flight from time_ until `end`.
   void note_flight(const FreeFlight& flight, const Vector3& from, double end) {
     while (awaits(end)) {
-      const double after = std::fmax(options_.times[next_time_] - time_, 0.0);
+      const double after = std::fmax(times_[next_time_] - time_, 0.0);
       const auto errors = growth_ ? growth_->in_flight(flight, after, from) : ErrorGrowth::InFlight{};
       note(flight.at(after), false, errors.state, errors.height);
     }
@@ -398,7 +399,7 @@ class Run : public SequenceLoop<Sequence, ErrorGrowth> {
   void note_contact(const Standing& standing, const SustainedContact& contact) {
     const bool is_followed = growth_ && growth_->predictable();
     while (awaits(standing.time + contact.duration)) {
-      const double after = std::fmax(options_.times[next_time_] - standing.time, 0.0);
+      const double after = std::fmax(times_[next_time_] - standing.time, 0.0);
       const auto there =
           contact_at(drop_, standing.state, contact, after, is_followed ? standing.error : StateErrors{});
       note(there ? std::optional(there->state) : std::nullopt, true, there ? there->error : StateErrors{},
@@ -427,7 +428,7 @@ class Run : public SequenceLoop<Sequence, ErrorGrowth> {
     const StateErrors& error = end_errors_;
     while (awaits(infinite)) {
       // Before time_ a sum stands for hops that are rounding of the heights.
-      const double after = std::fmax(options_.times[next_time_] - time_, 0.0);
+      const double after = std::fmax(times_[next_time_] - time_, 0.0);
       const auto there = motion.summary() ? motion.at(after) : std::nullopt;
       StateErrors then = error;
       const double slowing = drop_.law.most_friction() * drop_.gravity + std::fabs(drop_.gravity_along);
@@ -529,7 +530,7 @@ class Run : public SequenceLoop<Sequence, ErrorGrowth> {
       growth_->strike([&](const State& before) { return struck_again(body_, drop_.law, row, before); }, derivatives,
                       row);
     }
-    if (!result_.rows.empty()) accumulation_.add(row, damping_loss(drop_.law, row.approach_speed));
+    if (!result_.rows.empty()) accumulation_.add(row, damping_loss(drop_.law, row.impact.approach_speed));
     if (row.held > 0) rattling_.add(row);
     else
       for (const Corner& corner : row.corners) rattling_.touch(corner.index);
@@ -852,9 +853,12 @@ class Run : public SequenceLoop<Sequence, ErrorGrowth> {
 
 }  // namespace
 
-Sequence impact_sequence(const Drop& drop, const SequenceOptions& options) {
+Sequence impact_sequence(const Drop& drop, const SequenceOptions& options, const std::vector<double>& times) {
   drop.validate();
   options.validate();
+  detail::require(
+      std::ranges::is_sorted(times) && std::ranges::all_of(times, [](double t) { return std::isfinite(t); }),
+      "number of times", static_cast<double>(times.size()), "of finite ones in ascending order");
   const SequenceUnits units(drop);
   const Drop internal = units.to_internal(drop);
   try {
@@ -863,7 +867,9 @@ Sequence impact_sequence(const Drop& drop, const SequenceOptions& options) {
     throw NumericalError("the ratio of the drop's speeds, lengths or gravity is beyond double precision");
   }
   const SequenceOptions own = units.to_internal(options);
-  Run run(internal, own);
+  std::vector<double> own_times;
+  for (const double time : times) own_times.push_back(units.to_internal(time));
+  Run run(internal, own, std::move(own_times));
   Sequence sequence = run.run();
   units.to_si(sequence);
   require_representable(sequence);

@@ -20,8 +20,11 @@ namespace clatter::analytic::space {
 /// number that cannot be had after the first impact ends the sequence as not_computed, an impact after the first that
 /// jams as outside_model; so do more than a million evaluations of the rotation. Results scale exactly with powers of
 /// two of every unit.
+/// @param times  ascending, since the first impact, at which the state is wanted (Sequence::states): not before the
+///   release or, without one, that impact [s]
 /// @throws std::domain_error for a drop whose first contact does not approach the ground, or whose parameters are out
 ///         of range; OutsideModelError if the first impact jams; NumericalError if the first impact cannot be computed.
-[[nodiscard]] Sequence impact_sequence(const Drop& drop, const SequenceOptions& options);
+[[nodiscard]] Sequence impact_sequence(const Drop& drop, const SequenceOptions& options = {},
+                                       const std::vector<double>& times = {});
 
 }  // namespace clatter::analytic::space

@@ -31,6 +31,7 @@ Model = Literal["discrete", "continuous"]
 Axis = Literal["x", "y", "z"]
 ShockRows = Literal["impact", "spectrum", "pulse"]
 SweepRows = Literal["scene", "impact"]
+MapQuantity = Literal["impacts", "last_end", "hardest", "outcome", "rest_face", "ratio", "largest", "total", "loss", "last_start"]
 Over = Mapping[str, str | Iterable[float]]  # ranges of two keys
 Progress = Callable[[int, int], object]  # called with (done, of) a few times a second; what it raises ends the work
 

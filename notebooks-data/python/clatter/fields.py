@@ -25,6 +25,17 @@ class Impact(Values):
     """
 
     __slots__ = ()
+    _simulated = frozenset({"indentation", "work_damping", "work_friction", "work_released", "submerged", "local_slip", "energy_stored",
+                            "ledger_gap"})
+    _in_space = frozenset({"touches", "corners", "place", "attitude"})
+
+    def _absent(self, name: str) -> str:
+        whole = name.removesuffix("_error")
+        if whole in self._simulated:
+            return f"no '{name}' in an impact of the discrete model; those of simulate() have it"
+        if whole in self._in_space:
+            return f"no '{name}' in an impact of a body that keeps to its plane; those of bodies in space have it"
+        return super()._absent(name)
 
     @classmethod
     def _converted(cls, name: str, value: Any) -> Any:

@@ -105,7 +105,10 @@ class Values(dict[str, Any]):
     def __missing__(self, name: str) -> Any:
         if name in self._raw:
             return self._converted(name, self._raw[name])
-        raise KeyError(absent(name, self))
+        raise KeyError(self._absent(name))
+
+    def _absent(self, name: str) -> str:
+        return absent(name, self)
 
     if not TYPE_CHECKING:
         def __getattr__(self, name: str) -> Any:
@@ -114,7 +117,7 @@ class Values(dict[str, Any]):
             try:
                 return self[name]
             except KeyError:
-                raise AttributeError(absent(name, self)) from None
+                raise AttributeError(self._absent(name)) from None
 
     def __contains__(self, name: object) -> bool:
         return super().__contains__(name) or name in self._raw

@@ -225,6 +225,19 @@ BOOST_AUTO_TEST_CASE(what_the_kernels_are_not_for_has_an_end_of_its_own) {
   BOOST_TEST(std::isnan(outcomes[3].total));
 }
 
+BOOST_AUTO_TEST_CASE(a_drop_that_is_none_is_refused_and_the_others_go_on) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const std::vector<double> angle{0.3, nan, 0.3, 0.3, 4}, fall{-1, -1, nan, -1, -1}, none{0}, one{1};
+  std::vector<BatchOutcome> outcomes(angle.size());
+  run_batch({make_rod({}), angle, fall, none, none, none, one, none}, {.limit = 6}, 0, outcomes);
+  for (const std::size_t bad : {1, 2, 4}) {
+    BOOST_TEST((outcomes[bad].end == BatchEnd::refused), "drop " << bad);
+    BOOST_TEST(std::isnan(outcomes[bad].total));
+  }
+  BOOST_TEST((outcomes[0].end == BatchEnd::finished));
+  BOOST_TEST(outcomes[3].total == outcomes[0].total);
+}
+
 BOOST_AUTO_TEST_CASE(arrays_of_two_lengths_and_a_limit_below_one_are_refused) {
   const std::vector<double> three{0.1, 0.2, 0.3}, two{-1, -1}, none{0}, one{1};
   std::vector<BatchOutcome> outcomes(3);

@@ -163,7 +163,7 @@ double error_of_tilt(const TiltSector& sector, double e, double tilt) {
   BOOST_REQUIRE_EQUAL(full.rows.size(), sector.strikes.size());
   double error = 0;
   for (std::size_t i = 0; i < sector.strikes.size(); ++i)
-    error = std::fmax(error, std::fabs(full.rows[i].approach_speed - sector.strikes[i].approach));
+    error = std::fmax(error, std::fabs(full.rows[i].impact.approach_speed - sector.strikes[i].approach));
   return error;
 }
 

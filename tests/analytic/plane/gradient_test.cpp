@@ -26,7 +26,7 @@ struct Numbers {
 Drop drop_of(const Numbers& n) {
   return {.body = n.is_box ? make_box({.mass = 1.5, .length = 0.75, .thickness = 0.25}) : make_rod({}),
           .inclination = Angle::from_radians(n.angle),
-          .velocity = {-n.speed, n.tangential, n.spin},
+          .velocity = {.normal = -n.speed, .tangential = n.tangential, .angular = n.spin},
           .gravity = n.gravity,
           .law = {.restitution = n.restitution,
                   .law = n.law,

@@ -158,8 +158,9 @@ BOOST_AUTO_TEST_CASE(powers_of_two_in_every_unit_change_no_bit) {
     scaled.body.mass = std::ldexp(drop.body.mass, m);
     scaled.body.gyration_square = std::ldexp(drop.body.gyration_square, 2 * l);
     for (Vertex& v : scaled.body.vertices) v = {std::ldexp(v.x, l), std::ldexp(v.z, l)};
-    scaled.velocity = {std::ldexp(drop.velocity.normal, l - t), std::ldexp(drop.velocity.tangential, l - t),
-                       std::ldexp(drop.velocity.angular, -t)};
+    scaled.velocity = {.normal = std::ldexp(drop.velocity.normal, l - t),
+                       .tangential = std::ldexp(drop.velocity.tangential, l - t),
+                       .angular = std::ldexp(drop.velocity.angular, -t)};
     scaled.gravity = std::ldexp(drop.gravity, l - 2 * t);
     const auto is_scaled = [&](const NearMiss& a, const NearMiss& b) {
       return same_bits(std::ldexp(a.clearance, l), b.clearance) && same_bits(std::ldexp(a.margin, l), b.margin) &&

@@ -33,7 +33,7 @@ Response shifted(const StruckState& struck, const StateVector& by) {
   const ContactPoint d = turned(struck.place);
   const double u = struck.contact.normal + by[at_normal], slip = struck.contact.slip + by[at_slip];
   const double turn = struck.before.angular + by[at_turn];
-  const PlanarVelocity before{u + turn * d.tangential, slip - turn * d.normal, turn};
+  const PlanarVelocity before{.normal = u + turn * d.tangential, .tangential = slip - turn * d.normal, .angular = turn};
   if (!struck.flat) return response_of(strike(struck.body, before, d, struck.law), d);
   return response_of(strike_flat(struck.body, before, d, turned(struck.second), struck.law).value(), d);
 }
@@ -45,7 +45,9 @@ class RandomImpacts {
     const double e = law == RestitutionLaw::viscoelastic ? 1 : random_(0, 1);
     StruckState struck{.body = make_box({.mass = random_(0.5, 2), .length = 1, .width = 1, .thickness = 2 * height}),
                        .law = {.restitution = e, .law = law, .friction = friction},
-                       .before = {-random_(0.5, 2), random_(-2, 2), flat ? random_(-0.5, 0.5) : random_(-3, 3)},
+                       .before = {.normal = -random_(0.5, 2),
+                                  .tangential = random_(-2, 2),
+                                  .angular = flat ? random_(-0.5, 0.5) : random_(-3, 3)},
                        .contact = {},
                        .place = {},
                        .second = {0.5, -height},

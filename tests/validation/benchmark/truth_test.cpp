@@ -132,7 +132,7 @@ BOOST_AUTO_TEST_CASE(the_discrete_model_confirms_the_energy_at_the_end_of_a_slid
       time = row.start;
     }
     const double gain = drop.gravity_along - drop.law.friction_value * drop.gravity;
-    const double slip = sequence.tail->after.tangential, left = *problem.until - sequence.tail->end_time;
+    const double slip = sequence.tail->velocity_after.x(), left = *problem.until - sequence.tail->end_time;
     const double slides = gain < 0 ? std::min(left, -slip / gain) : left;
     way += slides * (slip + gain / 2 * slides);
     const double end = slides < left ? 0 : slip + gain * left;

@@ -81,7 +81,10 @@ std::optional<PlanarVelocity> after_first_instant(const plane::Sequence& sequenc
   while (rows < sequence.rows.size() && sequence.rows[rows].start == 0) ++rows;
   if (rows < sequence.rows.size()) return sequence.rows[rows - 1].impact.after;
   if (sequence.outcome == Outcome::impact_limit || sequence.outcome == Outcome::not_computed) return {};
-  if (sequence.tail && sequence.tail->end_time == 0) return sequence.tail->after;
+  if (const auto& tail = sequence.tail; tail && tail->end_time == 0)
+    return PlanarVelocity{.normal = tail->velocity_after.z(),
+                          .tangential = tail->velocity_after.x(),
+                          .angular = tail->angular_velocity_after.y()};
   return sequence.rows.back().impact.after;
 }
 

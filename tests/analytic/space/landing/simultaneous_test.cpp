@@ -185,7 +185,8 @@ BOOST_AUTO_TEST_CASE(a_planar_flat_landing_with_friction_agrees_with_the_planar_
     const FlatBox box(random.uniform(0.1, 1), random.uniform(0.1, 1), random.uniform(0.1, 1), random.uniform(0.2, 3));
     const double gyration = (box.length * box.length + box.height * box.height) / 12;
     const PlanarBody body{.mass = box.body.mass, .gyration_square = gyration};
-    const PlanarVelocity v{random.uniform(-2, -0.1), random.uniform(-1, 1), random.uniform(-2, 2)};
+    const PlanarVelocity v{
+        .normal = random.uniform(-2, -0.1), .tangential = random.uniform(-1, 1), .angular = random.uniform(-2, 2)};
     const ContactPoint left{-box.length / 2, -box.height / 2}, right{box.length / 2, -box.height / 2};
     ImpactLaw law = coulomb(random.uniform(0, 1), random.uniform(0, 1));
     if (i % 5 == 0) law.law = RestitutionLaw::viscoelastic, law.restitution = 1, law.damping_per_stiffness = 0.3;
@@ -246,7 +247,8 @@ BOOST_AUTO_TEST_CASE(an_edge_that_lands_level_strikes_as_the_corner_of_the_plana
     const FlatBox box(random.uniform(0.1, 1), random.uniform(0.1, 1), random.uniform(0.1, 1), random.uniform(0.2, 3));
     State before;
     before.attitude = Eigen::AngleAxisd(random.uniform(0.05, 1.5), Vector3::UnitY());
-    const PlanarVelocity v{random.uniform(-2, -1), random.uniform(-1, 1), random.uniform(-0.5, 0.5)};
+    const PlanarVelocity v{
+        .normal = random.uniform(-2, -1), .tangential = random.uniform(-1, 1), .angular = random.uniform(-0.5, 0.5)};
     before.velocity = {v.tangential, 0, v.normal};
     before.angular_velocity = {0, v.angular, 0};
     const ImpactLaw law =

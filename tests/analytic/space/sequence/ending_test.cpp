@@ -117,7 +117,9 @@ BOOST_AUTO_TEST_CASE(the_last_hops_of_a_corner_are_all_as_certain_relative_to_th
   // than the last hops have, has no part in that.
   const space::Drop drop = slab(turn(0.05, {1, 0, 0}) * turn(0.2, {0, 1, 0}), 0.5);
   const space::Sequence s = space::impact_sequence(drop, {.impacts = 400, .digits = 12});
-  const auto certainty = [](const space::ImpactRow& row) { return row.error.approach_speed / row.approach_speed; };
+  const auto certainty = [](const space::ImpactRow& row) {
+    return row.error.approach_speed / row.impact.approach_speed;
+  };
   BOOST_TEST_REQUIRE(s.rows.size() > 12U);
   for (auto row = s.rows.end() - 12; row != s.rows.end(); ++row) {
     BOOST_TEST_REQUIRE(row->flight.is_hop);

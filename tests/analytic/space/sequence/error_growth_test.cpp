@@ -115,7 +115,7 @@ double amplification(ErrorGrowth growth, const FreeFlight& flight, const FirstCo
   row.before = flight.at(contact.time);
   row.corners = {{.index = contact.point}};
   row.flight = contact;
-  row.approach_speed = 1;
+  row.impact.approach_speed = 1;
   row.impact.impulse = {0, 0, 1e-9};
   StrikeDerivatives derivatives = StrikeDerivatives::Zero();
   derivatives.block<3, 3>(0, 3 * block).setIdentity();

@@ -252,7 +252,7 @@ BOOST_AUTO_TEST_CASE(a_thin_rod_in_its_plane_has_the_plane_s_derivatives) {
     const double theta = 0.4;
     plane::Drop flat{.body = plane::make_rod({.mass = 0.5, .length = 0.3, .radius = 0}),
                      .inclination = plane::Angle::from_radians(theta),
-                     .velocity = {-1.5, 0.25, 0.5},
+                     .velocity = {.normal = -1.5, .tangential = 0.25, .angular = 0.5},
                      .gravity = 9.81,
                      .law = {.restitution = 0.75, .friction = FrictionKind::coulomb, .friction_value = friction}};
     if (friction == 0) flat.law.friction = FrictionKind::none;

@@ -399,7 +399,7 @@ BOOST_AUTO_TEST_CASE(changes_of_the_drop_by_an_ulp_stay_within_the_error_bars) {
       const RowErrors &e = p.error, &f = q.error;  // of both: each has rounding of its own
       const bool within =
           std::fabs(p.start - q.start) <= e.start + f.start &&
-          std::fabs(p.approach_speed - q.approach_speed) <= e.approach_speed + f.approach_speed &&
+          std::fabs(p.impact.approach_speed - q.impact.approach_speed) <= e.approach_speed + f.approach_speed &&
           (p.impact.impulse - q.impact.impulse).norm() <= e.impulse + f.impulse &&
           (p.impact.velocity_after - q.impact.velocity_after).norm() <= e.velocity_after + f.velocity_after &&
           (p.impact.angular_velocity_after - q.impact.angular_velocity_after).norm() <=

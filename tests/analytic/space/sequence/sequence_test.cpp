@@ -67,7 +67,7 @@ struct Errors {
   double time, attitude, approach, impulse, velocity, angular_velocity, energy_before, energy_after;
   Errors(const ImpactRow& row, const ReferenceRowOfScene& expected, double weight)
       : time(std::fabs(row.start - expected.time)), attitude(angle_between(row.before.attitude, expected.attitude)),
-        approach(std::fabs(row.approach_speed - expected.approach)),
+        approach(std::fabs(row.impact.approach_speed - expected.approach)),
         impulse((row.impact.impulse - expected.impulse).norm()),
         velocity((row.impact.velocity_after - expected.velocity).norm()),
         angular_velocity((row.impact.angular_velocity_after - expected.angular_velocity).norm()),
