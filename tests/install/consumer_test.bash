@@ -53,7 +53,7 @@ with_headers_that_are_there() {
 
 # The project as a part of another, by add_subdirectory or FetchContent, which CPM calls: the examples compile with the
 # headers by their documented names.  They are linked with the libraries that are there already, which here would take
-# minutes.
+# minutes, and which other alignments than those of -march=native are in.
 as_a_part() {
   local how example root part=$prefix/part libraries
   root=$(readlink -f -- "$source/../..")
@@ -63,7 +63,7 @@ as_a_part() {
     cp -r -- "$source/mine" "$part"
     [[ $how == add_subdirectory ]] || sed -i "s|^add_sub.*|include(FetchContent)\nFetchContent_Declare(clatter SOURCE_DIR $root)\nFetchContent_MakeAvailable(clatter)|" "$part/CMakeLists.txt"
     cp -- "$source/analytic_example.cpp" "$part/main.cpp"
-    cmake -S "$part" -B "$part/build" -G Ninja -DCLATTER_SOURCE="$root" -DCMAKE_BUILD_TYPE=Release >"$prefix/log" 2>&1 || { cat -- "$prefix/log"; return 1; }
+    cmake -S "$part" -B "$part/build" -G Ninja -DCLATTER_SOURCE="$root" -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_FLAGS=-march=native >"$prefix/log" 2>&1 || { cat -- "$prefix/log"; return 1; }
     for example in analytic space numeric; do
       cp -- "$source/${example}_example.cpp" "$part/main.cpp"
       cmake --build "$part/build" --target CMakeFiles/mine.dir/main.cpp.o >"$prefix/log" 2>&1 || { cat -- "$prefix/log"; return 1; }
