@@ -195,7 +195,7 @@ BOOST_AUTO_TEST_CASE(rods_that_rock_from_end_to_end_come_to_lie_level_with_the_b
     drop.law.friction_value = 0.1 + 0.4 * uniform(random);
     drop.law.law = n % 2 == 0 ? RestitutionLaw::newton : RestitutionLaw::stronge;
     constexpr double late = 60;
-    const Sequence s = impact_sequence(drop, {.impacts = 100'000, .until_rest = true, .times = {late}});
+    const Sequence s = impact_sequence(drop, {.impacts = 100'000, .until_rest = true}, {late});
     BOOST_TEST_CONTEXT("rod " << n << ": " << s.message) {
       BOOST_CHECK(s.outcome == Outcome::at_rest);
       if (s.tail) {
