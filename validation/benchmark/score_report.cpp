@@ -261,9 +261,9 @@ Grid files_in_lines(const std::vector<Submission>& submissions, bool says_what) 
 /// A line for each group of files.
 Grid groups_in_lines(const std::vector<SubmissionGroup>& groups, const std::vector<Submission>& submissions) {
   Grid lines;
-  lines.columns = {word_column("problem", "problem", ""), {"files", "files", ""},
-                   word_column("best", "best", ""),       word_column("worst", "worst", ""),
-                   {"order", "order", ""},                word_column("cause", "commonest cause", "")};
+  lines.columns = {
+      word_column("problem", "problem", ""), {"files", "files", ""}, word_column("best", "best", ""),
+      word_column("worst", "worst", ""),     {"order", "order", ""}, word_column("cause", "commonest cause", "")};
   for (const SubmissionGroup& group : groups) {
     Verdict best = group.verdict;
     for (const Submission& one : submissions) {
