@@ -614,7 +614,13 @@ std::vector<Cause> found_causes(const Answer& answer, const Reference& reference
   // After one impact alone a wrong start and a wrong impact look alike.
   if (motion.begins_after_touch() && sequence->truth.size() == 1) return causes;
   const Misses misses(reference, run.asked());
-  std::vector<Cause> others = causes_of_scene(run, misses);
+  std::vector<Cause> others = unturned_inertia_of(reference, sequence->law, run.impacts, motion.state(0).attitude);
+  if (!others.empty()) {
+    others = ranked(run, std::move(others), run.first_order.has_value());
+    for (Cause& cause : flight_causes_of(motion, reference))
+      others.push_back(std::move(cause)), others.back().is_more = true;
+  }
+  if (others.empty()) others = causes_of_scene(run, misses);
   if (others.empty()) others = chosen(flight_causes_of(motion, reference));
   if (others.empty()) others = causes_of_impacts(run, misses, trials);
   for (Cause& cause : others) {

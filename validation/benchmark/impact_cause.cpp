@@ -596,6 +596,46 @@ std::vector<Cause> impact_causes_of(const Reference& reference, const DeclaredLa
   return !causes.empty() ? causes : ImpactCauses(reference, law, impacts, gravity_of_step, trials).of_impacts(impacts);
 }
 
+std::vector<Cause> unturned_inertia_of(const Reference& reference, const DeclaredLaw& law,
+                                       const std::vector<FoundImpact>& impacts, const space::Quaternion& first) {
+  if (reference.is_planar || reference.is_compliant || impacts.empty()) return {};
+  const auto kept_in = [&](const space::Quaternion& frame, const FoundImpact& impact) {
+    double least = Score::unknown;
+    for (const Booking& booking : impact.bookings) {
+      Reference kept = reference;
+      const space::Matrix3 turn = (booking.before.attitude.conjugate() * frame).toRotationMatrix();
+      const space::Matrix3 inertia = turn * reference.body.inertia * turn.transpose();
+      kept.body.inertia = (inertia + inertia.transpose()) / 2;
+      kept.principal = space::PrincipalAxes(kept.body.inertia);
+      FoundImpact one = impact;
+      one.bookings = {booking};
+      least = std::fmin(least, law_error(kept, law, one));
+    }
+    return least;
+  };
+  for (const bool is_of_world : {true, false}) {
+    std::size_t count = 0, only = 0;
+    double left = 0, was = 0;
+    for (std::size_t i = 0; i < impacts.size(); ++i) {
+      FoundImpact impact = impacts[i];
+      if (impact.points.empty()) impact.points = {reference.lowest(impact.before.attitude)};
+      if (impact.points.size() > 1 || !impact.pair.empty() || impact.last_row > impact.first_row + 1) continue;
+      const double asked = law_error(reference, law, impact);
+      const double one = kept_in(is_of_world ? space::Quaternion::Identity() : first, impact);
+      if (one <= reference.tolerances[2] && asked <= reference.tolerances[2]) continue;  // as it lies, both agree
+      only = i, ++count, left = worse(left, one), was = worse(was, asked);
+    }
+    if (count == 0 || !(left <= explained * explained * std::fmin(was, 1))) continue;
+    return {{"inertia-axes",
+             {},
+             left,
+             fmt::format("an inertia that does not turn with the body, its numbers {}, explains {} {}",
+                         is_of_world ? "in body axes taken for those in world axes" : "those of the first row",
+                         impacts_words(count, total_of(reference, law, impacts), only), misfit_words(left))}};
+  }
+  return {};
+}
+
 std::vector<Cause> far_body_causes_of(const Answer& answer, const Reference& reference, const DeclaredLaw& law,
                                       const std::vector<FoundImpact>& impacts, Trials& trials) {
   std::vector<Cause> causes;
