@@ -279,7 +279,7 @@ def same_as(name, problem):
         "restitution of the centre alone": {"friction"},  # where the normal impulse has no lever
         "no restitution at the slowest impact": {"restitution"},  # where no other impact is left
         "friction pushes on": {"friction-ratio"},  # where nothing slips before the impact
-        "place and velocity of a corner": {"margin"},  # of a ball's lowest point
+        "place and velocity of a corner": {"margin", "lowest-point"},  # of a ball
     }.get(name, set())
     if not spins(problem) and name == "linear damping 0.1 per second":
         alike.add("damping")
