@@ -496,6 +496,34 @@ void add_many_rows(const Diagnosed& run, std::vector<Cause>& causes) {
                                 count, asked.size(), most)});
 }
 
+/// The causes of a code, but for those of its steps without which, alone or beside the others, the run comes no nearer
+/// to the truth.  A wrong law stays wrong where the steps make up for it.
+std::vector<Cause> helpful(const Diagnosed& run, const Stepping& stepping, const DeclaredLaw& law,
+                           std::vector<Cause> causes) {
+  if (causes.size() < 2) return causes;
+  const auto error_without = [&](const Cause* but) {
+    Stepping mended = stepping;
+    DeclaredLaw by = law;
+    for (const Cause& cause : causes) {
+      if (&cause == but) continue;
+      if (cause.name == "first-order-step") mended.flying = {};
+      else if (cause.name == "time-step") mended.step = 0, mended.gravity_first = false;
+      else by = run.sequence.law;
+    }
+    return run.error_of(mended, by);
+  };
+  const double all = run.score.motion_error(), without_all = error_without(nullptr);
+  std::vector<Cause> kept;
+  for (const Cause& cause : causes) {
+    const bool is_of_steps = cause.name == "first-order-step" || cause.name == "time-step";
+    const bool is_known = cause.error_without && std::isfinite(*cause.error_without) && std::isfinite(all);
+    if (!is_of_steps || !is_known || *cause.error_without < all || without_all < error_without(&cause))
+      kept.push_back(cause);
+  }
+  if (kept.empty()) return causes;
+  return kept;
+}
+
 /// Causes of the impacts and the flights' step of first order, that one first without which the least would be left.
 std::vector<Cause> ranked(const Diagnosed& run, std::vector<Cause> causes, bool has_first_order) {
   constexpr double as_the_run = 0.1;
@@ -527,7 +555,10 @@ std::vector<Cause> ranked(const Diagnosed& run, std::vector<Cause> causes, bool 
     causes.insert(is_first ? causes.begin() : causes.end(), first_order);
     for (std::size_t i = 1; i < causes.size(); ++i) causes[i].is_more |= is_first || i + 1 == causes.size();
   }
-  if (!causes.empty() && is_as_the_run) causes.front().unexplained = distance;
+  if (!causes.empty() && is_as_the_run) {
+    causes = helpful(run, stepping, law, std::move(causes));
+    causes.front().unexplained = distance;
+  }
   return causes;
 }
 
@@ -583,7 +614,13 @@ std::vector<Cause> found_causes(const Answer& answer, const Reference& reference
   // After one impact alone a wrong start and a wrong impact look alike.
   if (motion.begins_after_touch() && sequence->truth.size() == 1) return causes;
   const Misses misses(reference, run.asked());
-  std::vector<Cause> others = causes_of_scene(run, misses);
+  std::vector<Cause> others = unturned_inertia_of(reference, sequence->law, run.impacts, motion.state(0).attitude);
+  if (!others.empty()) {
+    others = ranked(run, std::move(others), run.first_order.has_value());
+    for (Cause& cause : flight_causes_of(motion, reference))
+      others.push_back(std::move(cause)), others.back().is_more = true;
+  }
+  if (others.empty()) others = causes_of_scene(run, misses);
   if (others.empty()) others = chosen(flight_causes_of(motion, reference));
   if (others.empty()) others = causes_of_impacts(run, misses, trials);
   for (Cause& cause : others) {

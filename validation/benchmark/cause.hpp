@@ -131,6 +131,13 @@ class Trials {
                                                     const DeclaredLaw& law, const std::vector<FoundImpact>& impacts,
                                                     Trials& trials);
 
+/// An inertia that does not turn with the body: the numbers in body axes taken for those in world axes, or those of the
+/// first row kept.  It must explain each impact of one point in one step, at the run's own states; no number is free.
+/// @param first  the attitude of the first row
+[[nodiscard]] std::vector<Cause> unturned_inertia_of(const Reference& reference, const DeclaredLaw& law,
+                                                     const std::vector<FoundImpact>& impacts,
+                                                     const analytic::space::Quaternion& first);
+
 // What may have gone wrong in a foreign run: hypotheses with one number each, fitted to the run's own impacts and
 // flights, or to the rows as they were written.
 

@@ -45,8 +45,15 @@ Fitted least_of(double low, double high, const std::function<double(double)>& mi
 }
 
 std::string impacts_words(std::size_t count, std::size_t of, std::size_t only) {
-  if (count < of) return count == 1 ? fmt::format("impact {} alone", only + 1) : fmt::format("{} impacts", count);
+  if (count < of)
+    return count == 1 ? fmt::format("impact {} alone", only + 1) : fmt::format("{} of {} impacts", count, of);
   return of == 1 ? "the impact" : of == 2 ? "both impacts" : fmt::format("all {} impacts", of);
+}
+
+/// How many impacts a run has or should have, whichever are more.
+std::size_t total_of(const Reference& reference, const DeclaredLaw& law, const std::vector<FoundImpact>& impacts) {
+  const auto sequence = std::ranges::find(reference.sequences, law.name, [](const auto& one) { return one.law.name; });
+  return std::max(impacts.size(), sequence == reference.sequences.end() ? 0 : sequence->truth.size());
 }
 
 constexpr double step_share = 2;  ///< of g × step: before an impact and, by restitution, after it
@@ -70,9 +77,9 @@ class ImpactCauses {
  public:
   ImpactCauses(const Reference& reference, const DeclaredLaw& law, const std::vector<FoundImpact>& impacts,
                double gravity_of_step, Trials& trials)
-      : reference_(reference), law_(law), trials_(trials) {
-    for (const FoundImpact& impact : impacts) {
-      if (!impact.points.empty()) impacts_.push_back(impact);
+      : reference_(reference), law_(law), trials_(trials), total_(total_of(reference, law, impacts)) {
+    for (std::size_t i = 0; i < impacts.size(); ++i) {
+      if (!impacts[i].points.empty()) impacts_.push_back(impacts[i]), places_.push_back(i);
     }
     for (const FoundImpact& impact : impacts_) errors_.push_back(law_error(reference_, law_, impact));
     for (const double error : errors_) worst_ = worse(worst_, error);
@@ -164,7 +171,7 @@ class ImpactCauses {
 
   [[nodiscard]] bool has_friction() const { return law_.law.friction == analytic::FrictionKind::coulomb; }
 
-  [[nodiscard]] std::string which() const { return impacts_words(broken_.size(), impacts_.size(), broken_.front()); }
+  [[nodiscard]] std::string which() const { return impacts_words(broken_.size(), total_, places_[broken_.front()]); }
 
   [[nodiscard]] std::vector<std::size_t> all() const {
     std::vector<std::size_t> each(impacts_.size());
@@ -213,11 +220,10 @@ class ImpactCauses {
     if (!(best.misfit <= most * std::fmin(worst_, 1)) || is_of_the_step(best.misfit)) return;
     const auto tell = [&](const char* name, std::optional<double> value, const std::string& words) {
       const bool is_more = !causes_.empty();
-      causes_.push_back(
-          {name, value, best.misfit,
-           is_more ? fmt::format("{} with it explains {} {}", words, impacts_words(impacts_.size(), impacts_.size(), 0),
-                                 misfit_words(best.misfit))
-                   : "more than one at once: " + words});
+      causes_.push_back({name, value, best.misfit,
+                         is_more ? fmt::format("{} with it explains {} {}", words,
+                                               impacts_words(impacts_.size(), total_, 0), misfit_words(best.misfit))
+                                 : "more than one at once: " + words});
       causes_.back().is_more = is_more;
     };
     if (best.inertia != 1) tell("inertia", best.inertia, three_digits(best.inertia) + " times the moment of inertia");
@@ -346,11 +352,11 @@ class ImpactCauses {
     const char* what =
         is_cut ? "friction with a bound of its own along x and along y, a pyramid in place of the cone,"
                : "friction that is brought back to the cone after unequal steps along x and y, not against the slip,";
-    causes_.push_back({is_cut ? "friction-pyramid" : "friction-weights",
-                       {},
-                       left,
-                       fmt::format("{} explains {} {}", what, impacts_words(impacts_.size(), impacts_.size(), 0),
-                                   misfit_words(left))});
+    causes_.push_back(
+        {is_cut ? "friction-pyramid" : "friction-weights",
+         {},
+         left,
+         fmt::format("{} explains {} {}", what, impacts_words(impacts_.size(), total_, 0), misfit_words(left))});
     causes_.back().law = changed(of(is_cut ? Cone::pyramid : Cone::unequal), 0);
     return true;
   }
@@ -366,7 +372,7 @@ class ImpactCauses {
                          {},
                          left,
                          fmt::format("the law {} (judged by {}) explains {} {}", other.law.name, law_.name,
-                                     impacts_words(impacts_.size(), impacts_.size(), 0), misfit_words(left))});
+                                     impacts_words(impacts_.size(), total_, 0), misfit_words(left))});
       causes_.back().law = other.law;
       return;
     }
@@ -486,11 +492,11 @@ class ImpactCauses {
     const Fitted heavy = least_of(0.3, 3, [&](double factor) { return misfit(inertia, factor, each); });
     keep("inertia", heavy,
          fmt::format("{} times the moment of inertia explains {}", three_digits(heavy.value),
-                     impacts_words(each.size(), each.size(), 0)));
+                     impacts_words(each.size(), total_, 0)));
     const Fitted longer = least_of(0.5, 1.5, [&](double factor) { return misfit(lever, factor, each); });
     keep("lever", longer,
          fmt::format("levers {} times as long explain {}", three_digits(longer.value),
-                     impacts_words(each.size(), each.size(), 0)));
+                     impacts_words(each.size(), total_, 0)));
   }
 
   /// Normal velocity and spin of two states, as speeds at the farthest point, apart from each other.
@@ -516,7 +522,7 @@ class ImpactCauses {
                        {},
                        left,
                        fmt::format("restitution of the velocity of the centre of mass, without a lever, explains {} {}",
-                                   impacts_words(impacts.size(), impacts.size(), 0), misfit_words(left))});
+                                   impacts_words(impacts.size(), total_, 0), misfit_words(left))});
   }
 
   /// What the law without friction gives beside a rebound of the centre alone, over the change of normal velocity.
@@ -530,7 +536,9 @@ class ImpactCauses {
   const Reference& reference_;
   const DeclaredLaw& law_;
   Trials& trials_;
-  std::vector<FoundImpact> impacts_;
+  std::size_t total_;                  ///< impacts that the run has or should have
+  std::vector<FoundImpact> impacts_;   ///< whose points are known
+  std::vector<std::size_t> places_{};  ///< of each of these among all
   std::vector<double> errors_;
   std::vector<std::size_t> broken_;  ///< impacts that do not follow the law
   double worst_ = 0;
@@ -565,9 +573,10 @@ void add_far_inertia(const Answer& answer, const Reference& reference, const Dec
   const std::vector<FoundImpact> impacts = impacts_of(Motion(answer.table, other), other);
   for (const FoundImpact& impact : impacts) left = worse(left, law_error(other, law, impact));
   if (!(left <= explained * std::fabs(factor - 1))) return;
-  causes.push_back({"inertia", factor, left,
-                    fmt::format("{} times the moment of inertia explains {} {}", three_digits(factor),
-                                impacts_words(impacts.size(), impacts.size(), 0), misfit_words(left))});
+  causes.push_back(
+      {"inertia", factor, left,
+       fmt::format("{} times the moment of inertia explains {} {}", three_digits(factor),
+                   impacts_words(impacts.size(), total_of(reference, law, impacts), 0), misfit_words(left))});
 }
 
 }  // namespace
@@ -585,6 +594,46 @@ std::vector<Cause> impact_causes_of(const Reference& reference, const DeclaredLa
   std::vector<Cause> causes = ImpactCauses(reference, law, impacts, gravity_of_step, trials).of_normal_alone();
   if (causes.empty()) causes = ImpactCauses(reference, law, plain, gravity_of_step, trials).of_impacts(plain);
   return !causes.empty() ? causes : ImpactCauses(reference, law, impacts, gravity_of_step, trials).of_impacts(impacts);
+}
+
+std::vector<Cause> unturned_inertia_of(const Reference& reference, const DeclaredLaw& law,
+                                       const std::vector<FoundImpact>& impacts, const space::Quaternion& first) {
+  if (reference.is_planar || reference.is_compliant || impacts.empty()) return {};
+  const auto kept_in = [&](const space::Quaternion& frame, const FoundImpact& impact) {
+    double least = Score::unknown;
+    for (const Booking& booking : impact.bookings) {
+      Reference kept = reference;
+      const space::Matrix3 turn = (booking.before.attitude.conjugate() * frame).toRotationMatrix();
+      const space::Matrix3 inertia = turn * reference.body.inertia * turn.transpose();
+      kept.body.inertia = (inertia + inertia.transpose()) / 2;
+      kept.principal = space::PrincipalAxes(kept.body.inertia);
+      FoundImpact one = impact;
+      one.bookings = {booking};
+      least = std::fmin(least, law_error(kept, law, one));
+    }
+    return least;
+  };
+  for (const bool is_of_world : {true, false}) {
+    std::size_t count = 0, only = 0;
+    double left = 0, was = 0;
+    for (std::size_t i = 0; i < impacts.size(); ++i) {
+      FoundImpact impact = impacts[i];
+      if (impact.points.empty()) impact.points = {reference.lowest(impact.before.attitude)};
+      if (impact.points.size() > 1 || !impact.pair.empty() || impact.last_row > impact.first_row + 1) continue;
+      const double asked = law_error(reference, law, impact);
+      const double one = kept_in(is_of_world ? space::Quaternion::Identity() : first, impact);
+      if (one <= reference.tolerances[2] && asked <= reference.tolerances[2]) continue;  // as it lies, both agree
+      only = i, ++count, left = worse(left, one), was = worse(was, asked);
+    }
+    if (count == 0 || !(left <= explained * explained * std::fmin(was, 1))) continue;
+    return {{"inertia-axes",
+             {},
+             left,
+             fmt::format("an inertia that does not turn with the body, its numbers {}, explains {} {}",
+                         is_of_world ? "in body axes taken for those in world axes" : "those of the first row",
+                         impacts_words(count, total_of(reference, law, impacts), only), misfit_words(left))}};
+  }
+  return {};
 }
 
 std::vector<Cause> far_body_causes_of(const Answer& answer, const Reference& reference, const DeclaredLaw& law,

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <exception>
 #include <functional>
@@ -156,6 +157,86 @@ const std::vector<Reading> list_readings{
     {"degrees", "Omega is in degrees per second", scaled({"Omega", "Wx", "Wy", "Wz"}, radian)},
     {"milliseconds", "t is in milliseconds", scaled({"t"}, 1e-3)}};
 
+/// Where a component of a vector stands in the rows, and with which sign.
+struct From {
+  int axis = 0;
+  double sign = 1;
+};
+
+/// Vectors whose components are others, and what goes with that of spins and Euler parameters.
+struct AxesReading {
+  enum class Attitudes { as_they_are, of_the_world, of_all };
+  std::array<From, 3> from{};
+  double of_spin = 1;  ///< sign of the angular velocity beside the other vectors'
+  Attitudes attitudes = Attitudes::as_they_are;
+  double of_turn = 1;  ///< sign of the Euler parameters' vector
+
+  [[nodiscard]] Vector3 read(const Vector3& row) const {
+    return {from[0].sign * row[from[0].axis], from[1].sign * row[from[1].axis], from[2].sign * row[from[2].axis]};
+  }
+  [[nodiscard]] space::Matrix3 matrix() const {
+    space::Matrix3 turn;
+    for (int k = 0; k < 3; ++k) turn.col(k) = read(Vector3::Unit(k));
+    return turn;
+  }
+  [[nodiscard]] bool is_exchange() const { return from[0].axis != 0 || from[1].axis != 1; }
+};
+
+/// Those with the fewest signs first.
+const std::vector<AxesReading>& axes_readings() {
+  static const std::vector<AxesReading> all = [] {
+    using Attitudes = AxesReading::Attitudes;
+    std::vector<AxesReading> readings;
+    std::array<int, 3> order{0, 1, 2};
+    do {
+      for (int signs = 0; signs < 8; ++signs) {
+        AxesReading one;
+        for (std::size_t k = 0; k < 3; ++k) one.from[k] = {order[k], (signs >> k & 1) == 1 ? -1.0 : 1.0};
+        for (const double of_spin : {1.0, -1.0}) {
+          one.of_spin = of_spin;
+          for (const Attitudes attitudes : {Attitudes::as_they_are, Attitudes::of_the_world, Attitudes::of_all}) {
+            if (attitudes == Attitudes::of_the_world && one.matrix().determinant() < 0) continue;
+            one.attitudes = attitudes;
+            one.of_turn = 1;
+            readings.push_back(one);
+            if (attitudes != Attitudes::of_all) continue;
+            one.of_turn = -1;
+            readings.push_back(one);
+          }
+        }
+      }
+    } while (std::ranges::next_permutation(order).found);
+    return readings;
+  }();
+  return all;
+}
+
+void read_by(const AxesReading& axes, const Cells& at) {
+  for (const char* name : {"", "v", "w"}) {
+    const std::string of = name;
+    const Vector3 read = axes.read(at.vector(of)) * (of == "w" ? axes.of_spin : 1);
+    for (int k = 0; k < 3; ++k) at(of + "xyz"[k]) = read[k];
+  }
+  if (axes.attitudes == AxesReading::Attitudes::as_they_are) return;
+  space::Quaternion turn = at.attitude();
+  if (axes.attitudes == AxesReading::Attitudes::of_the_world) turn = space::Quaternion(axes.matrix()) * turn;
+  else turn.vec() = axes.of_turn * axes.read(turn.vec());
+  at("q0") = turn.w(), at("q1") = turn.x(), at("q2") = turn.y(), at("q3") = turn.z();
+}
+
+/// "x, y, z stand as x, -z, y, of spins with the other sign, of the Euler parameters, too"
+std::string words_of(const AxesReading& axes) {
+  std::string words;
+  for (const From& from : axes.from)
+    words += fmt::format("{}{}{}", words.empty() ? "" : ", ", from.sign < 0 ? "-" : "", "xyz"[from.axis]);
+  words = fmt::format("x, y, z stand in the columns {}", words);
+  if (axes.of_spin < 0) words += ", of spins with the other sign";
+  if (axes.attitudes == AxesReading::Attitudes::as_they_are) return words + ", but not in the Euler parameters";
+  if (axes.attitudes == AxesReading::Attitudes::of_the_world) return words + " of a world turned so";
+  return words +
+         (axes.of_turn < 0 ? ", and of the Euler parameters with the other sign" : ", Euler parameters and all");
+}
+
 /// Rows that are right when read otherwise.
 class ReadingCauses {
  public:
@@ -178,8 +259,9 @@ class ReadingCauses {
                            at("z") -= reference_.arm(attitude, reference_.lowest(attitude)).z();
                          }};
     add(lowest, [&] { return score_as(lowest); });
+    if (causes_.empty()) of_other_axes();
     contradicts_ = false;  // a start and flights of another point may be right by chance
-    of_other_points();
+    if (!all_right_) of_other_points();
   }
 
   /// Velocities of the row before.
@@ -215,6 +297,31 @@ class ReadingCauses {
   [[nodiscard]] const std::vector<Cause>& causes() const { return causes_; }
 
  private:
+  /// Axes of the world that are others or point the other way, with the Euler parameters as they are, with those of a
+  /// world turned so, or with their vector exchanged alike; one of a left-handed world has one sign or the other.
+  void of_other_axes() {
+    if (!table_.column("q0") || table_.rows() < 3) return;
+    const NumericTable begin = table_.without(2, table_.rows() - 1);
+    for (const AxesReading& axes : axes_readings()) {
+      const auto change = [&](const Cells& at) { read_by(axes, at); };
+      const auto as_read = [&](const NumericTable& rows) {
+        return rows.changed([&](std::span<double> row) { change({rows, row}); });
+      };
+      try {
+        if (!(Motion(as_read(begin), reference_).start_error() <= reference_.tolerances[2])) continue;
+      } catch (const std::exception&) {
+        continue;
+      }
+      const bool is_up = axes.from[2].axis != 2;
+      add({is_up                ? "y-up"
+           : axes.is_exchange() ? "exchanged"
+                                : "mirrored",
+           words_of(axes), change},
+          [&] { return score_of(as_read(table_)); });
+      if (all_right_) return;
+    }
+  }
+
   /// Place and velocity of a corner or an end, in place of the centre of mass.
   void of_other_points() {
     for (std::size_t k = 0; k < reference_.body.vertices.size() && k < reference_.points.size(); ++k) {

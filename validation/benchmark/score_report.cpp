@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <tuple>
+#include <utility>
 
 #include "validation/output/bad_input.hpp"
 #include "validation/output/number.hpp"
@@ -162,13 +163,19 @@ std::string class_words(const Submission& one) {
                      std::isfinite(error) ? ", off by " + error_words(error) : "");
 }
 
+/// "box, some engine, tuned": what the files of a group have alike.
+std::string group_name(const SubmissionHead& head) {
+  std::string words;
+  for (const std::string& part : {head.problem, head.engine, head.version, head.settings}) {
+    if (!part.empty()) words += (words.empty() ? "" : ", ") + part;
+  }
+  return words;
+}
+
 /// "box, some engine: order 1.17 ± 0.05 with 5 steps; 0.00208 s: off by 0.085, fails; 0.000130 s: off by 0.0039,
 /// coarse"
 std::string group_words(const SubmissionGroup& group) {
-  std::string words;
-  for (const std::string& part : {group.head.problem, group.head.engine, group.head.version, group.head.settings}) {
-    if (!part.empty()) words += (words.empty() ? "" : ", ") + part;
-  }
+  std::string words = group_name(group.head);
   if (words.empty()) words = "all files";
   const auto off = [](const SubmissionGroup::Step& step) {
     return fmt::format("off by {}, {}", error_words(step.error), verdict_name(step.verdict));
@@ -230,7 +237,8 @@ std::vector<Submission> by_group(std::vector<Submission> submissions) {
 }
 
 /// A line for each of many files.
-Grid files_in_lines(const std::vector<Submission>& submissions) {
+/// @param says_what  whether it has what the error is one of
+Grid files_in_lines(const std::vector<Submission>& submissions, bool says_what) {
   Grid lines;
   lines.columns = {word_column("file", "file", ""),
                    {"step", "step", "s"},
@@ -238,13 +246,34 @@ Grid files_in_lines(const std::vector<Submission>& submissions) {
                    word_column("decided_by", "of", ""),
                    word_column("verdict", "verdict", ""),
                    word_column("cause", "likely cause", "")};
+  lines.columns[3].shown = says_what;
   for (const Submission& one : submissions) {
     const Score& score = one.score;
     const bool has_all = score.order_is_right || score.ends_early;
     const std::string of = !has_all ? "impacts" : score.error() > 0 ? score.decided_by() : "";
-    lines.rows.push_back({Cell(one.name), step_cell(one.head.step), error_cell(score.error()),
+    lines.rows.push_back({Cell(one.name), one.head.step ? Cell(*one.head.step, 3) : Cell(), error_cell(score.error()),
                           Cell(text_or_nothing(of)), Cell(verdict_name(one.verdict)),
                           Cell(text_or_nothing(short_reason(one)))});
+  }
+  return lines;
+}
+
+/// A line for each group of files.
+Grid groups_in_lines(const std::vector<SubmissionGroup>& groups, const std::vector<Submission>& submissions) {
+  Grid lines;
+  lines.columns = {
+      word_column("problem", "problem", ""), {"files", "files", ""}, word_column("best", "best", ""),
+      word_column("worst", "worst", ""),     {"order", "order", ""}, word_column("cause", "commonest cause", "")};
+  for (const SubmissionGroup& group : groups) {
+    Verdict best = group.verdict;
+    for (const Submission& one : submissions) {
+      if (one.head.group() == group.head.group()) best = std::min(best, one.verdict);
+    }
+    std::string cause;
+    if (!group.causes.empty()) cause = fmt::format("{} in {}", group.causes.front().first, group.causes.front().second);
+    lines.rows.push_back({Cell(group_name(group.head)), Cell(static_cast<long long>(group.files)),
+                          Cell(verdict_name(best)), Cell(verdict_name(group.verdict)),
+                          group.order ? Cell(group.order->value, 3) : Cell(), Cell(text_or_nothing(cause))});
   }
   return lines;
 }
@@ -368,8 +397,11 @@ Report score_report(const std::string& command, const std::vector<Submission>& s
   report.grid.columns = score_columns();
   const std::vector<Submission> sorted = by_group(submissions);
   const bool in_lines = submissions.size() > 1 && !details;
+  const std::vector<SubmissionGroup> groups = group_submissions(submissions);
+  const bool by_problem = in_lines && groups.front().head.problem != groups.back().head.problem;  // they are sorted
   if (in_lines) {
-    report.digest = files_in_lines(sorted);
+    report.digest = files_in_lines(sorted, !by_problem);
+    if (by_problem) report.further = std::exchange(report.digest, groups_in_lines(groups, submissions));
     report.notes = {
         "error: the largest of all, without unit, 1 is 100 %; ?: impacts are wrong, missing or extra; --details tells "
         "all errors and findings of each file"};
@@ -391,8 +423,9 @@ Report score_report(const std::string& command, const std::vector<Submission>& s
       add_details(one, report.notes);
     }
   }
-  for (const SubmissionGroup& group : group_submissions(submissions)) {
+  for (const SubmissionGroup& group : groups) {
     problems.push_back(group_value(group));
+    if (by_problem) continue;
     if (submissions.size() > 1) report.notes.push_back(group_words(group));
     if (group.files > 1 && !group.causes.empty()) report.notes.push_back(group_causes(group));
   }

@@ -4,6 +4,7 @@ import itertools
 import math
 import os
 import pathlib
+import re
 import subprocess
 import sys
 import unittest
@@ -222,3 +223,11 @@ class Documents(EmptyFolder):
         self.assertLess(found["start_error"], 1e-6)
         self.assertLess(found["impact_scores"][0]["law_error"], 1e-6)
 
+
+    def test_the_table_of_causes_has_those_that_the_judge_can_name(self):
+        """A cause's name is the first part of a braced value or of a call; only columns of files stand there, too."""
+        folder = pathlib.Path(os.environ["CLATTER_ROOT"], "validation/benchmark")
+        first = r'[{(]\s*((?:[\w.<> ]+\?\s*"[^"]*"\s*:\s*)*"[^"]*")\s*,'
+        named = {name for path in folder.glob("*cause.cpp") for part in re.findall(first, path.read_text()) for name in re.findall(r'"([a-z-]{3,})"', part)}
+        listed = re.findall(r"^\| (`.+?) \|", self.PAGE.split("| likely cause |")[1].split("\n\n")[0], re.M)
+        self.assertEqual({name for line in listed for name in re.findall("`(.+?)`", line)}, named - {"phi", "omega"})

@@ -8,7 +8,7 @@ import unittest
 
 import numpy as np
 
-from exact_motion import Asked, product, scored, told, turned_back
+from exact_motion import Asked, product, rotated, scored, told, turned_back
 from rigid_code import RigidCode, struck
 
 RIGID = [problem["id"] for problem in told("benchmark", "list")["problems"]]
@@ -154,6 +154,25 @@ def y_up(r):
              -r[12]])
 
 
+def exchanged(one, other):
+    """Two axes in all vectors and in the Euler parameters' vector, as they stand: of a left-handed world, with the other turn."""
+    def edit(row):
+        row = row[:]
+        for first in (1, 5, 8, 11):
+            row[first + one], row[first + other] = row[first + other], row[first + one]
+        return row
+    return edit
+
+
+def unturned(code, state, arm):
+    """An impact by the numbers of the inertia in body axes, taken for those in world axes."""
+    turn = np.array([rotated(state.attitude, axis) for axis in np.eye(3)]).T
+    own, code.inertia = code.inertia, turn.T @ code.inertia @ turn
+    after = RigidCode.strike_at(code, state, arm)
+    code.inertia = own
+    return after
+
+
 def a_row_late(code, rows):
     """Velocities of the row before."""
     first = 4 if code.is_planar else 8
@@ -222,6 +241,9 @@ FAULTS = {
     "y points up": ("y-up", None, where(False, y_up)),
     "y points up in the body too": ("y-up", None, where(False, lambda r: [r[0], r[1], r[3], -r[2], r[4], r[5], r[7], -r[6], r[8], r[10],
                                                                           -r[9], r[11], r[13], -r[12]])),
+    "y and z exchanged": ("y-up", None, where(False, exchanged(1, 2))),
+    "x and y exchanged": ("exchanged", None, where(False, exchanged(0, 1))),
+    "inertia does not turn": ("inertia-axes", method(strike_at=unturned), None),
     "phi alone clockwise": ("phi-alone", None, times("phi", -1)),
     "velocities a row late": ("velocity-lag", None, a_row_late),
     "one row is off": ("stray-rows", None, lambda code, rows: [[*row[:1], row[1] + 0.1, *row[2:]] if k == len(rows) // 2 else row
@@ -257,7 +279,7 @@ def same_as(name, problem):
         "restitution of the centre alone": {"friction"},  # where the normal impulse has no lever
         "no restitution at the slowest impact": {"restitution"},  # where no other impact is left
         "friction pushes on": {"friction-ratio"},  # where nothing slips before the impact
-        "place and velocity of a corner": {"margin"},  # of a ball's lowest point
+        "place and velocity of a corner": {"margin", "lowest-point"},  # of a ball
     }.get(name, set())
     if not spins(problem) and name == "linear damping 0.1 per second":
         alike.add("damping")

@@ -342,6 +342,18 @@ class ManyFiles(EmptyFolder):
             self.assertIn("bad/box.csv", where)
         self.assertNotIn("good/", printed("benchmark", "score", self.path("good/box.csv")))
 
+    def test_files_of_several_problems_stand_below_a_table_by_problem(self):
+        files = [self.path(f"{folder}/box.csv") for folder in ("good", "bad")]
+        exact = Motion("rod-10", 1)
+        files += [self.write(name, exact.text(rows)) for name, rows in (("right.csv", exact.rows(1 / 500)), ("early.csv", exact.rows(1 / 500)[:100]))]
+        text = printed("benchmark", "score", *files)
+        rows = re.findall(r"^  (\S.*?) {2,}(\d+)  (\w+) +(\w+)(?: +(\S+) in (\d+))?$", text, re.M)
+        self.assertEqual([row[:2] for row in rows], [("box, bad", "1"), ("box, good", "1"), ("rod-10", "2")])
+        self.assertEqual(rows[-1][2:], ("exact", "incomplete", "", ""))
+        self.assertLess(text.index("commonest cause"), text.index("likely cause"))
+        self.assertNotIn("causes in", text)
+        self.assertNotIn("commonest", printed("benchmark", "score", *files[:2]))
+
     def test_what_cannot_be_read_is_listed_below_the_others(self):
         self.write("nan.csv", self.code.text().replace("0.0,", "nan,", 1))
         done = run("benchmark", "score", "good/box.csv", "nan.csv", "none.csv", cwd=self.folder)

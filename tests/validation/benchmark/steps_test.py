@@ -174,7 +174,8 @@ class Space(unittest.TestCase):
                     continue
                 with self.subTest(kind=kind.__name__, problem=problem, gap=gap, cause=cause, factor=factor):
                     causes = causes_of(code.text(lasts=2))
-                    self.assertEqual([one["cause"] for one in causes], [cause, "first-order-step"])
+                    self.assertEqual(causes[0]["cause"], cause)
+                    self.assertLessEqual({one["cause"] for one in causes[1:]}, {"first-order-step"})  # where its mending helps
                     self.assertAlmostEqual(causes[0]["value"] / (factor if cause == "inertia" else getattr(code, name)), 1, delta=1e-3)
 
     def test_two_wrong_numbers_at_once_are_both_named(self):
@@ -246,6 +247,22 @@ class Causes(unittest.TestCase):
                         shares.append(causes[0]["share"])
         self.assertGreater(len(shares), 15)
 
+    def test_a_step_is_named_beside_a_wrong_number_where_its_mending_helps(self):
+        """Alone or beside the number's, by codes that are mended so."""
+        named = []
+        for problem, order, gap, step in itertools.product(("box", "clatter-05"), ("kds", "ksd"), (0, 2), (1 / 120, 1 / 250, 1 / 1000)):
+            codes = [with_numbers(kind(problem, gap, step, order), e=e) for e in (0.9, 1) for kind in (StepCode, ExactFlights)]
+            found, flights, number, both = scored(*(Asked.text(code, code.rows(end=1.3 * code.end()), step=step) for code in codes))
+            first_order = [cause for cause in found["causes"] if cause["cause"] == "first-order-step"]
+            now, flown, numbered, left = (motion_error(one) for one in (found, flights, number, both))
+            close = min(abs(flown / now - 1), abs(left / numbered - 1)) < 0.05  # errors have two digits, rounded up
+            if found["causes"][0]["share"] is None or not all(one["order_right"] for one in (found, flights, number, both)) or close:
+                continue
+            with self.subTest(problem=problem, order=order, gap=gap, step=step):
+                self.assertEqual(bool(first_order), flown < now or left < numbered)
+                named.append(bool(first_order))
+        self.assertEqual(set(named), {False, True})
+
     def test_friction_that_is_added_to_the_normal_impulse_without_it_is_no_other_restitution(self):
         for problem in ("friction-slip", "friction-stick", "friction-slip-stick", "friction-reversal"):
             for gap, step in ((0, 1 / 1000), (1, 1 / 250), (2, 1 / 2000)):
@@ -256,6 +273,12 @@ class Causes(unittest.TestCase):
                     if last == first + 1:  # otherwise friction has made the end come down again, and a step more strikes it
                         self.assertEqual(names[0], "normal-first")
                     self.assertFalse({"restitution", "friction"} & set(names), names)
+
+    def test_a_number_that_explains_some_of_the_impacts_says_of_how_many(self):
+        for count, words in enumerate(("impact 1 alone", "2 of 4 impacts", "3 of 4 impacts", "all 4 impacts"), 1):
+            code = with_numbers(StepCode("box", 1, 1 / 1000), e=0.9)
+            rows = [row for row in code.rows(end=1.3 * code.end()) if row[0] < code.touch + code.truth[count - 1]["t"] + 0.01]
+            self.assertIn(f"e = 0.630 (0.7 is asked) explains {words} ", " ".join(cause["words"] for cause in causes_of(Asked.text(code, rows, step="1/1000"))))
 
     def test_a_step_that_strikes_two_ends_follows_the_law(self):
         found = judged(InOrder("clatter-05", 0, 1 / 60).text(step="1/60"))
