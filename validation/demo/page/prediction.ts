@@ -25,7 +25,8 @@ export class Prediction {
   isWaiting = false;
   private impacts: readonly Impact[] = [];
 
-  constructor(private readonly onAnswered: () => void) {
+  /** @param onAnswered whether the reader wants to be asked again */
+  constructor(private readonly onAnswered: (asksOn: boolean) => void) {
     for (const button of this.buttons) {
       button.addEventListener("click", () => {
         const guess = button.dataset["guess"] as Guess;
@@ -35,7 +36,7 @@ export class Prediction {
         }
         this.guess = guess;
         this.wait(true);
-        this.close();
+        this.close(true);
       });
     }
     this.skip.addEventListener("click", () => {
@@ -45,7 +46,7 @@ export class Prediction {
         this.guess = first.length === 1 ? first[0]! : null;
         this.wait(true);
       }
-      this.close();
+      this.close(this.votes !== null);
     });
   }
 
@@ -73,6 +74,7 @@ export class Prediction {
   open(): void {
     this.card.hidden = false;
     this.question.hidden = false;
+    if (this.votes) this.setVoting(true);
     this.give(null);
     document.body.classList.add("predicting");
   }
@@ -105,10 +107,10 @@ export class Prediction {
     document.body.classList.toggle("watching", waits);
   }
 
-  private close(): void {
+  private close(asksOn: boolean): void {
     this.card.hidden = true;
     document.body.classList.remove("predicting");
-    this.onAnswered();
+    this.onAnswered(asksOn);
   }
 }
 
