@@ -233,10 +233,9 @@ test("each other drop is asked about, until one is only shown", () => onPage("",
   const said = (words) => page.waitForFunction((wanted) => new RegExp(wanted).test(document.getElementById("prediction-reveal").textContent), words);
   await page.click('button[data-guess="softer"]');
   await said("^A surprise: .*1\\.003 N·s");
-  for (const [angle, impulse] of [["5", "1\\.001"], ["0.1", "1"]]) {
+  for (const [angle, impulse] of [["5", "1\\.001"], ["0.1", "1\\.000"]]) {
     await page.fill("#angle", angle);
     assert.deepEqual([await asks(), await page.isVisible("#panel-strip"), await page.textContent("#prediction-reveal")], [true, false, ""]);
-    await page.waitForSelector("#impact-table tbody tr", { state: "attached" });
     await page.click('button[data-guess="harder"]');
     await said(`^You guessed it.*: ${impulse} N·s`);
   }

@@ -97,6 +97,7 @@ class Page {
   });
 
   /** Whether the continuous model is computed, too. */
+  private lacksGround = false;  // and has no continuous model for that reason
   private readonly both = byId<HTMLInputElement>("with-continuous");
   private readonly waiting = new Waiting(() => this.both.click());
 
@@ -128,7 +129,10 @@ class Page {
     this.player.rate = state.rate;
     this.showLayout = setUpLayout(state, () => this.onTime());
     new SceneFile(state, (hasGround) => {
-      if (!hasGround) this.setBoth(false);
+      if (hasGround ? this.lacksGround : this.both.checked) {
+        this.setBoth(hasGround);
+        this.lacksGround = !hasGround;
+      }
       this.player.pause();
       this.controls.refresh();
       this.change();
@@ -141,6 +145,7 @@ class Page {
     setUpLecture((on) => this.prediction.setVoting(on), () => this.onTime());
     this.both.checked = !state.hide.includes("continuous");
     if (lacksGround()) {
+      this.lacksGround = this.both.checked;
       this.setBoth(false);
       say("file-said", `Opened: ${WITHOUT_GROUND}`);
     }
@@ -170,7 +175,7 @@ class Page {
     this.askedOf = key;
     if (asks) {
       this.player.pause();
-      this.prediction.open();
+      this.prediction.open(true);
       this.choose(1);
     }
     this.update();
@@ -239,6 +244,7 @@ class Page {
     this.hasShown = true;
     // The time that is wanted stays, even if it lies beyond what the first model to answer can show.
     this.draw();
+    this.showGuessed();
     writeAddress(this.state);
     // For whoever measures how fast the page answers.
     if (!models.continuous) document.documentElement.dataset["latency"] = (performance.now() - this.asked).toFixed(1);
@@ -387,10 +393,14 @@ class Page {
     byId<HTMLInputElement>("ask-first").checked = this.state.predict;
     this.remember();
     this.onTime();
-    // Who wants no motion is shown the second blow, of which the guess was.
-    if (matchMedia("(prefers-reduced-motion: reduce)").matches && this.prediction.isWaiting) this.goTo(2);
+    this.showGuessed();
     this.playSoon();
     byId("play").focus();
+  }
+
+  /** Who wants no motion is shown the second blow, of which the guess was. */
+  private showGuessed(): void {
+    if (matchMedia("(prefers-reduced-motion: reduce)").matches && this.prediction.isWaiting) this.goTo(2);
   }
 
   private setAngle(angle: number): void {

@@ -24,6 +24,8 @@ export class Prediction {
   /** A guess was made, and the second blow has not been seen yet. */
   isWaiting = false;
   private impacts: readonly Impact[] = [];
+  /** Of the drop before, which the slower model may still tell of. */
+  private past: readonly Impact[] | null = null;
 
   /** @param onAnswered whether the reader wants to be asked again */
   constructor(private readonly onAnswered: (asksOn: boolean) => void) {
@@ -56,6 +58,7 @@ export class Prediction {
 
   /** The impacts of the situation; a guess can come before them, and is void for another situation. */
   setImpacts(impacts: readonly Impact[]): void {
+    if (impacts === this.past) return;
     const isAnother = this.impacts.length > 0 && impacts !== this.impacts;
     this.impacts = impacts;
     if (isAnother) this.give(null);
@@ -71,7 +74,9 @@ export class Prediction {
     this.reveal.textContent = revealed(this.guess, this.impacts) + votes;
   }
 
-  open(): void {
+  /** @param isOther about a drop whose impacts are still to come, before which a guess may be made */
+  open(isOther = false): void {
+    if (isOther && this.impacts.length) [this.past, this.impacts] = [this.impacts, []];
     this.card.hidden = false;
     this.question.hidden = false;
     if (this.votes) this.setVoting(true);
