@@ -32,7 +32,7 @@ std::string text_of(const Value& value) {
   return text;
 }
 
-/// A file without a ground, like flags without one, is a drop of the discrete model; the page then has its own ground.
+/// A file without a ground, like flags without one, is a drop of the discrete model, which the page then shows alone.
 Scene scene_of(const SceneFlags& given) {
   const SceneValues values = scene_values(given.source);
   const bool has_ground = names_ground(given);

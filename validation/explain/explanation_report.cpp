@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include "analytic/base/angle.hpp"
@@ -35,6 +36,34 @@ Step missing_impact(const Run& run, int n) {
   step.equations.push_back(
       {.quantity = number("Δh", miss.margin, "m"), .words = {"margin, the rounding error of that height"}});
   return step;
+}
+
+bool strikes_with_one_point(const analytic::ImpactRow& row) { return std::popcount(row.vertices) == 1; }
+bool strikes_with_one_point(const analytic::space::ImpactRow& row) { return !row.group; }
+
+/// None where a number is not known.
+std::optional<Factors> factors(const Impact& now, const Impact& last) {
+  const auto ratio = [&](const auto& of) { return of(now.value) / of(last.value); };
+  const auto speed = [](const Numbers& x) { return x.approach_speed; };
+  const auto rebound = [](const Numbers& x) { return 1 + x.restitution; };
+  const auto impulse = [](const Numbers& x) { return x.impulse[2]; };
+  const Factors found{.normal_impulse = ratio(impulse),
+                      .approach_speed = ratio(speed),
+                      .effective_mass = ratio(impulse) / (ratio(speed) * ratio(rebound)),
+                      .one_plus_restitution = ratio(rebound)};
+  const bool is_known = now.predictable && std::isfinite(found.effective_mass) && found.effective_mass > 0;
+  return is_known ? std::optional(found) : std::nullopt;
+}
+
+Step beside_last(const Factors& factors, int n) {
+  const auto times = [](double factor) { return "×" + significant(factor, 3); };
+  const std::string rebound = times(factors.one_plus_restitution);
+  return {
+      fmt::format("Beside impact {}", n - 1),
+      {fmt::format("Normal impulse {}: approach speed {}, effective mass that the contact feels {}{}. The effective "
+                   "mass is the normal impulse over the change of the contact's normal velocity.",
+                   times(factors.normal_impulse), times(factors.approach_speed), times(factors.effective_mass),
+                   rebound == times(1) ? "" : ", 1 + e " + rebound)}};
 }
 
 /// An equation in its parts; numbers are left out where they would only repeat the value.
@@ -208,10 +237,18 @@ Explanation explain_impact(const PreparedScene& prepared, int n) {
     const Run run = run_of(sequence);
     const bool has_impact = static_cast<std::size_t>(n) <= sequence.rows.size();
     const bool falls_short = scene.require_digits || !has_impact;
+    std::vector<Step> steps = has_impact ? impact_steps(scene, drop, sequence, n) : std::vector{missing_impact(run, n)};
+    std::optional<Factors> beside;
+    const auto at = static_cast<std::size_t>(n - 1);
+    if (has_impact && n > 1 && strikes_with_one_point(sequence.rows[at]) &&
+        strikes_with_one_point(sequence.rows[at - 1]))
+      beside = factors(run.impacts[at], run.impacts[at - 1]);
+    if (beside) steps.push_back(beside_last(*beside, n));
     return {.scene = scene,
             .impact = n,
             .approach_speed = first_approach_speed(prepared.drop),
-            .steps = has_impact ? impact_steps(scene, drop, sequence, n) : std::vector<Step>{missing_impact(run, n)},
+            .steps = std::move(steps),
+            .beside_last = beside,
             .warnings = sequence.warnings,
             .shortfall = falls_short ? shortfall(scene, run) : "",
             .shortfall_status = shortfall_status(run)};
@@ -367,6 +404,13 @@ Report explanation_report(const Explanation& explanation) {
                                explanation.scene, Model::discrete, explanation.approach_speed);
   report.fields["impact"] = explanation.impact;
   report.fields["shortfall"] = text_or_nothing(explanation.shortfall);
+  const std::optional<Factors>& beside = explanation.beside_last;
+  report.fields["beside_last"] = !beside ? Value()
+                                         : Value::Fields{{"impact", explanation.impact - 1},
+                                                         {"normal_impulse", beside->normal_impulse},
+                                                         {"approach_speed", beside->approach_speed},
+                                                         {"effective_mass", beside->effective_mass},
+                                                         {"one_plus_restitution", beside->one_plus_restitution}};
   report.fields["steps"] = steps_value(explanation);
   report.grid.columns = explain_columns();
   const FormulaWriter writer(Notation::text, explanation.scene.accuracy.digits);

@@ -2,6 +2,7 @@
 // What `clatter explain` says: an explanation as text, Markdown, LaTeX, CSV and JSON, each written from its structure.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,12 +15,21 @@ namespace clatter::validation {
 
 // How an impact came about: from a scene, its drop and the impact's number to steps of formulas with their numbers.
 
+/// The factors by which impact n differs from the one before, of P_n = m_e (1 + e) u.
+struct Factors {
+  double normal_impulse = 0;        ///< of P_n
+  double approach_speed = 0;        ///< of u, the contact's normal velocity before
+  double effective_mass = 0;        ///< of m_e, P_n over the change of that velocity
+  double one_plus_restitution = 0;  ///< of 1 + e, e: separation over approach
+};
+
 /// How impact n of a scene came about, in the plane or in space.
 struct Explanation {
   Scene scene;
   int impact = 1;
   double approach_speed = 0;  ///< of the first contact [m/s]
   std::vector<Step> steps;
+  std::optional<Factors> beside_last{};  ///< where impact n and the one before strike with one point each
   std::vector<std::string> warnings;
   std::string shortfall;     ///< as of the sequence up to this impact
   int shortfall_status = 0;  ///< exit status that goes with it

@@ -122,8 +122,12 @@ const Argument* find_option(const Command& command, const std::string& name) {
                    command.name);
   if (name == "--probe" || name == "--part")
     throw BadInput("{}: is for shock, sweep and report; leave it out of {}", name, command.name);
+  const std::vector<std::string> known = command.option_names();
+  static const std::set<std::string> heights{"--drop", "--from", "--fall", "--drop-height", "--fall-height"};
+  const bool is_height = heights.contains(name) && std::ranges::count(known, "--clearance") > 0;
   throw BadInput("option {}: unknown{}{}", name, command.name.empty() ? "" : " for " + command.name,
-                 suggestion(name, command.option_names()));
+                 is_height ? "; did you mean --clearance, of the lowest point, or --height, of the centre of mass?"
+                           : suggestion(name, known));
 }
 
 /// Takes one command's arguments apart.

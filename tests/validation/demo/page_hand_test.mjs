@@ -222,9 +222,33 @@ test("in a lecture the picture is large, a class votes by hands, and the most ar
   await page.waitForFunction(() => !document.body.classList.contains("lecture"));
 }));
 
-test("a class that is divided is judged by neither answer, whoever began, and a pupils' page has no answers", () => onPage("#hide=answers", async (page) => {
+test("a pupils' page has the exercises, and no sheet or lecture that holds their answers", () => onPage("#hide=answers", async (page) => {
   await page.waitForSelector("#prediction:not([hidden])");
-  assert.deepEqual([await page.isVisible("#answers-print"), await page.isVisible("#exercises-print")], [false, true]);
+  const shown = await Promise.all(["exercises-print", "answers-print", "lesson-print", "lecture"].map((id) => page.isVisible(`#${id}`)));
+  assert.deepEqual(shown, [true, false, false, false]);
+}));
+
+test("each other drop is asked about, until one is only shown", () => onPage("", async (page) => {
+  const asks = () => page.isVisible("#prediction");
+  const said = (words) => page.waitForFunction((wanted) => new RegExp(wanted).test(document.getElementById("prediction-reveal").textContent), words);
+  await page.click('button[data-guess="softer"]');
+  await said("^A surprise: .*1\\.003 N·s");
+  for (const [angle, impulse] of [["5", "1\\.001"], ["0.1", "1\\.000"]]) {
+    await page.fill("#angle", angle);
+    assert.deepEqual([await asks(), await page.isVisible("#panel-strip"), await page.textContent("#prediction-reveal")], [true, false, ""]);
+    await page.click('button[data-guess="harder"]');
+    await said(`^You guessed it.*: ${impulse} N·s`);
+  }
+  await page.fill("#stiffness", "1e9");  // the same drop
+  assert.equal(await asks(), false);
+  await page.fill("#gravity", "9.81");
+  await page.click("#prediction-skip");
+  await page.fill("#angle", "20");
+  assert.deepEqual([await asks(), await page.isChecked("#ask-first")], [false, false]);
+}));
+
+test("a class that is divided is judged by neither answer, whoever began", () => onPage("", async (page) => {
+  await page.waitForSelector("#prediction:not([hidden])");
   await page.click("#lecture");
   for (const guess of ["harder", "softer"]) await page.click(`button[data-guess="${guess}"]`);
   await page.click("#prediction-skip");

@@ -59,6 +59,17 @@ onOnePage("the page as one finds it", "", {
   },
 });
 
+test("what the answers say of friction is the program's and a formula's", () => onPage("#predict=0&hide=explain,map", async (page) => {
+  const answer = (await page.locator("#answers li").allTextContents()).at(-1);
+  const [sine, cosine] = [Math.sin(Math.PI / 18), Math.cos(Math.PI / 18)];
+  const least = (3 * sine * cosine) / (1 + 3 * sine ** 2);
+  has(answer, least, 2);
+  const first = (friction) => sequence("--angle", "10", "--friction", String(friction)).impacts[0].impulse_normal;
+  assert.ok(first(0.99 * least) < first(1.01 * least));
+  assert.equal(first(1.01 * least), first(1));
+  for (const friction of [0, 1]) has(answer, first(friction), 3);
+}));
+
 /** Scrolls a step to where the story takes it up, and waits for its drop. */
 async function scrollTo(page, step, angle) {
   await page.locator(`#story-${step}`).evaluate((one) => one.scrollIntoView({ block: "end" }));

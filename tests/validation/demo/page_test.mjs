@@ -163,6 +163,11 @@ test("rows of a drop in the plane are simulate's: which end strikes, velocity an
 test("beside the continuous model's numbers stands its ground, and whether the page chose it", () => onPage(
   "#predict=0&hide=map,explain&given=1&angle=10&gravity=9.81&restitution=0.8&body=rod&radius=0", async (page) => {
     const notes = () => page.locator(".ground-note:visible").allTextContents();
+    // simulate refuses a scene without a ground.
+    await page.waitForSelector('tr[data-model="discrete"]');
+    assert.deepEqual([await page.isChecked("#with-continuous"), await notes()], [false, []]);
+    assert.match(await page.textContent("#file-said"), /names no ground/);
+    await page.check("#with-continuous");
     await page.waitForSelector('tr[data-model="continuous"]');
     const all = await notes();
     assert.equal(all.length, 3);
@@ -231,8 +236,9 @@ test("a link that is copied has the scene alone: who opens it is asked before th
   assert.deepEqual(["angle", "hide", "impact", "t", "predict"].map((name) => said.get(name)), ["15.5", "map,explain", null, null, null]);
 }));
 
-test("a name in hide= or lock= that means nothing is said", async () => {
-  for (const [fragment, words] of [["hide=map,situation", /^hide=situation: must be one of story, .*, continuous$/], ["lock=angel,scene", /^lock=angel: must be a quantity/]]) {
+test("a name or value of a link that means nothing is said, and a height without gravity has that of the program", async () => {
+  for (const [fragment, words] of [["clearance=0,5&angel=10", /^clearance=0,5: a decimal comma is refused, write 0.5; angel=10: unknown; allowed are body, .*angle/],
+    ["e=half&tab=forces", /^e=half: must be a number; tab=forces: must be one of story, /], ["hide=map,situation", /^hide=situation: must be one of story, .*, continuous$/], ["lock=angel,scene", /^lock=angel: must be a quantity/]]) {
     await onPage(`#predict=0&${fragment}`, async (page) => {
       await page.waitForSelector("#error:visible");
       assert.match(await page.textContent("#error"), words);
@@ -244,11 +250,34 @@ test("a name in hide= or lock= that means nothing is said", async () => {
   });
 });
 
+test("gravity is 9.81 where a height is given, and a drop that is refused is not asked about", async () => {
+  const { impacts: [first] } = sequence("--angle", "10", "--clearance", "0.5");
+  await onPage("#clearance=0.5", async (page) => {
+    await waitForCell(page, "Impulse", 0, first.impulse_normal);
+    assert.deepEqual([await page.inputValue("#gravity"), await page.isVisible("#prediction")], ["9.81", true]);
+    await page.fill("#gravity", "0");
+    await page.waitForFunction(() => document.body.classList.contains("refused"));
+    assert.equal(await page.isVisible("#prediction"), false);
+  });
+});
+
+test("the equations stay with the impact that was chosen while another one is played", () => onPage("#predict=0&impact=2&rate=2&hide=map", async (page) => {
+  await page.waitForSelector("#impact-table tbody tr");
+  await page.click("#play");
+  await page.waitForFunction(() => /^Impact 3/.test(document.getElementById("caption").textContent));
+  assert.equal(await page.textContent("#explain-title"), "How impact 2 came about");
+  await page.click('#impact-table tr[data-model="discrete"] td');
+  await page.waitForFunction(() => document.getElementById("explain-title").textContent === "How impact 1 came about");
+}));
+
 test("without the continuous model the discrete one is alone, in a link, too", () => onPage("#predict=0&hide=map,explain,continuous", async (page) => {
   await page.waitForSelector('tr[data-model="discrete"]');
-  assert.deepEqual([await page.textContent("#spinner"), await page.isVisible("#motion .legend")], ["", false]);
+  const itsOwn = ["#motion .legend", '[data-layout="side"]', '#tabs [data-tab="force"]', "#panel-force", "#stiffness", ".ground-note"];
+  const visible = () => Promise.all(itsOwn.map((part) => page.locator(part).first().isVisible()));
+  assert.deepEqual([await page.textContent("#spinner"), await visible()], ["", itsOwn.map(() => false)]);
   await page.check("#with-continuous");
   await page.waitForSelector('tr[data-model="continuous"]');
+  assert.deepEqual(await visible(), itsOwn.map(() => true));
   await page.uncheck("#with-continuous");
   await page.waitForFunction(() => !document.querySelector('tr[data-model="continuous"]') && location.hash.includes("continuous"));
 }));

@@ -23,6 +23,23 @@ class Explained(SpaceFolder):
     def rows(self, n, *arguments):
         return self.json_of("sequence", *arguments, "--impacts", str(n))["impacts"]
 
+    def test_an_impact_is_compared_with_the_one_before_by_the_factors_of_its_impulse(self):
+        # A thin rod's point of contact feels the mass m/(1 + 3 cos²θ).
+        for given in (["--angle", "10"], ["--angle", "20", "--gravity", "9.81", "--restitution", "0.7"]):
+            rows = self.rows(3, *given)
+            self.assertIsNone(self.json_of("explain", "1", *given)["beside_last"])
+            for n in (2, 3):
+                last, now = rows[n - 2], rows[n - 1]
+                said = self.json_of("explain", str(n), *given)["beside_last"]
+                felt = [1 / (1 + 3 * math.cos(math.radians(row["contact_angle_deg"])) ** 2) for row in (last, now)]
+                expected = {"impact": n - 1, "normal_impulse": now["impulse_normal"] / last["impulse_normal"], "effective_mass": felt[1] / felt[0],
+                            "approach_speed": now["approach_speed"] / last["approach_speed"], "one_plus_restitution": 1}
+                for name, value in expected.items():
+                    self.assertAlmostEqual(said[name], value, delta=1e-12 * value, msg=(given, n, name))
+                self.assertAlmostEqual(said["approach_speed"] * said["effective_mass"], said["normal_impulse"], delta=1e-12)
+        # A face that lands as a whole has no one point whose speed and mass could be compared.
+        self.assertIsNone(self.json_of("explain", "2", *PHONE, "--angle", "0", "--gravity", "9.81")["beside_last"])
+
     def test_the_torque_free_rotation_is_told_by_its_invariants_its_modulus_and_its_period(self):
         for given in ([], ["--centre", words(CENTRE), "--inertia", words(INERTIA)], ["--restitution", "0.5", "--friction", "0.8", "--gravity", "9.81"]):
             steps = self.values_of(2, *CORNER, *given)

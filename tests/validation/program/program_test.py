@@ -44,6 +44,8 @@ REFUSED = {
     # What to type in its place.
     "sequence --angle 10 --gravity-number 0.1": "takes --gravity in m/s^2, the number times v_n^2/L", "angles --height 1": "--gravity G --speed V",
     "sweep --angle 10": "as in clatter sweep rod-10 --set drop.angle_deg=...", "map --speed 2": "as in clatter map rod-10 --set drop.speed=...",
+    **{f"{command} --angle 10 --{name} 1": "did you mean --clearance, of the lowest point, or --height" for command, name in (
+        ("sequence", "drop"), ("sequence", "from"), ("explain 2", "drop-height"), ("simulate", "fall"))},
     "sequence phone-elastic --planar": "is the simulator's", "compare --angle 10": "such as 1e11", "angles --angle 10": "--from, --to and --step",
 }
 # The third flight is too long for the phase of so fast a rotation to keep a digit.

@@ -42,7 +42,7 @@ export const BODIES: Readonly<Record<BodyName, { title: string; size: Size }>> =
   tube: { title: "Tube with lids, 30 cm", size: { shape: "rod", mass: 0.1934, length: 0.3, radius: 0.02, width: 0, thickness: 0, look: "tube", isHollow: true } },
   die: { title: "Die, 16 mm", size: { shape: "box", mass: 0.00483, length: 0.016, radius: 0, width: 0.016, thickness: 0.016, look: "die" } },
   plate: { title: "Steel plate, 20 cm", size: { shape: "box", mass: 0.942, length: 0.2, radius: 0, width: 0.2, thickness: 0.003 } },
-  "own-rod": { title: "Rod of your own", size: { shape: "rod", mass: 1, length: 1, radius: 0.02, width: 0, thickness: 0 } },
+  "own-rod": { title: "Rod of your own", size: { shape: "rod", mass: 1, length: 1, radius: 0, width: 0, thickness: 0 } },
   "own-box": { title: "Box of your own", size: { shape: "box", mass: 0.2, length: 0.15, radius: 0, width: 0.07, thickness: 0.01 } },
 };
 

@@ -9,6 +9,7 @@ import {
   type Parameters, type Quantity,
 } from "./parameters";
 import { normalised, product, turnAbout, type Rotation } from "./rotation";
+import { usualGravity } from "./requests";
 import { assignUnlocked, type State } from "./state";
 
 interface Row {
@@ -169,7 +170,7 @@ export class Controls {
     if (drop === "velocity") Object.assign(parameters, { vx: 0, vy: 0, vz: -firstSpeed(parameters) });
     parameters.drop = drop;
     // Nothing falls from a height without gravity.
-    if ((drop === "height" || drop === "clearance") && parameters.gravity === 0) parameters.gravity = 9.81;
+    parameters.gravity ||= usualGravity(parameters);
     this.change();
   }
 

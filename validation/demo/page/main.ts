@@ -19,12 +19,12 @@ import { firstSpeed, isInPlane, isThinRod, restitutionOf } from "./parameters";
 import { showPatch } from "./patch";
 import { Player, TimeWarp, Transport } from "./playback";
 import { Prediction } from "./prediction";
-import { explainRequest, gravityNumber } from "./requests";
-import { SceneFile, download, setUpSharing } from "./sharing";
+import { explainRequest, gravityNumber, keyOf, sequenceRequest } from "./requests";
+import { SceneFile, WITHOUT_GROUND, download, setUpSharing } from "./sharing";
 import { Strip } from "./sketch";
 import { Sound } from "./sound";
 import { Stage } from "./stage";
-import { readAddress, unknownNames, usualLayout, writeAddress, type State } from "./state";
+import { lacksGround, readAddress, usualLayout, wrongInAddress, writeAddress, type State } from "./state";
 import { Story } from "./story";
 import { ImpactTable, csvOf } from "./table";
 import { setUpTracks } from "./tracks";
@@ -36,6 +36,11 @@ const PLAY_DELAY = 350;
 
 const isChecked = (id: string): boolean => byId<HTMLInputElement>(id).checked;
 
+/** What decides about the blows, however many of them are asked for. */
+function dropOf({ parameters }: State): string {
+  return keyOf(sequenceRequest({ ...parameters, impacts: 1 }));
+}
+
 class Page {
   private readonly state: State = readAddress();
   private scales: Scales = scalesOf({ discrete: null, continuous: null });
@@ -45,6 +50,10 @@ class Page {
   /** Whether the time is that of the chosen impact, or one that was sought. */
   private followsImpact = false;
   private playTimer = 0;
+  /** The impact that the reader chose, whose equations stand there while another one is played. */
+  private explained = this.state.impact;
+  /** The drop that the question was last about. */
+  private askedOf = dropOf(this.state);
   private isBroken = false;
 
   private readonly stage = new Stage();
@@ -60,8 +69,8 @@ class Page {
   private playedTo = -Infinity;
   private readonly map = new AngleMap((angle) => this.setAngle(angle));
   private readonly player = new Player(new TimeWarp(0, 1), (_time, ended) => this.onTime(ended));
-  private readonly controls = new Controls(this.state, () => this.update(), () => this.playSoon());
-  private readonly prediction = new Prediction(() => this.onPredicted());
+  private readonly controls = new Controls(this.state, () => this.change(), () => this.playSoon());
+  private readonly prediction = new Prediction((asksOn) => this.onPredicted(asksOn));
   private readonly transport = new Transport(this.state, {
     toggle: () => this.toggle(),
     step: (direction) => this.goTo(this.state.impact + direction, direction),
@@ -82,12 +91,13 @@ class Page {
     onDrop: () => {
       this.controls.refresh();
       this.followsImpact = false;
-      this.update();
+      this.change();
       this.playSoon(0);
     },
   });
 
   /** Whether the continuous model is computed, too. */
+  private lacksGround = false;  // and has no continuous model for that reason
   private readonly both = byId<HTMLInputElement>("with-continuous");
   private readonly waiting = new Waiting(() => this.both.click());
 
@@ -108,7 +118,7 @@ class Page {
   });
 
   private readonly models = new Models(
-    () => this.onAnswer(), (model, error) => this.controls.setError(model, error), (busy) => this.waiting.show(busy));
+    () => this.onAnswer(), (model, error) => this.onError(model, error), (busy) => this.waiting.show(busy));
   private readonly explaining = new Latest<ExplainAnswer, null>(
     EXPLAIN_DELAY, showExplanation, ({ message }) => byId("explain-steps").replaceChildren(make("p", { class: "quiet" }, message)));
 
@@ -118,7 +128,15 @@ class Page {
     setUpOpening();
     this.player.rate = state.rate;
     this.showLayout = setUpLayout(state, () => this.onTime());
-    new SceneFile(state, () => this.showAnew());
+    new SceneFile(state, (hasGround) => {
+      if (hasGround ? this.lacksGround : this.both.checked) {
+        this.setBoth(hasGround);
+        this.lacksGround = !hasGround;
+      }
+      this.player.pause();
+      this.controls.refresh();
+      this.change();
+    });
     setUpSharing(state, (asks) => { if (asks) this.prediction.open(); });
     byId("csv").addEventListener("click", () => download("impacts.csv", csvOf(this.models.impacts), "text/csv"));
     if (state.predict) this.prediction.open();
@@ -126,17 +144,45 @@ class Page {
     setUpPrinting(() => [state.impact, this.player.time], (n, time) => this.put(n, time));
     setUpLecture((on) => this.prediction.setVoting(on), () => this.onTime());
     this.both.checked = !state.hide.includes("continuous");
+    if (lacksGround()) {
+      this.lacksGround = this.both.checked;
+      this.setBoth(false);
+      say("file-said", `Opened: ${WITHOUT_GROUND}`);
+    }
     this.both.addEventListener("change", () => {
-      state.hide = [...state.hide.filter((name) => name !== "continuous"), ...(this.both.checked ? [] : ["continuous"])];
+      this.setBoth(this.both.checked);
       this.update();
     });
-    const unknown = unknownNames(state);
-    if (unknown) this.controls.setError("address", new ApiError(unknown));
+    const wrong = wrongInAddress(state);
+    if (wrong) this.controls.setError("address", new ApiError(wrong));
     // Another link to this page, opened where it stands.
     addEventListener("hashchange", () => location.reload());
     this.controls.refresh();
     this.update();
     this.draw();
+  }
+
+  private setBoth(both: boolean): void {
+    this.both.checked = both;
+    if (both && !this.state.lock.includes("layout")) this.state.layout = usualLayout(this.state.parameters);
+    this.state.hide = [...this.state.hide.filter((name) => name !== "continuous"), ...(both ? [] : ["continuous"])];
+  }
+
+  /** Whoever guesses is asked again for each other drop, until "Just show me". */
+  private change(): void {
+    const key = dropOf(this.state);
+    const asks = this.state.predict && key !== this.askedOf;
+    this.askedOf = key;
+    if (asks) {
+      this.player.pause();
+      this.prediction.open(true);
+      this.choose(1);
+    }
+    this.update();
+    if (!asks) return;
+    // The picture is the drop's beginning.
+    this.followsImpact = false;
+    this.state.time = -Infinity;
   }
 
   private update(): void {
@@ -148,8 +194,12 @@ class Page {
     this.showLayout();
     this.asked = performance.now();
     this.followsImpact = this.hasShown;
-    document.body.classList.toggle("discrete-only", !this.both.checked);
-    this.models.ask(parameters, this.both.checked);
+    const both = this.both.checked;
+    document.body.classList.toggle("discrete-only", !both);
+    byId("of-ground").classList.toggle("serves-both", parameters.ofGround);
+    this.tabs.setUsable("force", both);
+    if (!both) this.state.layout = "overlay";
+    this.models.ask(parameters, both);
     this.fan.update();
     const speed = firstSpeed(parameters);
     const hasMap = isThinRod(parameters) && speed > 0;
@@ -163,8 +213,15 @@ class Page {
   /** Another situation as a whole, from a file or the story. */
   private showAnew(): void {
     this.player.pause();
+    this.explained = this.state.impact;
     this.controls.refresh();
     this.update();
+  }
+
+  private onError(model: ModelName, error: ApiError | null): void {
+    this.controls.setError(model, error);
+    // Of a drop that is refused there is nothing to guess.
+    if (model === "discrete") document.body.classList.toggle("refused", error !== null);
   }
 
   private onAnswer(): void {
@@ -187,6 +244,7 @@ class Page {
     this.hasShown = true;
     // The time that is wanted stays, even if it lies beyond what the first model to answer can show.
     this.draw();
+    this.showGuessed();
     writeAddress(this.state);
     // For whoever measures how fast the page answers.
     if (!models.continuous) document.documentElement.dataset["latency"] = (performance.now() - this.asked).toFixed(1);
@@ -203,7 +261,7 @@ class Page {
 
   private onTime(ended = false): void {
     const impact = impactAt(this.models.steps, this.player.time);
-    if (impact && impact.n !== this.state.impact && this.player.playing) this.choose(impact.n);
+    if (impact && impact.n !== this.state.impact && this.player.playing) this.choose(impact.n, this.explained);
     const { time, playing } = this.player;
     if (playing && time > this.playedTo) this.sound.pass(this.models.steps, this.playedTo, time);
     // What was passed by while the picture stood is not heard afterwards.
@@ -253,8 +311,9 @@ class Page {
     say("caption", impact && tells ? impactInWords(this.models.steps, impact.n) : "Falling");
   }
 
-  private choose(n: number): void {
+  private choose(n: number, explained = n): void {
     this.state.impact = n;
+    this.explained = explained;
     this.table.choose(n);
     this.strip.choose(n);
     this.showChosen();
@@ -329,20 +388,25 @@ class Page {
     this.player.play();
   }
 
-  private onPredicted(): void {
-    this.state.predict = false;
-    byId<HTMLInputElement>("ask-first").checked = false;
+  private onPredicted(asksOn: boolean): void {
+    this.state.predict &&= asksOn;
+    byId<HTMLInputElement>("ask-first").checked = this.state.predict;
     this.remember();
     this.onTime();
-    // Who wants no motion is shown the second blow, of which the guess was.
-    if (matchMedia("(prefers-reduced-motion: reduce)").matches && this.prediction.isWaiting) this.goTo(2);
+    this.showGuessed();
     this.playSoon();
     byId("play").focus();
+  }
+
+  /** Who wants no motion is shown the second blow, of which the guess was. */
+  private showGuessed(): void {
+    if (matchMedia("(prefers-reduced-motion: reduce)").matches && this.prediction.isWaiting) this.goTo(2);
   }
 
   private setAngle(angle: number): void {
     if (this.state.lock.includes("angle")) return;
     this.state.parameters.angle = angle;
+    this.askedOf = dropOf(this.state);  // the map tells what would be asked
     this.controls.refresh();
     this.update();
     this.playSoon();
@@ -353,8 +417,8 @@ class Page {
     this.force.show(continuous, motions.discrete, impact);
     showProfile(motions.discrete, impact);
     if (this.state.hide.includes("explain") || !this.models.discrete) return;
-    byId("explain-title").textContent = `How impact ${impact} came about`;
-    this.explaining.ask(explainRequest(this.state.parameters, impact), null);
+    byId("explain-title").textContent = `How impact ${this.explained} came about`;
+    this.explaining.ask(explainRequest(this.state.parameters, this.explained), null);
   }
 
   private remember(): void {

@@ -5,7 +5,7 @@ import { PANELS, type State } from "./state";
 
 export function hidePanels({ hide }: State): void {
   for (const panel of [...PANELS, "controls"]) byId(panel === "story" ? "story" : `panel-${panel}`).hidden = hide.includes(panel);
-  byId("answers-print").hidden = hide.includes("answers");
+  for (const id of ["answers-print", "lesson-print", "lecture"]) byId(id).hidden = hide.includes("answers");
   document.body.classList.toggle("no-controls", hide.includes("controls"));
 }
 

@@ -24,8 +24,11 @@ export class Prediction {
   /** A guess was made, and the second blow has not been seen yet. */
   isWaiting = false;
   private impacts: readonly Impact[] = [];
+  /** Of the drop before, which the slower model may still tell of. */
+  private past: readonly Impact[] | null = null;
 
-  constructor(private readonly onAnswered: () => void) {
+  /** @param onAnswered whether the reader wants to be asked again */
+  constructor(private readonly onAnswered: (asksOn: boolean) => void) {
     for (const button of this.buttons) {
       button.addEventListener("click", () => {
         const guess = button.dataset["guess"] as Guess;
@@ -35,7 +38,7 @@ export class Prediction {
         }
         this.guess = guess;
         this.wait(true);
-        this.close();
+        this.close(true);
       });
     }
     this.skip.addEventListener("click", () => {
@@ -45,7 +48,7 @@ export class Prediction {
         this.guess = first.length === 1 ? first[0]! : null;
         this.wait(true);
       }
-      this.close();
+      this.close(this.votes !== null);
     });
   }
 
@@ -55,6 +58,7 @@ export class Prediction {
 
   /** The impacts of the situation; a guess can come before them, and is void for another situation. */
   setImpacts(impacts: readonly Impact[]): void {
+    if (impacts === this.past) return;
     const isAnother = this.impacts.length > 0 && impacts !== this.impacts;
     this.impacts = impacts;
     if (isAnother) this.give(null);
@@ -70,9 +74,12 @@ export class Prediction {
     this.reveal.textContent = revealed(this.guess, this.impacts) + votes;
   }
 
-  open(): void {
+  /** @param isOther about a drop whose impacts are still to come, before which a guess may be made */
+  open(isOther = false): void {
+    if (isOther && this.impacts.length) [this.past, this.impacts] = [this.impacts, []];
     this.card.hidden = false;
     this.question.hidden = false;
+    if (this.votes) this.setVoting(true);
     this.give(null);
     document.body.classList.add("predicting");
   }
@@ -105,10 +112,10 @@ export class Prediction {
     document.body.classList.toggle("watching", waits);
   }
 
-  private close(): void {
+  private close(asksOn: boolean): void {
     this.card.hidden = true;
     document.body.classList.remove("predicting");
-    this.onAnswered();
+    this.onAnswered(asksOn);
   }
 }
 

@@ -127,6 +127,16 @@ class Given extends Map<string, string> {
   }
 }
 
+/** Without one of these `clatter simulate` refuses a scene, and the page draws the discrete model alone. */
+export function namesGround(names: Iterable<string>): boolean {
+  return [...names].some((name) => ["stiffness", "modulus", "floor", "curve"].includes(name));
+}
+
+/** The program's, where none is given. */
+export function usualGravity({ drop }: Parameters): number {
+  return drop === "height" || drop === "clearance" ? 9.81 : 0;
+}
+
 /** Without a ground in the scene the page keeps its own, whose damping follows from the restitution. */
 export function parametersOf(given: SceneArguments): Parameters {
   const parameters: Parameters = { ...DEFAULT_PARAMETERS };
@@ -137,7 +147,7 @@ export function parametersOf(given: SceneArguments): Parameters {
   left.list("size", parameters, ["length", "width", "thickness"]);
   takeAttitude(left, parameters);
   takeMotion(left, parameters);
-  parameters.gravity = left.number("gravity", 0);
+  parameters.gravity = left.number("gravity", usualGravity(parameters));
   parameters.impacts = left.number("impacts", DEFAULT_PARAMETERS.impacts);
   const restitutionLaw = left.take("restitution_law");
   parameters.ofGround = restitutionLaw === "viscoelastic";

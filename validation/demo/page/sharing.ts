@@ -3,7 +3,7 @@
 import { ApiError, ask } from "./api";
 import { byId, make } from "./dom";
 import type { Parameters } from "./parameters";
-import { fileRequest, parametersOf, type SceneArguments } from "./requests";
+import { fileRequest, namesGround, parametersOf, type SceneArguments } from "./requests";
 import { addressOf, assignUnlocked, type State } from "./state";
 
 /** The page as it came, before anything on it was changed, and without the script that it unpacked, which would run beside that of its copy. */
@@ -55,6 +55,8 @@ async function copyText(text: string): Promise<boolean> {
   }
 }
 
+export const WITHOUT_GROUND = "the scene names no ground, without which the continuous model does not run (clatter simulate refuses it); its tick takes a ground that the page chooses";
+
 const FILE_NAME = "scene.toml";
 
 export class SceneFile {
@@ -63,7 +65,7 @@ export class SceneFile {
   /** Of several that are opened in a row the last one counts. */
   private opened = 0;
 
-  constructor(private readonly state: State, private readonly onOpen: () => void) {
+  constructor(private readonly state: State, private readonly onOpen: (hasGround: boolean) => void) {
     const locked = state.lock.includes("scene") || state.lock.includes("file");
     const input = byId<HTMLInputElement>("scene-file");
     input.disabled = locked;
@@ -108,9 +110,10 @@ export class SceneFile {
       const answer = await ask<{ arguments: SceneArguments; notes: string[] }>({ path: "scene", body: { name, text } });
       if (turn !== this.opened) return "";
       const kept = assignUnlocked(this.state, parametersOf(answer.arguments));
-      this.onOpen();
+      const hasGround = namesGround(Object.keys(answer.arguments));
+      this.onOpen(hasGround);
       const locked = kept.length ? [`locked, and kept: ${kept.join(", ")}`] : [];
-      return [`Opened ${name}`, ...answer.notes, ...locked].join("; ");
+      return [`Opened ${name}`, ...answer.notes, ...(hasGround ? [] : [WITHOUT_GROUND]), ...locked].join("; ");
     });
   }
 

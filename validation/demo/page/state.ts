@@ -5,20 +5,52 @@ import { BODIES, type BodyName } from "./body";
 import {
   DEFAULT_PARAMETERS, DROPS, QUANTITIES, TURNS, isInPlane, isUsed, setBody, type Choices, type Parameters, type Quantity,
 } from "./parameters";
-import { numberOf, parametersOf } from "./requests";
+import { namesGround, numberOf, parametersOf, usualGravity } from "./requests";
 
 export const PANELS = ["story", "strip", "numbers", "profile", "table", "fan", "force", "energy", "map", "race", "measured", "explain"] as const;
+
+export const RATES = [0.25, 0.5, 1, 2] as const;
+const TREMORS = [0.1, 0.5, 1, 2] as const;
 
 /** What an address may hide, and lock beside each quantity and choice of the situation. */
 const HIDDEN: readonly string[] = [...PANELS, "controls", "answers", "continuous"];
 const LOCKED: readonly string[] = ["scene", "file", "story", "sound", "layout", "rate", "slow", "predict"];
 
-/** Names in an address that mean nothing, in words; null if there is none. */
-export function unknownNames({ hide, lock }: State): string | null {
+/** Words that mean something in an address, and numbers. */
+const WORDS: Readonly<Record<string, readonly (string | number)[]>> = {
+  body: Object.keys(BODIES), turn: TURNS, drop: DROPS, planar: [0, 1], law: ["ground"], layout: ["overlay", "side"], rate: RATES, slow: [0, 1],
+  predict: [0, 1], tremor: TREMORS, fan: [0, 1], tab: [...PANELS, "all"], given: [1],
+};
+const NUMBERS: readonly string[] = [...QUANTITIES, "impact", "t"];
+
+const UNKNOWN = `unknown; allowed are ${[...Object.keys(WORDS), ...NUMBERS, "hide", "lock"].join(", ")}`;
+
+function refused(name: string, text: string, given: boolean): string | null {
+  const words = WORDS[name];
+  // Of a scene as the program gives it the program itself says what is wrong with other names.
+  if (name === "body" && given) return null;
+  if (words) return words.map(String).includes(text) ? null : `must be one of ${words.join(", ")}`;
+  if (NUMBERS.includes(name) || (given && name === "restitution")) {
+    if (Number.isFinite(numberOf(text, NaN))) return null;
+    return Number.isFinite(numberOf(text.replace(",", "."), NaN)) ? `a decimal comma is refused, write ${text.replace(",", ".")}` : "must be a number";
+  }
+  if (given || name === "hide" || name === "lock" || name.startsWith(EXTRA)) return null;
+  return UNKNOWN;
+}
+
+/** What an address says that means nothing, in words; null if all means something. */
+export function wrongInAddress({ hide, lock }: State): string | null {
+  const query = addressQuery();
+  const why = new Map<string, string[]>();
+  for (const [name, text] of query) {
+    const reason = refused(name, text, query.has("given"));
+    if (reason) why.set(reason, [...(why.get(reason) ?? []), `${name}=${text}`]);
+  }
+  const wrong = [...why].map(([reason, said]) => `${said.join(", ")}: ${reason}`);
   const hidden = hide.filter((name) => !HIDDEN.includes(name)).map((name) => `hide=${name}: must be one of ${HIDDEN.join(", ")}`);
   const locked = lock.filter((name) => !LOCKED.includes(name) && !(name in DEFAULT_PARAMETERS))
     .map((name) => `lock=${name}: must be a quantity of the link, or one of ${LOCKED.join(", ")}`);
-  return [...hidden, ...locked].join("; ") || null;
+  return [...wrong, ...hidden, ...locked].join("; ") || null;
 }
 
 export interface State {
@@ -40,9 +72,6 @@ export interface State {
   /** The panel below the picture, or "all". */
   tab: string;
 }
-
-export const RATES = [0.25, 0.5, 1, 2] as const;
-const TREMORS = [0.1, 0.5, 1, 2] as const;
 
 /** In space the models stand beside each other: what tumbles cannot be told apart in one place. */
 export function usualLayout(parameters: Parameters): State["layout"] {
@@ -107,6 +136,7 @@ function situationIn(query: URLSearchParams): Parameters {
   const body = query.get("body");
   if (body !== null && Object.hasOwn(BODIES, body)) setBody(parameters, body as BodyName);
   Object.assign(parameters, choicesIn(query));
+  parameters.gravity = usualGravity(parameters);
   for (const quantity of QUANTITIES) parameters[quantity] = numberOf(query.get(quantity), parameters[quantity]);
   parameters.extra = Object.fromEntries([...query].filter(([name]) => name.startsWith(EXTRA))
     .map(([name, text]) => [name.slice(EXTRA.length), text]));
@@ -147,12 +177,22 @@ export function stateOf(text: string): State {
 }
 
 /** What the address says; where it names no body, over the scene that was written into the page. */
-export function readAddress(): State {
+function addressQuery(): URLSearchParams {
   const said = new URLSearchParams(location.hash.slice(1));
-  if (said.has("body") || said.has("given")) return stateOf(said.toString());
+  if (said.has("body") || said.has("given")) return said;
   const written = new URLSearchParams(document.querySelector<HTMLMetaElement>("meta[name=clatter-scene]")?.content ?? "");
   for (const [name, value] of said) written.set(name, value);
-  return stateOf(written.toString());
+  return written;
+}
+
+/** Whether the address gives a scene of the program's in which no ground is named. */
+export function lacksGround(): boolean {
+  const query = addressQuery();
+  return query.has("given") && !namesGround(query.keys());
+}
+
+export function readAddress(): State {
+  return stateOf(addressQuery().toString());
 }
 
 /** @param without names that are left out, but for those that are locked */

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Impacts in words: the line below the picture, which a screen reader reads aloud.
 import type { Impact } from "./api";
-import { BODIES, seenAngle, type BodyName } from "./body";
+import { BODIES, CONTINUOUS_RADIUS, seenAngle, type BodyName } from "./body";
 import { byId } from "./dom";
 import { significant } from "./format";
-import { DEFAULT_PARAMETERS, LEAST, dampingOf, restitutionOf, type Parameters } from "./parameters";
+import { DEFAULT_PARAMETERS, LEAST, bodyOf, dampingOf, restitutionOf, type Parameters } from "./parameters";
 
 /** What a body is to the models, if that is not what one sees. */
 const BODY_NOTES: Readonly<Partial<Record<BodyName, string>>> = {
-  rod: "The rod of the continuous model has a radius of 1 cm.",
   phone: "The phone is a box to both models; its round corners are drawn alone.",
   coin: "At 0° the coin lies flat; files and commands count the angle of its axis, which is then 90°. Ends a and b are its faces.",
   tube: "The tube has a thin wall; its lids have no mass.",
@@ -105,6 +104,8 @@ export function showNotes(parameters: Parameters): void {
   byId("body-note").textContent = BODY_NOTES[parameters.body] ?? "";
   // A scene that gives a stiffness gives the damping, too.
   const isOfPage = parameters.stiffness === DEFAULT_PARAMETERS.stiffness && parameters.follow;
-  const ground = groundInWords({ ...parameters, damping: dampingOf(parameters) }, isOfPage);
+  const { shape, length, radius } = bodyOf(parameters);
+  const thick = shape === "rod" && radius === 0 ? ` Its rod has a radius of ${significant(100 * CONTINUOUS_RADIUS * length, 3)} cm.` : "";
+  const ground = groundInWords({ ...parameters, damping: dampingOf(parameters) }, isOfPage) + thick;
   for (const note of document.querySelectorAll(".ground-note")) note.textContent = ground;
 }
