@@ -38,7 +38,7 @@ double touch_height(const Body&, const Quaternion&) { leave(); }
 State FreeFlight::at(double) const { leave(); }
 double Impact::restitution() const { leave(); }
 Corner touching_corner(const Body&, const Quaternion&, int) { leave(); }
-Sequence impact_sequence(const Drop&, const SequenceOptions&) { leave(); }
+Sequence impact_sequence(const Drop&, const SequenceOptions&, const std::vector<double>&) { leave(); }
 std::optional<SustainedContact> contact_after(const Drop&, const Sequence&) { leave(); }
 OutcomeSet tilted_outcomes(const Body&, const State&, std::span<const Corner>, const ImpactLaw&, const TiltEffort&) {
   leave();
