@@ -178,7 +178,7 @@ void check(const Scene& s, const ImpactRow& from, const ImpactRow& to, Counts& c
   double error = off / t / condition;
   // Faster arrivals near level take the velocity of the place, which the attitude's rounding turns.
   if (std::fabs(velocity) < tilt * speed)
-    error = std::fmax(error, std::fabs(to.approach_speed / velocity + 1) / condition);
+    error = std::fmax(error, std::fabs(to.impact.approach_speed / velocity + 1) / condition);
   counts.worst_hop = std::fmax(counts.worst_hop, error);
   if (!(error <= 2e-14)) ++counts.rough_hops;
 }

@@ -146,7 +146,7 @@ BOOST_AUTO_TEST_CASE(a_drop_that_stays_in_its_plane_agrees_with_the_planar_model
     c.before.attitude = Quaternion::Identity();
     const ContactPoint d{c.place.x(), c.place.z()};
     PlanarVelocity v;
-    do v = {random.uniform(-2, 0.5), random.uniform(-2, 2), random.uniform(-3, 3)};
+    do v = {.normal = random.uniform(-2, 0.5), .tangential = random.uniform(-2, 2), .angular = random.uniform(-3, 3)};
     while (!(normal_velocity(v, d) < -0.01));
     if (i % 10 == 0) v.tangential = v.angular = 0, v.normal -= 0.5;  // no slip before
     c.before.velocity = {v.tangential, 0, v.normal};
