@@ -73,13 +73,14 @@ class Steps(unittest.TestCase):
                             rest, = (cause for cause in causes if cause["cause"] == "time-step")
                             self.assertIn("the step explains the rest", rest["words"])
 
-    def test_a_step_of_second_order_flies_freely_and_another_restitution_is_named_beside_one_of_first_order(self):
+    def test_a_step_of_second_order_flies_freely_and_another_restitution_is_named_before_one_of_first_order(self):
         for problem in ("box", "clatter-08"):
             self.assertEqual(told(StepCode(problem, 1, order="kdks").text()), ["time-step"])
             code = StepCode(problem, 1)
             code.e -= 0.1
             causes = judged(code.text())["causes"]
-            self.assertEqual([cause["cause"] for cause in causes], ["restitution", "first-order-step"])
+            self.assertEqual(causes[0]["cause"], "restitution")
+            self.assertLessEqual({cause["cause"] for cause in causes[1:]}, {"first-order-step"})  # where its mending helps
             self.assertAlmostEqual(causes[0]["value"], code.e, delta=1e-6)
 
 
