@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <stdexcept>
+#include <string>
 
 #include "analytic/base/errors.hpp"
 #include "analytic/plane/sequence.hpp"
@@ -151,11 +152,18 @@ Drop BatchDrops::drop(std::size_t i) const {
 }
 
 void BatchDrops::validate() const {
-  for (const std::span<const double> numbers : arrays_of(*this)) {
-    if (numbers.size() != 1 && numbers.size() != count()) {
-      throw std::invalid_argument("the arrays of a batch must have one length, or one number");
+  constexpr const char* names[]{"inclination", "normal",      "tangential",   "angular",
+                                "gravity",     "restitution", "impulse_ratio"};
+  const auto arrays = arrays_of(*this);
+  for (std::size_t k = 0; k < arrays.size(); ++k) {
+    if (arrays[k].size() != 1 && arrays[k].size() != count()) {
+      throw std::invalid_argument("arrays of a batch: " + std::string(names[k]) + " has " +
+                                  std::to_string(arrays[k].size()) + " numbers; must be 1 or " +
+                                  std::to_string(count()) + ", as the longest has");
     }
   }
+  // A drop that is one whatever its body.
+  Drop{.body = body, .inclination = Angle::from_radians(0.1), .velocity = {.normal = -1}}.validate();
 }
 
 namespace {
@@ -183,6 +191,8 @@ void run_lanes(const BatchDrops& drops, const BatchRequest& request, std::size_t
                std::span<BatchOutcome> outcomes, batch::Kernel kernel) {
   drops.validate();
   if (request.limit < 1) throw std::invalid_argument("the limit of a batch must be at least 1");
+  if (drops.count() > 1 && (first > drops.count() || outcomes.size() > drops.count() - first))
+    throw std::invalid_argument("more outcomes are asked for than the batch has drops");
   if (!kernel) kernel = batch::kernels().front().run;
   const batch::LaneBody body = lane_body(drops.body);
   batch::LaneResults results;

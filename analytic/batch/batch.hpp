@@ -25,7 +25,8 @@ struct BatchDrops {
   [[nodiscard]] std::size_t count() const;
   /// Drop i for the scalar code.
   [[nodiscard]] Drop drop(std::size_t i) const;
-  /// @throws std::invalid_argument if two arrays have different lengths, neither of them 1.
+  /// @throws std::invalid_argument if two arrays have different lengths, neither of them 1, std::domain_error as
+  ///         Drop::validate() for a body that is none.
   void validate() const;
 };
 
@@ -74,7 +75,7 @@ using batch::BatchRequest;
 /// off what may be the beginning of infinitely many impacts. Accuracy: within the scalar code's error bars; sums of
 /// four impacts or more of one drop in 10⁴ by up to ten times those, where gravity and turns lose three digits.
 /// @param kernel  of batch::kernels(); none: the widest
-/// @throws std::invalid_argument as BatchDrops::validate(), or if request.limit < 1.
+/// @throws as BatchDrops::validate(); std::invalid_argument if request.limit < 1 or there are fewer drops.
 void run_batch(const BatchDrops& drops, const BatchRequest& request, std::size_t first,
                std::span<BatchOutcome> outcomes, batch::Kernel kernel = nullptr);
 

@@ -124,6 +124,7 @@ class Run : public SequenceLoop<Sequence, ErrorGrowth> {
 
   /// Puts the lowest points on the ground; returns those.
   std::vector<int> touch_down() {
+    while (awaits(0)) note({}, false, {}, infinite);  // before the drop is known
     const FreeFlight flight(principal_, state_, 0);
     const PointHeights heights(body_, flight);
     const FlightMoment start = heights.moment(0);
@@ -167,9 +168,14 @@ class Run : public SequenceLoop<Sequence, ErrorGrowth> {
       record(arriving, flown);
       Next next = Next::flight;
       if (options_.until_face && is_trapped()) return settle();
-      if (accumulates()) next = go_on_touching(arriving);
-      else if (is_full()) return note_slow_contacts();
-      else if (options_.until_rest && is_still()) return settle();
+      if (accumulates()) {
+        next = go_on_touching(arriving);
+        if (next != Next::end && is_full()) return;
+      } else if (is_full()) {
+        return note_slow_contacts();
+      } else if (options_.until_rest && is_still()) {
+        return settle();
+      }
       flown = {};
       while (next == Next::flight) next = fly(arriving, flown);
       if (next == Next::end) return;
@@ -383,6 +389,7 @@ class Run : public SequenceLoop<Sequence, ErrorGrowth> {
       at.energy_error = body_.mass * (state->velocity.norm() * error.velocity + drop_.gravity * height + along) +
                         momentum.norm() * error.angular_velocity + w.cross(momentum).norm() * error.attitude +
                         8 * epsilon * std::fabs(at.energy);
+      if (std::isnan(at.energy_error)) at.energy_error = infinite;  // of no speed, with an unknown error
     }
     result_.states.push_back(std::move(at));
   }
@@ -856,9 +863,9 @@ class Run : public SequenceLoop<Sequence, ErrorGrowth> {
 Sequence impact_sequence(const Drop& drop, const SequenceOptions& options, const std::vector<double>& times) {
   drop.validate();
   options.validate();
-  detail::require(
-      std::ranges::is_sorted(times) && std::ranges::all_of(times, [](double t) { return std::isfinite(t); }),
-      "number of times", static_cast<double>(times.size()), "of finite ones in ascending order");
+  const bool ascend = std::is_sorted(times.begin(), times.end()) &&
+                      std::all_of(times.begin(), times.end(), [](double t) { return std::isfinite(t); });
+  detail::require(ascend, "number of times", static_cast<double>(times.size()), "of finite ones in ascending order");
   const SequenceUnits units(drop);
   const Drop internal = units.to_internal(drop);
   try {

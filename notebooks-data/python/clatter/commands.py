@@ -86,7 +86,8 @@ def _run(command: str, scene: Scene | Scenes | float | None, changes: Mapping[st
     if said and report is not None and command != "report" and not report.rows():
         raise NotComputed("; ".join(said))
     for reason in said:
-        warn(reason, 4)
+        if not reason.startswith(f"{options.get('output')}: "):  # what a page that was written has come to
+            warn(reason, 4)
     return report
 
 

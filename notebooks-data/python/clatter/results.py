@@ -191,6 +191,10 @@ class Result(Generic[Row]):
             raise AttributeError("no message here; printed, the result says what came out")
         return in_python(str(self._data["message"]))
 
+    def __dir__(self) -> list[str]:
+        """What there is to be had, without a message where nothing is to be said."""
+        return [name for name in super().__dir__() if name != "message" or name in self._data]
+
     if not TYPE_CHECKING:
         def __getattr__(self, name: str) -> Any:
             """What the JSON has by that name; what a property that has nothing to give says of it, or of any other name the nearest
@@ -200,6 +204,8 @@ class Result(Generic[Row]):
                 return known.fget(self)
             if not name.startswith("_") and name in self._data:
                 return as_record(self._data[name])
+            if name in self._columns:
+                raise AttributeError(f"{name} is a column, an array of it is x[{name!r}]; x is this result")
             raise AttributeError(name if name.startswith("_") else absent(name, (one for one in dir(self) if not one.startswith("_"))))
 
     def to_dict(self) -> dict[str, Any]:
