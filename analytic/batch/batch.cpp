@@ -162,8 +162,11 @@ void BatchDrops::validate() const {
                                   std::to_string(count()) + ", as the longest has");
     }
   }
-  // A drop that is one whatever its body.
-  Drop{.body = body, .inclination = Angle::from_radians(0.1), .velocity = {.normal = -1}}.validate();
+  Drop drop;  // one, whatever its body
+  drop.body = body;
+  drop.inclination = Angle::from_radians(0.1);
+  drop.velocity.normal = -1;
+  drop.validate();
 }
 
 namespace {

@@ -213,6 +213,18 @@ SubmissionHead head_of(const NumericTable& table) {
   return head;
 }
 
+/// A run of another law than the scene's is right by that law, and would only look wrong.
+void require_law(const NumericTable& table, const SubmissionHead& head, const analytic::ImpactLaw& law) {
+  if (head.law.empty() || !law.has_cone() || law.friction_value == 0 ||
+      law.law == analytic::RestitutionLaw::viscoelastic)
+    return;
+  const bool is_moreau = law.friction == analytic::FrictionKind::moreau;
+  const std::string own = std::string(law_name(law.law)) + (is_moreau ? " moreau" : " routh");
+  if (head.law != own)
+    throw BadInput("{} = {}: must be the scene's, {}; --restitution-law and --impact-friction-law change that",
+                   place_of(table, "law"), head.law, own);
+}
+
 /// The value of a line that has few of them; nothing without the line.
 std::optional<std::string> chosen_comment(const NumericTable& table, const std::string& key,
                                           const std::vector<std::string>& allowed) {
@@ -388,6 +400,7 @@ Submission judge_file(const std::string& path, const std::string& problem, const
 Submission judge_file(const std::string& path, const Reference& reference, const ColumnNames& names) {
   const ReadFile file = read_file(path, names);
   const SubmissionHead head = head_of(file.table);
+  require_law(file.table, head, reference.sequences.front().law.law);
   return judge(file, head, reference);
 }
 

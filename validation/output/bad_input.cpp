@@ -13,8 +13,10 @@
 namespace clatter::validation {
 namespace {
 
-/// Letters left out, put in or changed, and neighbours exchanged, one each.
-std::size_t edit_distance(const std::string& from, const std::string& to) {
+constexpr std::size_t letter = 8;  ///< what one costs in misspelling()
+
+/// Letters left out, put in or changed, and neighbours exchanged, one each; little for those not typed yet at the end.
+std::size_t misspelling(const std::string& from, const std::string& to) {
   std::vector<std::size_t> row(to.size() + 1), above, next;
   std::iota(row.begin(), row.end(), std::size_t{0});
   for (std::size_t i = 1; i <= from.size(); ++i) {
@@ -26,13 +28,15 @@ std::size_t edit_distance(const std::string& from, const std::string& to) {
     }
     above = std::exchange(row, std::move(next));
   }
-  return row.back();
+  std::size_t least = letter * row.back();
+  for (std::size_t j = 0; j <= to.size(); ++j) least = std::min(least, letter * row[j] + to.size() - j);
+  return least;
 }
 
 /// Whether one may have meant `known`: it has what was typed as a part, or a third of its letters differ.
 bool is_near(const std::string& name, const std::string& known) {
   return known.find(name) != std::string::npos ||
-         3 * edit_distance(name, known) <= std::max(name.size(), known.size()) + 1;
+         3 * misspelling(name, known) <= letter * (std::max(name.size(), known.size()) + 1);
 }
 
 }  // namespace
@@ -41,7 +45,7 @@ std::string nearest_name(const std::string& name, const std::vector<std::string>
   const auto nearest =
       std::min_element(candidates.begin(), candidates.end(), [&](const std::string& a, const std::string& b) {
         const auto rank = [&](const std::string& known) {  // what was typed may be a part of it
-          return std::pair(known.find(name) == std::string::npos, edit_distance(name, known));
+          return std::pair(known.find(name) == std::string::npos, misspelling(name, known));
         };
         return rank(a) < rank(b);
       });

@@ -178,6 +178,7 @@ class AskedColumns {
  public:
   AskedColumns(const RowLayout& layout, int impacts) : impacts_(impacts), columns_(columns_of_impacts(layout)) {
     std::erase_if(columns_, [](const Column& column) { return column.object == "error_estimate"; });
+    names_.push_back("hardest");
     for (const Column& column : columns_) names_.push_back(column.name);
     for (const Column& column : sweep_columns(layout)) present_.push_back(column.name);
     names_.insert(names_.end(), present_.begin(), present_.end());

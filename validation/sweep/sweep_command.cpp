@@ -497,9 +497,14 @@ class SweepOutput {
   [[nodiscard]] bool is_done(const SweepInput& input) {
     const std::optional<FileThere> there = file_ ? file_there(input, plan_) : std::nullopt;
     if (!there || first() > 0 || plot_.is_wanted()) return false;
-    if (there->rows.is_whole()) fell_short_ = there->fell_short;
-    else say(fmt::format("{} is not whole after scene {}, and is computed anew", file_->path(), there->rows.last));
-    return there->rows.is_whole();
+    if (!there->rows.is_whole()) {
+      throw BadInput(
+          "--output {}: is of this sweep, but not whole after scene {}; --check says what it lacks, --restart "
+          "computes it anew",
+          file_->path(), there->rows.last);
+    }
+    fell_short_ = there->fell_short;
+    return true;
   }
   void write(const RangeRows& rows) {
     shortfalls_.add(rows.text);

@@ -570,7 +570,7 @@ Arguments sweep_arguments(SweepRequest& request) {
        .target = &request.columns,
        .type = "NAME,...",
        .help = "more columns of rows of scenes: QUANTITY_N of impact N, QUANTITY of each, hardest, "
-               "hardest_QUANTITY"},
+               "hardest_QUANTITY; rest_face, rest_known: each drop is followed to rest, at 40 to 500 times the cost"},
       part,
       {.name = "--rank-by",
        .target = &request.rank_by,

@@ -238,13 +238,19 @@ BOOST_AUTO_TEST_CASE(a_drop_that_is_none_is_refused_and_the_others_go_on) {
   BOOST_TEST(outcomes[3].total == outcomes[0].total);
 }
 
-BOOST_AUTO_TEST_CASE(arrays_of_two_lengths_and_a_limit_below_one_are_refused) {
+BOOST_AUTO_TEST_CASE(arrays_of_two_lengths_a_limit_below_one_and_a_body_that_is_none_are_refused) {
   const std::vector<double> three{0.1, 0.2, 0.3}, two{-1, -1}, none{0}, one{1};
   std::vector<BatchOutcome> outcomes(3);
   BatchDrops drops{make_rod({}), three, two, none, none, none, one, none};
   BOOST_CHECK_THROW(run_batch(drops, {.limit = 6}, 0, outcomes), std::invalid_argument);
   drops.normal = std::span(two).first(1);
   BOOST_CHECK_THROW(run_batch(drops, {.limit = 0}, 0, outcomes), std::invalid_argument);
+  BOOST_CHECK_THROW(run_batch(drops, {.limit = 6}, 1, outcomes), std::invalid_argument);  // of three drops two are left
+  run_batch(drops, {.limit = 6}, 0, outcomes);
+  for (const double mass : {-1.0, 0.0, std::numeric_limits<double>::quiet_NaN()}) {
+    drops.body.mass = mass;
+    BOOST_CHECK_THROW(run_batch(drops, {.limit = 6}, 0, outcomes), std::domain_error);
+  }
 }
 
 BOOST_AUTO_TEST_CASE(contacts_of_many_rods_are_those_of_each_with_the_velocities_after_them) {

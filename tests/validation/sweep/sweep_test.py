@@ -325,14 +325,16 @@ class Scenes(Folder):
             self.assertFalse(os.path.exists(self.path("out.csv.part")))
             os.remove(self.path("out.csv"))
 
-    def test_a_file_that_lacks_rows_is_computed_anew_and_says_so_and_parts_joined_are_the_whole(self):
+    def test_a_file_that_lacks_rows_is_refused_and_parts_joined_are_the_whole(self):
         arguments = ("sweep", self.scene, "--set", "drop.angle_deg=1:40:0.5")
         whole = self.sweep(*arguments[1:])
         lines = whole.splitlines(keepends=True)
         for damaged in (lines[:-20] + lines[-12:], lines[:-9], [*lines[:-1], lines[-1][:-1]]):
             self.write("rows.csv", "".join(damaged))
             done = self.run_program(*arguments, "--output", "rows.csv")
-            self.assertRegex(done.stderr, r"rows\.csv is not whole after scene \d+, and is computed anew")
+            self.assertRegex(done.stderr, r"\Aclatter: --output rows\.csv: is of this sweep, but not whole after scene \d+; .*--restart")
+            self.assertEqual((done.returncode, self.read("rows.csv")), (2, "".join(damaged)))
+            self.assertEqual(self.run_program(*arguments, "--output", "rows.csv", "--restart").returncode, 0)
             self.assertEqual(self.read("rows.csv"), whole)
         parts = [self.run_program(*arguments, "--scenes", some).stdout.splitlines(keepends=True) for some in ("0:29", "30:78")]
         joined = [line for line in parts[0] if not line.startswith("# here")] + [line for line in parts[1] if line[0].isdigit()]

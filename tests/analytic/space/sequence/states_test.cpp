@@ -121,6 +121,23 @@ BOOST_AUTO_TEST_CASE(in_flight_a_state_is_that_of_the_parabola_and_of_a_steady_t
   }
 }
 
+BOOST_AUTO_TEST_CASE(before_a_drop_nothing_is_known_and_rows_are_as_many_as_asked_for) {
+  space::Drop drop;
+  drop.body = space::box(1, {.size = {0.2, 0.1, 0.05}});
+  drop.attitude = Quaternion(0.9, 0.25, -0.3, 0.1).normalized();
+  drop.velocity = {0, 0, -2};
+  drop.gravity = g;
+  drop.law = {.restitution = 0.4, .friction = FrictionKind::coulomb, .friction_value = 0.3};
+  for (int impacts = 1; impacts <= 40; ++impacts) {
+    const space::Sequence s = impact_sequence(drop, {.impacts = impacts, .until_rest = true}, {-1, 0.01});
+    BOOST_TEST(s.rows.size() <= static_cast<std::size_t>(impacts));
+    BOOST_TEST(!s.states.front().is_known);
+    BOOST_TEST(s.states.front().rows == 0u);
+  }
+  const space::Sequence late = impact_sequence(drop, {.impacts = 1000, .until_rest = true}, {60});
+  BOOST_TEST(late.states.front().energy_error >= 0);
+}
+
 BOOST_AUTO_TEST_CASE(elastic_drops_that_run_backwards_return_within_their_errors) {
   std::mt19937_64 random(52);
   std::uniform_real_distribution<double> some(-1, 1);
