@@ -217,9 +217,7 @@ Row point_row(const NamedSpectrum& named, const ResponsePoint& point, int digits
   const Estimated a{whole.acceleration.maximax(), point.acceleration_error};
   Row cells{Cell(named.probe), Cell(named.axis), Cell(named.model), Cell(blows_word(spectrum)),
             Cell(point.frequency, 4)};
-  cells.push_back(known_cell(v, {digits, 0}));
-  cells.push_back(known_cell(a, {digits, 0}));
-  cells.push_back(known_cell(a * (1 / standard_gravity), {digits, 0}));
+  for (const Estimated& number : {v, a, a * (1 / standard_gravity)}) cells.push_back(measured_cell(number, digits));
   for (const ResponseExtremes* part : {&whole, &point.primary, &point.residual}) {
     for (const Extremes* extremes : {&part->pseudo_velocity, &part->acceleration}) {
       cells.emplace_back(extremes->high, digits);
@@ -493,7 +491,7 @@ Grid spectrum_digest(const std::vector<std::vector<NamedSpectrum>>& shown, int d
       Row row{Cell(of_probe.front().probe), Cell(of_probe.front().spectrum->points[i].frequency, 4)};
       for (const bool is_acceleration : {false, true}) {
         for (const NamedSpectrum& one : of_probe)
-          row.push_back(known_cell(maximax(one.spectrum->points[i], is_acceleration), {std::min(digits, 4), 0}));
+          row.push_back(measured_cell(maximax(one.spectrum->points[i], is_acceleration), std::min(digits, 4)));
       }
       digest.rows.push_back(row);
     }
