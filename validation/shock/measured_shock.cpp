@@ -549,8 +549,8 @@ Grid blows_of(const MeasuredShock& shock, const ShockRun* simulated) {
     add(width);
     const Estimated &v = blow.delta_v_size, &a = blow.peak_size;
     const double of_both = std::fabs(v.error / v.value) + std::fabs(a.error / a.value);
-    row.push_back(known_or_empty({pulse.duration, v.is_known() && a.is_known() ? pulse.duration * of_both : unknown_error},
-                                 shown_digits));
+    row.push_back(known_or_empty(
+        {pulse.duration, v.is_known() && a.is_known() ? pulse.duration * of_both : unknown_error}, shown_digits));
     row.push_back(condition_cell(v, a));
     const ShockRow* const other = beside(simulated, i);
     for (const auto get : {+[](const ShockNumbers& n) { return n.delta_v_size; },
