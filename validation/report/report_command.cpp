@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdio>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -110,15 +111,46 @@ class Written {
   std::vector<File> files_;
 };
 
-/// Says how long the other cases are going to take, where that is long, by what the first took: its drops, which parts
-/// of one scene share, and its worst drop's run, which each case has [s].
-void say_forecast(double sweep, double run, std::ptrdiff_t sweeps, std::size_t cases) {
-  constexpr double long_wait = 20;
-  const double left = std::fmax(static_cast<double>(sweeps) - 1, 0) * sweep + static_cast<double>(cases - 1) * run;
-  if (left > long_wait && !shows_progress())
-    say(fmt::format("1 of {} cases took {:.0f} s: {}; fewer --drops and --no-sensitivity are faster", cases,
-                    sweep + run, time_left(left)));
-}
+/// Tells how long the other cases are going to take, where that is long, by the mean of those that ran: of drops, which
+/// parts of one scene share, and of worst drops' runs, which each case has [s].  With other friction or another floor
+/// one takes many times what another takes, so that it tells it again where it was much too low.
+class Forecast {
+ public:
+  Forecast(const std::vector<ReportCase>& cases, std::ptrdiff_t sweeps) : sweeps_(sweeps), cases_(cases.size()) {
+    std::set<std::string> parts;
+    for (const ReportCase& one : cases) {
+      parts.insert(one.part_name);
+      for (const auto& [key, value] : one.varied)
+        is_guess_ = is_guess_ || std::string_view(key->name).ends_with("_friction");
+    }
+    if (parts.size() > 1) of_parts_ = fmt::format(" of {} parts", parts.size());
+  }
+  void add_sweep(double seconds) {
+    sweep_ += seconds;
+    ++swept_;
+  }
+  void add_run(double seconds) {
+    run_ += seconds;
+    ++done_;
+    constexpr double long_wait = 20, much = 1.5;
+    const double left =
+        static_cast<double>(sweeps_ - swept_) * sweep_ / static_cast<double>(std::max<std::ptrdiff_t>(swept_, 1)) +
+        static_cast<double>(cases_ - done_) * run_ / static_cast<double>(done_);
+    const double all = sweep_ + run_ + left;
+    if (left < long_wait || all < much * told_ || shows_progress()) return;
+    told_ = all;
+    say(fmt::format("{} of {} cases{} took {:.0f} s: {}{}; fewer --drops and --no-sensitivity are faster", done_,
+                    cases_, of_parts_, sweep_ + run_, time_left(left),
+                    is_guess_ ? ", a guess, as friction decides how long each takes" : ""));
+  }
+
+ private:
+  std::ptrdiff_t sweeps_ = 0, swept_ = 0;
+  std::size_t cases_ = 0, done_ = 0;
+  double sweep_ = 0, run_ = 0, told_ = 0;
+  bool is_guess_ = false;
+  std::string of_parts_;
+};
 
 int run_report(const ReportInput& input) {
   require_date(input.date);
@@ -135,23 +167,26 @@ int run_report(const ReportInput& input) {
   long long before = 0;
   int status = 0;
   std::size_t done = 0;
-  double sweep_time = 0;
+  Forecast forecast(cases, sweeps);
   const auto seconds = [begin = std::chrono::steady_clock::now()] {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   };
   for (ReportCase& one : cases) {
+    const double begin = seconds();
     if (!looks_at_all(one.input)) {
       swept.reset();
     } else if (one.begins_sweep) {
       swept = sweep_attitudes(one.input, attitudes, one.swept_with, progress, before, interrupt);
       if (!swept) break;
       before += attitudes.drops;
-      if (done == 0) sweep_time = seconds();
+      forecast.add_sweep(seconds() - begin);
     }
+    const double swept_at = seconds();
     auto found = findings_of(one.input, one.given, one.is_turned, swept ? &*swept : nullptr, one.view, interrupt);
     if (!found) break;
     one.found = std::move(*found);
-    if (++done == 1) say_forecast(sweep_time, seconds() - sweep_time, sweeps, cases.size());
+    ++done;
+    forecast.add_run(seconds() - swept_at);
     status = std::max(status, status_of(one.found.scene, one.found.run));
   }
   const std::size_t asked = cases.size();

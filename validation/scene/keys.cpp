@@ -9,6 +9,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "validation/output/bad_input.hpp"
 #include "validation/output/json.hpp"
 #include "validation/output/report.hpp"
 #include "validation/scene/floors.hpp"
@@ -69,6 +70,31 @@ KeyValue number(const Range& range, const Range* wide = nullptr) {
           .read = read,
           .put = [](Scene& scene, double number) { at<path...>(scene) = number; },
           .range = range};
+}
+
+bool is_negative(const SceneValues& values, const std::string& name) {
+  try {
+    return values.number(name, 0, any_number) < 0;
+  } catch (const BadInput&) {
+    return false;
+  }
+}
+
+/// One end is low at the first impact; whose other end is to be so is told how.
+KeyValue first_angle() {
+  KeyValue value = number<&Scene::angle_deg>(angles);
+  value.read = [read = value.read](const SceneValues& values, const std::string& name, Scene& scene, Model model) {
+    try {
+      read(values, name, scene, model);
+    } catch (const BadInput& refusal) {
+      if (!is_negative(values, name)) throw;
+      throw BadInput(
+          "{}: end a (-x) is low; the other one is with a negative --release-angle, which needs "
+          "--release-height or --release-clearance",
+          refusal.what());
+    }
+  };
+  return value;
 }
 
 struct Wholes {
@@ -240,8 +266,8 @@ std::vector<Key> made_keys() {
   const Keys springs_and_area = and_also(springs, "ground.area"),
              springs_and_half_space = and_also(springs, "ground.modulus");
   return {
-      {"drop.angle_deg", both, "--angle", "DEG", "°", "inclination at the first impact, end a low; 0 flat, 90 upright",
-       number<&Scene::angle_deg>(angles), nullptr, Keys{}, true},
+      {"drop.angle_deg", both, "--angle", "DEG", "°",
+       "inclination at the first impact, end a (-x) low; 0 flat, 90 upright", first_angle(), nullptr, Keys{}, true},
       {"drop.tilt_deg", both, "--tilt", "DEG", "°", "rotation about the body's long axis before that",
        number<&Scene::tilt_deg>(tilts)},
       {"drop.attitude", both, "--attitude", "Q0,Q1,Q2,Q3", "",

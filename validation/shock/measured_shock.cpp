@@ -338,17 +338,18 @@ class Measurement {
     while (end < values().size() && times()[end] - times()[last] <= near) ++end;
     shock_.before = mean_of(values(), begin, first);
     shock_.after = mean_of(values(), last + 1, end);
-    double sum = 0;
+    Vector3 sum = Vector3::Zero();
     std::size_t count = 0;
     for (std::size_t i = 1; i < values().size(); ++i) {
       const bool is_quiet = std::none_of(shock_.blows.begin(), shock_.blows.end(), [&](const MeasuredBlow& blow) {
         return i > blow.first && i <= blow.last + 1;
       });
       if (!is_quiet) continue;
-      sum += (values()[i] - values()[i - 1]).squaredNorm() / 2;
+      sum += (values()[i] - values()[i - 1]).cwiseAbs2() / 2;
       ++count;
     }
-    shock_.noise = count > 0 ? std::sqrt(sum / static_cast<double>(count)) : 0;
+    if (count > 0) axis_noise_ = (sum / static_cast<double>(count)).cwiseSqrt();
+    shock_.noise = axis_noise_.norm();
     const double before = shock_.before.norm(), after = shock_.after.norm();
     const std::size_t quiet_after = values().size() - last - 1;
     if (first > 2 && quiet_after > 2) {
@@ -484,7 +485,7 @@ class Measurement {
       for (int b = 0; b < impacts; ++b)
         is_known = is_known && shock_.blows[static_cast<std::size_t>(b)].peak_size.is_known();
       for (const double frequency : frequencies(request_.low, request_.high, request_.count)) {
-        ResponsePoint point = response(samples, frequency, request_.quality);
+        ResponsePoint point = response(samples, frequency, request_.quality, axis_noise_[axis]);
         if (!is_known) point.acceleration_error = point.pseudo_velocity_error = unknown_error;
         spectrum.points.push_back(point);
       }
@@ -493,6 +494,7 @@ class Measurement {
   }
 
   const ShockRequest& request_;
+  Vector3 axis_noise_ = Vector3::Zero();  ///< standard deviation of a reading along each axis [m/s²]
   MeasuredShock shock_;
 };
 
@@ -547,9 +549,9 @@ Grid blows_of(const MeasuredShock& shock, const ShockRun* simulated) {
     add(width);
     const Estimated &v = blow.delta_v_size, &a = blow.peak_size;
     const double of_both = std::fabs(v.error / v.value) + std::fabs(a.error / a.value);
-    row.push_back(
-        measured_cell({pulse.duration, a.is_known() ? pulse.duration * of_both : unknown_error}, shown_digits));
-    row.emplace_back(std::string(1, covering_condition(blow.delta_v_size.value, blow.peak_size.value)));
+    row.push_back(known_or_empty(
+        {pulse.duration, v.is_known() && a.is_known() ? pulse.duration * of_both : unknown_error}, shown_digits));
+    row.push_back(condition_cell(v, a));
     const ShockRow* const other = beside(simulated, i);
     for (const auto get : {+[](const ShockNumbers& n) { return n.delta_v_size; },
                            +[](const ShockNumbers& n) { return n.peak_size / standard_gravity; },
@@ -577,6 +579,12 @@ std::vector<NamedSpectrum> named_spectra(const MeasuredShock& shock, const Shock
                      std::string(1, "xyz"[found->axis]), found});
   }
   return all;
+}
+
+/// "Acc Z beside body z"; empty where nothing stands beside the record.
+std::string compared_axes(const std::vector<NamedSpectrum>& spectra) {
+  const NamedSpectrum &measured = spectra.front(), &other = spectra.back();
+  return other.model == measured.model ? "" : fmt::format("{} beside body {}", measured.axis, other.axis);
 }
 
 Value record_value(const MeasuredShock& shock) {
@@ -688,6 +696,8 @@ Report measured_shock_report(const MeasuredShock& shock, const ShockRequest& req
   if (view.rows == ShockRows::pulses || !view.parts.empty()) report.notes = pulse_notes(view.parts, {});
   if (const std::string least = least_margin_words(pulse_rows, view.parts); !least.empty())
     report.notes.push_back(least);
+  if (const std::string axes = compared_axes(spectra); !axes.empty() && view.rows == ShockRows::spectra)
+    report.notes.push_back(fmt::format("spectra: {}{}", axes, request.axis ? "" : ", where each changes most; --axis"));
   report.notes.insert(report.notes.end(), shock.findings.begin(), shock.findings.end());
   if (simulated && simulated->continuous) {
     for (const std::string& warning : simulated->continuous->planned.warnings)
@@ -709,8 +719,11 @@ Picture measured_shock_picture(const MeasuredShock& shock, const ShockRequest& r
   Picture picture{.what = fmt::format("A record and its response spectra, {}", quality_words(request.quality)),
                   .scene = {shock.record.path},
                   .panels = {record_panel(shock, simulated)}};
-  for (PicturePanel& panel : spectrum_panels(named_spectra(shock, simulated), view.severity))
-    picture.panels.push_back(std::move(panel));
+  const std::vector<NamedSpectrum> spectra = named_spectra(shock, simulated);
+  std::vector<PicturePanel> panels = spectrum_panels(spectra, view.severity);
+  if (const std::string axes = compared_axes(spectra); !axes.empty())
+    panels.front().plot.y_label = fmt::format("{}, {} [m/s]", spectra.front().probe, axes);
+  for (PicturePanel& panel : panels) picture.panels.push_back(std::move(panel));
   for (const FragilePart& part : view.parts) {
     if (auto panel = boundary_panel(pulses_of(shock, simulated), part)) picture.panels.push_back(std::move(*panel));
   }

@@ -369,19 +369,24 @@ Estimated undamped_response(std::span<const MotionPiece> motion, const Vector3& 
   return {size.norm(), error.norm()};
 }
 
-ResponsePoint response(std::span<const BaseSample> samples, double frequency, double quality) {
+ResponsePoint response(std::span<const BaseSample> samples, double frequency, double quality, double noise) {
   Oscillator oscillator(frequency, quality);
   ResponsePoint point{.frequency = frequency};
-  double left_open = 0;
+  const double noisy_bend = 3 * std::sqrt(6) * noise;  // δ²s of noise has 1 + 4 + 1 times its variance
+  const double decay = oscillator.omega() / quality;   // 2ζω
+  double left_open = 0, squares = 0, most_squares = 0;
   for (std::size_t i = 1; i < samples.size(); ++i) {
     const BaseSample &from = samples[i - 1], &to = samples[i];
-    oscillator.ramp(from.acceleration, to.acceleration, to.time - from.time);
+    const double step = to.time - from.time;
+    oscillator.ramp(from.acceleration, to.acceleration, step);
+    squares = squares * std::exp(-decay * step) + step * step;
+    most_squares = std::max(most_squares, squares);
     if (i + 1 < samples.size()) {
-      const double bend = samples[i + 1].acceleration - 2 * to.acceleration + from.acceleration;
-      left_open += std::fabs(bend) * (to.time - from.time) / 12;
+      const double bend = std::fabs(samples[i + 1].acceleration - 2 * to.acceleration + from.acceleration);
+      if (bend > noisy_bend) left_open += bend * step / 12;
     }
   }
-  end(oscillator, left_open, quality, point);
+  end(oscillator, left_open + 2 * noise * std::sqrt(most_squares), quality, point);
   return point;
 }
 

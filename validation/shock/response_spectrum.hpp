@@ -141,8 +141,12 @@ struct BaseSample {
   double acceleration = 0;  ///< [m/s²]
 };
 /// By the exact solution of straight lines between samples; before the first and after the last the base counts as
-/// unaccelerated.  The error is ∫|δs| dt of the lines, h |δ²s|/12 for each step by its second differences.
-[[nodiscard]] ResponsePoint response(std::span<const BaseSample> samples, double frequency, double quality);
+/// unaccelerated.  The error is ∫|δs| dt of the lines, h |δ²s|/12 for each step whose second difference is more than
+/// noise, and twice the standard deviation that independent noise gives |q|, at most √(Σ h² e^{−2ζω(t − t_i)}) times
+/// its own: it grows by the root of their number, not by the number.
+/// @param noise  standard deviation of a sample [m/s²]
+[[nodiscard]] ResponsePoint response(std::span<const BaseSample> samples, double frequency, double quality,
+                                     double noise = 0);
 /// In closed form: largest over all partial sums of the train and over the turns between and after its steps.  The
 /// error is that of the steps, and of their times by a turn ω δt of the response so far.
 [[nodiscard]] ResponsePoint response(std::span<const VelocityStep> steps, double frequency, double quality);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <sstream>
+#include <utility>
 
 #include "validation/command/command.hpp"
 #include "validation/output/bad_input.hpp"
@@ -62,9 +63,7 @@ std::optional<ShockRun> run_beside(const ShockInput& drop) {
         fmt::format("--probe: required, where on the body the record was taken: {}NAME:X,Y,Z, not {} points{}",
                     probes.empty() ? "" : "a NAME of the scene's, or ", probes.size(), names));
   }
-  ShockRequest simulated = request_of(drop);
-  simulated.axis.reset();
-  return run_shock(scene, probes, simulated);
+  return run_shock(scene, probes, request_of(drop));
 }
 
 int run_measured(const ShockCommandInput& input) {
@@ -77,11 +76,14 @@ int run_measured(const ShockCommandInput& input) {
   std::istringstream names(input.columns);
   for (std::string name; std::getline(names, name, ',');) wanted.columns.push_back(name);
   view.rate.reset();
-  const MeasuredShock shock = measure_shock(read_accelerations(wanted), input.request);
+  AccelerationRecord record = read_accelerations(wanted);
+  ShockRequest of_record = input.request;
+  if (beside && record.axes.size() == 1) of_record.axis.reset();  // its only one, beside whichever of the body
+  const MeasuredShock shock = measure_shock(std::move(record), of_record);
   const ShockRun* const simulated = beside ? &*beside : nullptr;
-  write_report(input.output, measured_shock_report(shock, input.request, view, simulated));
+  write_report(input.output, measured_shock_report(shock, of_record, view, simulated));
   if (plot.is_wanted())
-    plot.write(measured_shock_picture(shock, input.request, view, simulated),
+    plot.write(measured_shock_picture(shock, of_record, view, simulated),
                {"clatter shock --measured: " + input.measured});
   return 0;
 }

@@ -77,6 +77,16 @@ std::vector<Column> pulse_columns() {
   return columns;
 }
 
+Cell condition_cell(const Estimated& velocity, const Estimated& peak) {
+  if (velocity.is_known() && peak.is_known())
+    return Cell(std::string(1, covering_condition(velocity.value, peak.value)));
+  return {Value(), "?"};
+}
+
+Cell known_or_empty(const Estimated& number, int digits) {
+  return number.is_known() ? measured_cell(number, digits) : Cell(Value(), "?");
+}
+
 /// @param part  null: none
 Row pulse_row(const Pulse& pulse, int digits, const FragilePart* part) {
   const Estimated &velocity = pulse.velocity, &peak = pulse.peak;
@@ -85,16 +95,18 @@ Row pulse_row(const Pulse& pulse, int digits, const FragilePart* part) {
   Row row{Cell(pulse.probe), Cell(pulse.impact), Cell(pulse.model)}, errors;
   const auto add = [&](double value, double of_value) {
     const Estimated number{value, std::fabs(value) * of_value};
-    row.push_back(std::isfinite(value) ? measured_cell(number, digits) : Cell());
+    row.push_back(std::isfinite(value) ? known_or_empty(number, digits) : Cell());
     errors.emplace_back(std::isfinite(value) ? error_or_nothing(number) : Value());
   };
   if (!pulse.predictable) row[1].shown = fmt::format("{}?", pulse.impact);
-  add(velocity.value, of_v);
-  add(peak.value / standard_gravity, of_a);
+  for (const Estimated& size : {velocity, peak * (1 / standard_gravity)}) {
+    row.push_back(measured_cell(size, digits));
+    errors.emplace_back(error_or_nothing(size));
+  }
   add(half_sine.duration, of_v + of_a);
   add(half_sine.height(0), 2 * of_v);
   add(half_sine.height(pulse.restitution), 2 * of_v);
-  row.emplace_back(std::string(1, covering_condition(velocity.value, peak.value)));
+  row.push_back(condition_cell(velocity, peak));
   // ln of a response changes by no more than ln of f T does.
   for (const PulseShape shape : shapes)
     add(part ? margin(*part, shape, velocity.value, peak.value) : std::nan(""), of_v + 2 * of_a);
@@ -309,7 +321,8 @@ std::optional<PicturePanel> boundary_panel(const std::vector<Pulse>& pulses, con
     if (!part.is_at(pulse.probe)) continue;
     const std::pair point{pulse.velocity.value, pulse.peak.value / standard_gravity};
     if (pulse.predictable && pulse.impact <= most_marks)
-      add(fmt::format("{}, impact {}{}", pulse.probe, pulse.impact, are_mixed(pulses) ? ", " + pulse.model : ""),
+      add(fmt::format("{}, impact {}{}{}", pulse.probe, pulse.impact, are_mixed(pulses) ? ", " + pulse.model : "",
+                      pulse.velocity.is_known() && pulse.peak.is_known() ? "" : ", size not known"),
           FigureCurve::Style::marks, {point});
     else later.push_back(point);
   }

@@ -26,6 +26,11 @@ struct Pulse {
 /// By the continuous model, in the order of probes.
 [[nodiscard]] std::vector<Pulse> pulses_of(const ShockRun& run);
 
+/// The mildest service condition that covers a blow; "?" with no value where its size is not known.
+[[nodiscard]] Cell condition_cell(const Estimated& velocity, const Estimated& peak);
+/// As measured_cell(), "?" with no value where nothing is known: what follows from a clipped peak is no number.
+[[nodiscard]] Cell known_or_empty(const Estimated& number, int digits);
+
 /// A row for each pulse and part.
 [[nodiscard]] std::vector<Column> pulse_columns();
 /// The margins are empty without a part.

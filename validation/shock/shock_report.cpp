@@ -217,9 +217,7 @@ Row point_row(const NamedSpectrum& named, const ResponsePoint& point, int digits
   const Estimated a{whole.acceleration.maximax(), point.acceleration_error};
   Row cells{Cell(named.probe), Cell(named.axis), Cell(named.model), Cell(blows_word(spectrum)),
             Cell(point.frequency, 4)};
-  cells.push_back(known_cell(v, {digits, 0}));
-  cells.push_back(known_cell(a, {digits, 0}));
-  cells.push_back(known_cell(a * (1 / standard_gravity), {digits, 0}));
+  for (const Estimated& number : {v, a, a * (1 / standard_gravity)}) cells.push_back(measured_cell(number, digits));
   for (const ResponseExtremes* part : {&whole, &point.primary, &point.residual}) {
     for (const Extremes* extremes : {&part->pseudo_velocity, &part->acceleration}) {
       cells.emplace_back(extremes->high, digits);
@@ -416,6 +414,34 @@ void add_severity(double severity, PicturePanel& panel) {
       {.x = "frequency", .y = "severity", .legend = "severity", .style = FigureCurve::Style::dotted});
 }
 
+/// What each probe reads along the body's axes, a panel each.
+std::vector<PicturePanel> history_panels(const ShockRun& run, double rate) {
+  const Grid grid = shock_history_grid(run, rate);
+  std::vector<PicturePanel> panels;
+  for (const Probe& probe : run.probes) {
+    PicturePanel& panel = panels.emplace_back(PicturePanel{.columns = {{"time", "s", "after the first touch-down"}}});
+    panel.plot.y_label = probe.name + " [g]";
+    std::vector<std::size_t> places{0};
+    for (const char* const axis : axis_names) {
+      const std::string name = probe.name + "_" + axis;
+      places.push_back(
+          static_cast<std::size_t>(std::ranges::find(grid.columns, name, &Column::name) - grid.columns.begin()));
+      panel.columns.push_back({axis, "g", probe.name + " along " + axis});
+      panel.plot.curves.push_back({.x = "time", .y = axis, .legend = axis});
+    }
+    for (const Row& row : grid.rows) {
+      std::vector<double>& numbers = panel.rows.emplace_back();
+      for (const std::size_t place : places) {
+        const double* const number = row[place].value.number();
+        const double unit = place == 0 ? 1 : standard_gravity;
+        numbers.push_back(number ? *number / unit : no_number);
+      }
+    }
+  }
+  if (!panels.empty()) panels.back().plot.x_label = "time after the first touch-down [s]";
+  return panels;
+}
+
 std::string probe_words(const std::vector<Probe>& probes) {
   std::string words;
   for (const Probe& probe : probes) words += (words.empty() ? "probes: " : "; ") + place_words(probe);
@@ -493,7 +519,7 @@ Grid spectrum_digest(const std::vector<std::vector<NamedSpectrum>>& shown, int d
       Row row{Cell(of_probe.front().probe), Cell(of_probe.front().spectrum->points[i].frequency, 4)};
       for (const bool is_acceleration : {false, true}) {
         for (const NamedSpectrum& one : of_probe)
-          row.push_back(known_cell(maximax(one.spectrum->points[i], is_acceleration), {std::min(digits, 4), 0}));
+          row.push_back(measured_cell(maximax(one.spectrum->points[i], is_acceleration), std::min(digits, 4)));
       }
       digest.rows.push_back(row);
     }
@@ -593,6 +619,11 @@ Report shock_report(const ShockRun& run, const ShockView& view) {
 Picture shock_picture(const ShockRun& run, const ShockView& view, std::optional<std::size_t> of_probe) {
   Picture picture{.what = fmt::format("Response spectra, {}", quality_words(run.request.quality)),
                   .scene = run.scene.summary(run.continuous ? Model::continuous : Model::discrete)};
+  if (view.rate && run.continuous) {
+    picture.what = fmt::format("Specific forces at the probes, body axes, at {} Hz", shortest(*view.rate));
+    picture.panels = history_panels(run, *view.rate);
+    return picture;
+  }
   for (std::size_t probe = 0; probe < run.probes.size(); ++probe) {
     if (of_probe && probe != *of_probe) continue;
     std::vector<NamedSpectrum> shown = shown_spectra(run, probe);

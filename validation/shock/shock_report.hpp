@@ -44,7 +44,7 @@ struct ShockView {
   std::optional<double> rate{};         ///< the table is the history at this rate instead [Hz]
 };
 [[nodiscard]] Report shock_report(const ShockRun& run, const ShockView& view);
-/// The spectra of each probe, or of one alone, and the damage boundaries.
+/// The spectra of each probe, or of one alone, and the damage boundaries; at a rate the history of each probe.
 [[nodiscard]] Picture shock_picture(const ShockRun& run, const ShockView& view,
                                     std::optional<std::size_t> of_probe = std::nullopt);
 

@@ -126,6 +126,60 @@ class Measured(EmptyFolder):
         self.refused("--probe: required, where on the body the record was taken: a NAME of the scene's, or NAME:X,Y,Z, not 2 points: camera, crystal",
                      "shock", "--measured", "a.csv", "--against", "drop.toml")
 
+    def test_an_axis_is_that_of_the_record_and_of_the_drop_beside_it(self):
+        columns = "t,Acc X (g),Acc Y (g),Acc Z (g)\n" + rows(TIMES, PULSE / 3, 0 * PULSE, PULSE)
+        options = ("--against", "phone-damped", "--angle", "30", *PROBE, "--impacts", "1", "--no-sensitivity", "--frequencies", "100:1000:2")
+        for axis in "xyz":
+            found = self.measure(columns, *options, "--axis", axis)["spectra"]
+            self.assertEqual([(one["model"], one["axis"]) for one in found], [("measured", f"Acc {axis.upper()}"), ("continuous", axis)])
+            alone = self.json_of("shock", "phone-damped", *options[2:], "--axis", axis)["spectra"]
+            self.assertEqual(found[1], next(one for one in alone if one["model"] == "continuous" and one["blows"] == "1"))
+        measured, drop = (one["axis"] for one in self.measure(columns, *options)["spectra"])
+        table = printed("shock", "--measured", "a.csv", *options, "--rows", "spectrum", "--plot", "a.svg", cwd=self.folder)
+        self.assertIn(f"{measured} beside body {drop}", " ".join(table.split()))
+        self.assertIn(f"{measured} beside body {drop}", self.read("a.svg"))
+        # A sensor of one axis has no other: the letter is the body's.
+        found = self.measure("t,a (g)\n" + rows(TIMES, PULSE), *options, "--axis", "x")["spectra"]
+        self.assertEqual([one["axis"] for one in found], ["a", "x"])
+
+    def test_what_follows_from_a_size_that_is_not_known_is_no_number(self):
+        times, pulse = half_sine(1e5, 1500, 1e-3)
+        self.write("a.csv", "t,a (g)\n" + rows(times, np.minimum(pulse, 500)))
+        impact, = rows_of("shock", "--measured", "a.csv", cwd=self.folder)
+        blow, = rows_of("shock", "--measured", "a.csv", "--rows", "pulse", "--part", "400:250", cwd=self.folder)
+        self.assertGreater(float(impact["delta_v"]), 1)  # what was read, which is less than what was
+        for row, names in ((impact, ("condition", "pulse_duration")),
+                           (blow, ("condition", "pulse_duration", "height_without_rebound", "margin_rectangle", "margin_half_sine"))):
+            self.assertEqual({name: row[name] for name in names}, dict.fromkeys(names, ""))
+        for kind in ("impact", "pulse"):
+            table = printed("shock", "--measured", "a.csv", "--rows", kind, "--part", "400:250", cwd=self.folder)
+            shown = [line for line in table.splitlines() if re.match(r"  (a +)?1 ", line)]
+            self.assertTrue(shown)
+            for line in shown:
+                self.assertRegex(line, r"\?$")
+                self.assertNotRegex(line, " [A-H]( |$)")
+
+    def test_noise_leaves_a_spectrum_as_open_as_seeds_scatter_and_the_table_says_so(self):
+        right = [point["pseudo_velocity"]["maximax"] for point in
+                 self.measure("t,a (g)\n" + rows(*half_sine(1e6, 900, 5e-4, 0.02, 0.06)), "--frequencies", "50:1000:4")["spectra"][0]["points"]]
+        times, pulse = half_sine(2.5e4, 900, 5e-4, 0.02, 0.06)
+        generator, errors, distances = np.random.default_rng(5), [], []
+        for _ in range(12):
+            found = self.measure("t,a (g)\n" + rows(times, pulse + generator.normal(0, 3, len(times))), "--frequencies", "50:1000:4")
+            points = [point["pseudo_velocity"] for point in found["spectra"][-1]["points"]]
+            errors.append([point["error_estimate"] for point in points])
+            distances.append([point["maximax"] - exact for point, exact in zip(points, right, strict=True)])
+        for exact, error, distance in zip(right, np.array(errors).T, np.array(distances).T):
+            self.assertTrue((abs(distance) <= error).all(), (exact, error, distance))
+            self.assertLess(error.max(), 10 * math.sqrt((distance ** 2).mean()), exact)  # the sum of all bends is 20 to 40 times that
+        table = printed("shock", "--measured", "a.csv", "--rows", "spectrum", "--frequencies", "50:1000:4", cwd=self.folder)
+        lines = [line for line in table.splitlines() if re.match(r"  a +\d", line)]
+        self.assertEqual(len(lines), 4)
+        for line, exact in zip(lines, right):
+            number, error = re.search(r" ([\d.]+)±([\d.]+) ", line).groups()
+            self.assertLess(abs(float(number) - exact), float(error))
+            self.assertNotIn("?", line)
+
     def test_blows_of_three_axes_are_told_apart(self):
         times = np.arange(5000) / 1e4
         peaks = ((0.1, (100, 0, 0)), (0.2, (0, 30, 40)), (0.205, (0, 0, 20)))

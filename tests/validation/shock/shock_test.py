@@ -5,6 +5,7 @@ import json
 import math
 import random
 import re
+import tempfile
 import unittest
 
 import numpy as np
@@ -18,6 +19,7 @@ FLAT = ("--body", "box", "--size", "0.1057x0.0439x0.0191", "--mass", "0.088", "-
 STEEL = "--floor steel --thickness 0.1"
 
 BAD = {
+    "phone-damped --angle -30 --probe a:0,0,0": "must be from 0 to 90 degrees: end a (-x) is low; the other one is with a negative --release-angle",
     "phone-damped": "--probe: required", **{f"phone-damped --probe {probe}": "NAME:X,Y,Z" for probe in (":1,2,3", "a:1,2", "a:nan,0,0", "a:1e400,0,0", "a:1,,3")},
     "phone-damped --probe a:0,0,0 --probe a:0,0,1": "already", "rod-10 --probe a:0,0,0 --model continuos": "continuous",
     **{f"phone-damped --probe a:0,0,0 {options}": words for options, words in {
@@ -201,6 +203,16 @@ class Parts(unittest.TestCase):
                 self.assertGreater(float(row["indentation"]), 0, row)
             if float(row["indentation"]) < 0:
                 self.assertEqual((float(row["pressure"]), float(row["force_z"])), (0, 0), row)
+
+    def test_a_plot_at_a_rate_is_the_history_of_each_probe_by_axis(self):
+        with tempfile.TemporaryDirectory() as folder:
+            printed("shock", "phone-damped", *PROBE, "--probe", "middle:0,0,0", "--impacts", "1", "--no-sensitivity", "--frequencies", "100:200:2",
+                    "--rate", "1e5", "--plot", "a.svg", cwd=folder)
+            with open(f"{folder}/a.svg", encoding="utf-8") as file:
+                drawn = file.read()
+        for words in ("camera [g]", "middle [g]", "time after the first touch-down [s]", ">x<", ">y<", ">z<"):
+            self.assertIn(words, drawn)
+        self.assertNotIn("natural frequency", drawn)
 
     def test_a_marked_row_is_the_peak_also_where_friction_jumps(self):
         # Friction that turns makes the force jump: two pieces of the history meet at one time, and the peak is that of one of them.
