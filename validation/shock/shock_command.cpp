@@ -142,7 +142,8 @@ Command shock_command() {
         "m/s2 where the file does not say",
         group);
     command.add_text("--column", input.columns, "NAME,...", "its columns of acceleration, one to three", group);
-    command.add_text("--against", input.against, "SCENE", "a drop to stand beside the record, at its one probe", group);
+    command.add_text("--against", input.against, "SCENE",
+                     "a drop to stand beside the record, at its one probe; --axis is that of both", group);
     add_output_options(command, input.output);
     add_plot_options(command, input.plot);
     command.footer =

@@ -182,9 +182,8 @@ void add_shock_options(Command& command, ShockInput& input) {
                .repeats = true});
   ShockRequest& request = input.request;
   command.add(choice_argument("--model", input.model, model_names, "(continuous if the scene has a ground)", "Shock"));
-  command.add(choice_argument(
-      "--axis", request.axis, {"x", "y", "z"},
-      "of the body, and of a record, for spectra (that with the largest change of velocity of each)", "Shock"));
+  command.add(choice_argument("--axis", request.axis, {"x", "y", "z"},
+                              "of the body, for spectra (that with the largest change of velocity)", "Shock"));
   command.add(read_argument("--quality", request.quality, read_quality, "Q",
                             "of the oscillators, or none: undamped (10)", "Shock"));
   command.add({.name = "--frequencies",
