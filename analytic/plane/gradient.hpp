@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Derivatives of the state after each impact with respect to the numbers of the drop.
 //
-// The derivative of the state (t, α, u, s, Ω, ΣP) goes through impacts and flights by the Jacobians of
-// step_jacobians.hpp,
+// The derivative of the state (t, α, u, s, Ω, ΣP) goes through impacts and flights by the Jacobians J
+// of each,
 //     g ← J g + ∂(impact)/∂p                                                                       (1)
 // for each parameter p, the second term for the parameters of the law alone.  At a fold, where an impact grazes, the
 // derivatives of all later impacts are infinite; where another impact, or another branch of the law, begins next to the

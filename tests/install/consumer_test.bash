@@ -44,7 +44,7 @@ with_one_folder() {
 # What an installed header names, in its text, too, is installed.
 with_headers_that_are_there() {
   local folder named missing
-  folder=$(dirname -- "$(find "$prefix" -name analytic.hpp)")
+  folder=$(dirname -- "$(find "$prefix" -path '*/include/clatter/analytic.hpp')")
   named=$(grep -rhoE '[A-Za-z_]+\.hpp' "$folder" | sort -u)
   [[ $(wc -l <<<"$named") -gt 40 ]]
   missing=$(comm -23 <(printf '%s\n' "$named") <(find "$folder" -name '*.hpp' -printf '%f\n' | sort -u))

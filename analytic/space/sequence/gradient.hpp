@@ -3,8 +3,8 @@
 //
 // The derivative of (t, θ, V, ω), θ the rotation vector of a small turn, goes through impacts and flights,
 //     g ← J g + ∂(impact)/∂p,                                                                        (1)
-// the second term for the parameters p of the law alone: J of an impact from impact.hpp, of a flight from
-// flight_derivatives.hpp.  What has no closed form there, and every ∂(impact)/∂p, is the limit of differences of that
+// the second term for the parameters p of the law alone: J of an impact from impact.hpp, of a flight by
+// its closed form.  What has no closed form, and every ∂(impact)/∂p, is the limit of differences of that
 // one impact, extrapolated (Richardson).
 #pragma once
 
