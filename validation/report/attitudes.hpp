@@ -59,7 +59,7 @@ struct AllAttitudes {
   /// How far the worst of a sample is from that of all is told by two samples of half the size, of all attitudes each:
   /// the worst value of the half without the worst drop; NaN where that half is empty.
   [[nodiscard]] double worst_of_other_half() const;
-  /// |ln| of the ratio of the halves' worst values, below which two numbers are not told apart; 0: not known.
+  /// |ln| of the ratio of the halves' worst values; 0: not known.
   [[nodiscard]] double spread() const;
   [[nodiscard]] std::ptrdiff_t count(auto&& wanted) const { return std::ranges::count_if(drops, wanted); }
 };

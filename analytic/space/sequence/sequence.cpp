@@ -166,16 +166,12 @@ class Run : public SequenceLoop<Sequence, ErrorGrowth> {
   void go_on(std::vector<int> arriving, FirstContact flown) {
     for (;;) {
       record(arriving, flown);
-      Next next = Next::flight;
       if (options_.until_face && is_trapped()) return settle();
-      if (accumulates()) {
-        next = go_on_touching(arriving);
-        if (next != Next::end && is_full()) return;
-      } else if (is_full()) {
-        return note_slow_contacts();
-      } else if (options_.until_rest && is_still()) {
-        return settle();
-      }
+      const bool stays = accumulates();
+      Next next = stays ? go_on_touching(arriving) : Next::flight;
+      if (next == Next::end) return;
+      if (is_full()) return note_slow_contacts();
+      if (!stays && options_.until_rest && is_still()) return settle();
       flown = {};
       while (next == Next::flight) next = fly(arriving, flown);
       if (next == Next::end) return;

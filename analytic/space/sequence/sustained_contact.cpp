@@ -117,14 +117,11 @@ class ContactMotion {
 
   [[nodiscard]] Rates rates(ContactEnd end, int vertex) const {
     const GroundForces f = forces(motion_);
-    Rates result{.acceleration = {0, 0, -drop_.gravity}, .turning = f.turning, .margin = 0};
-    for (const Vector3& force : f.of_points) result.acceleration += force / drop_.body.mass;
+    Rates result{.acceleration = acceleration(f), .turning = f.turning, .margin = 0};
     const State s = state();
     if (end == ContactEnd::arrival) {
-      const Vector3 arm = s.attitude * place(vertex);
       result.margin = velocity_at(s, place(vertex)).z();
-      const Vector3& w = s.angular_velocity;
-      result.bend = (result.acceleration + f.turning.cross(arm) + w.cross(w.cross(arm))).z();
+      result.bend = acceleration(f, s, place(vertex)).z();
       return result;
     }
     const Motion change = 1e-5 * falling_ * rate_of(motion_, points_, f);
@@ -154,6 +151,18 @@ class ContactMotion {
   static constexpr double left_slip = 1e-7;
   static constexpr double longest_step = 0.1;  ///< [rad], and of √(reach/g)
   static constexpr int most_steps = 5'000;
+
+  /// Acceleration V̇ of the centre of mass.
+  [[nodiscard]] Vector3 acceleration(const GroundForces& f) const {
+    Vector3 sum(0, 0, -drop_.gravity);
+    for (const Vector3& force : f.of_points) sum += force / drop_.body.mass;
+    return sum;
+  }
+  /// Acceleration of a place, V̇ + ω̇ × r + ω × (ω × r).
+  [[nodiscard]] Vector3 acceleration(const GroundForces& f, const State& s, const Vector3& place) const {
+    const Vector3 arm = s.attitude * place;
+    return acceleration(f) + f.turning.cross(arm) + s.angular_velocity.cross(s.angular_velocity.cross(arm));
+  }
 
   [[nodiscard]] GroundForces forces(const Motion& y) const { return law_.forces(state_of(y, points_), points_); }
 
@@ -454,7 +463,6 @@ class ContactMotion {
   /// first if there is none.
   [[nodiscard]] std::size_t rising(const GroundForces& pulled) const {
     const State s = state();
-    const Vector3& w = s.angular_velocity;
     std::size_t first = points_.size();
     for (std::size_t i = 0; i < points_.size(); ++i) {
       if (pulled.of_points[i].z() > 0) continue;
@@ -462,9 +470,7 @@ class ContactMotion {
       std::vector<GroundPoint> others = points_;
       others.erase(others.begin() + static_cast<std::ptrdiff_t>(i));
       const GroundForces f = law_.forces(s, others);
-      const Vector3 arm = s.attitude * points_[i].place;
-      double rise = (f.turning.cross(arm) + w.cross(w.cross(arm))).z() - drop_.gravity;
-      for (const Vector3& force : f.of_points) rise += force.z() / drop_.body.mass;
+      const double rise = acceleration(f, s, points_[i].place).z();
       if (f.of_points[0].z() > 0 && rise >= 0) return i;
     }
     return first;
@@ -490,8 +496,8 @@ class ContactMotion {
     }
     const GroundForces f = forces(motion_);
     if (!f.is_unique || event_ == Event::digs_in) return open("slip digs in (Painlevé)");
-    const auto pulled = std::ranges::find_if(f.of_points, [](const Vector3& force) { return !(force.z() > 0); });
-    if (event_ == Event::lifts || pulled != f.of_points.end()) {
+    const bool is_pulled = std::ranges::any_of(f.of_points, [](const Vector3& force) { return !(force.z() > 0); });
+    if (event_ == Event::lifts || is_pulled) {
       if (points_.size() > 1) {
         leave(event_ == Event::lifts ? number_ : rising(f));
         if (!keep_or_begin_slip()) return open(slip_is_open);
