@@ -43,18 +43,22 @@ std::optional<double> factor_of(std::span<const UnitName> units, std::string_vie
   return std::nullopt;
 }
 
-Texts TextRows::Layout::cut(std::string_view line) const {
+Texts TextRows::Layout::cut(std::string_view line, std::vector<std::size_t>* places) const {
   Texts texts;
   if (separator == ' ') {
     for (std::size_t at = line.find_first_not_of(" \t"); at != std::string_view::npos;) {
       const std::size_t end = std::min(line.find_first_of(" \t", at), line.size());
       texts.emplace_back(line.substr(at, end - at));
+      if (places) places->push_back(at + 1);
       at = line.find_first_not_of(" \t", end);
     }
     return texts;
   }
   CsvLine fields_of(line, separator);
-  for (CsvField field; fields_of.next(field);) texts.emplace_back(field.text);
+  for (CsvField field; fields_of.next(field);) {
+    texts.emplace_back(field.text);
+    if (places) places->push_back(field.column);
+  }
   if (texts.size() > 1 && texts.back().empty()) texts.pop_back();  // a separator at the end of a line
   return texts;
 }
@@ -149,8 +153,26 @@ TextRows::Column TextRows::name_and_unit(std::string_view text) const {
   return {std::string(trimmed(text)), ""};
 }
 
+bool TextRows::names_units(const Texts& names) const {
+  return layout_.numbers(names) == 0 && std::ranges::any_of(names, [&](const std::string& name) {
+           const std::string unit = name_and_unit(name).unit;
+           return is_unit(unit.empty() ? without_brackets(trimmed(name)) : unit);
+         });
+}
+
+/// The line above the first rows of numbers is one of them with a bad field, no names of columns, where it begins with
+/// a number, or has one and names with units above it.
+void TextRows::refuse_row_of_head(std::size_t line, const Texts& fields, bool is_named) const {
+  double value = 0;
+  if (!layout_.read(fields[0], value) && !(is_named && layout_.numbers(fields) > 0)) return;
+  for (std::size_t k = 0; k < fields.size(); ++k) {
+    if (!layout_.read(fields[k], value)) refuse_number(line, k, fmt::format("{}", k + 1));
+  }
+}
+
 void TextRows::read_head() {
   std::vector<Texts> named;  // lines with as many fields, the nearest one first
+  std::vector<std::size_t> lines;
   for (std::size_t i = first_; i-- > 0;) {
     std::string_view text = lines_[i].text;
     above_.emplace_back(text);
@@ -158,9 +180,14 @@ void TextRows::read_head() {
     if (marks == text.size() || text[marks] != layout_.separator) text = trimmed(text.substr(marks));  // else per cent
     if (text.empty()) continue;
     Texts fields = layout_.cut(text);
-    if (fields.size() == layout_.fields && named.size() < 2) named.push_back(std::move(fields));
-    else if (named.empty()) break;
+    if (fields.size() == layout_.fields && named.size() < 2) {
+      lines.push_back(i);
+      named.push_back(std::move(fields));
+    } else if (named.empty()) {
+      break;
+    }
   }
+  if (!named.empty()) refuse_row_of_head(lines[0], named[0], named.size() == 2 && names_units(named[1]));
   const auto is_unit_or_none = [&](std::string_view text) {
     text = without_brackets(text);
     return text.empty() || text == "-" || is_unit(text);
@@ -197,8 +224,14 @@ std::string TextRows::names() const {
 double TextRows::number(std::size_t row, std::size_t column) const {
   const double value = at(row, column);
   if (std::isfinite(value)) return value;
-  const std::string text = layout_.cut(lines_[row_lines_[row] - 1].text)[column];
-  refuse(row, fmt::format("column {} = {}: must be a finite number", columns_[column].name, shown_field(text)));
+  refuse_number(row_lines_[row] - 1, column, columns_[column].name);
+}
+
+void TextRows::refuse_number(std::size_t line, std::size_t column, const std::string& name) const {
+  std::vector<std::size_t> places;
+  const std::string text = layout_.cut(lines_[line].text, &places)[column];
+  throw BadInput("{}:{}:{}: column {} = {}: must be a finite number", path_, lines_[line].number, places[column], name,
+                 shown_field(text));
 }
 
 }  // namespace clatter::validation

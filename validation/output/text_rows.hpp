@@ -34,8 +34,8 @@ class TextRows {
   /// Reads a file.
   /// @param units  those that a name may end in, "acc_g" or "strain (%)", or that a line below the names may have
   /// @param needed  what a row is, for the refusal of a text without rows
-  /// @throws BadInput "FILE: ..." or "FILE:LINE:COLUMN: ..." if it cannot be read, has no rows, or rows of different
-  ///         lengths.
+  /// @throws BadInput "FILE: ..." or "FILE:LINE:COLUMN: ..." if it cannot be read, has no rows, rows of different
+  ///         lengths, or above the first row of numbers one of which a field is none.
   TextRows(const std::string& path, std::span<const std::span<const UnitName>> units, const std::string& needed);
 
   [[nodiscard]] const std::vector<Column>& columns() const { return columns_; }
@@ -56,13 +56,15 @@ class TextRows {
   [[noreturn]] void refuse(std::size_t row, const std::string& words) const;
 
  private:
+  [[noreturn]] void refuse_number(std::size_t line, std::size_t column, const std::string& name) const;
   /// How the fields of a row are divided, and what their decimal sign is.
   struct Layout {
     char separator = ',';
     bool decimal_comma = false;
     std::size_t fields = 0;
 
-    [[nodiscard]] std::vector<std::string> cut(std::string_view line) const;
+    /// @param places  where each field begins, from 1; null: not wanted
+    [[nodiscard]] std::vector<std::string> cut(std::string_view line, std::vector<std::size_t>* places = nullptr) const;
     [[nodiscard]] bool read(std::string text, double& value) const;
     [[nodiscard]] std::size_t numbers(const std::vector<std::string>& texts) const;
   };
@@ -76,6 +78,8 @@ class TextRows {
   [[nodiscard]] std::optional<Layout> layout_at(std::size_t line, bool with_texts) const;
   void find_rows(const std::string& needed);
   void read_head();
+  [[nodiscard]] bool names_units(const std::vector<std::string>& names) const;
+  void refuse_row_of_head(std::size_t line, const std::vector<std::string>& fields, bool is_named) const;
   void read_rows();
 
   std::string path_, text_;

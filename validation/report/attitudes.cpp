@@ -159,9 +159,9 @@ Ranking ranking_of(std::string_view column, const std::vector<Probe>& probes, co
   const bool is_velocity = column.starts_with(shock_column) || !ranking.has_peaks;
   ranking.by = column.starts_with(peak_column)    ? Ranking::By::peak
                : column.starts_with(shock_column) ? Ranking::By::velocity
-               : ranking.part                     ? Ranking::By::margin
-               : is_velocity                      ? Ranking::By::velocity
-                                                  : Ranking::By::peak;
+               : ranking.part ? (ranking.part->has_limit() ? Ranking::By::margin : Ranking::By::response)
+               : is_velocity  ? Ranking::By::velocity
+                              : Ranking::By::peak;
   return ranking;
 }
 
@@ -198,6 +198,11 @@ double AllAttitudes::worst_of_other_half() const {
   return found;
 }
 
+std::string AllAttitudes::drops_words() const {
+  return fmt::format("{} drops on faces, edges and corners{}", drops.size(),
+                     is_sample ? fmt::format(", each ±{}°", shortest(scatter)) : "");
+}
+
 double AllAttitudes::spread() const {
   const double apart = is_sample ? std::fabs(std::log(drops[worst].value / worst_of_other_half())) : 0;
   return std::isfinite(apart) ? apart : 0;
@@ -227,17 +232,24 @@ std::optional<AllAttitudes> all_attitudes(const ReportInput& input, const Scene&
   std::vector<PackedCell> row(columns.size());
   std::vector<double> values;
   const auto number = [&](std::size_t place) { return place < row.size() ? row[place].number : std::nan(""); };
+  if (ranks.by == Ranking::By::response) {
+    all.column.name.replace(all.column.name.find(margin_column), margin_column.size(), response_column);
+    all.column.unit = "g";
+  }
+  const auto ranked_number = [&](std::size_t place) {
+    return ranks.by == Ranking::By::response ? response_in_g(*ranks.part, number(place)) : number(place);
+  };
   summary.add(sweep.rows);
   for (PackedRows packed(sweep.rows); packed.next(row);) {
     if (!std::isfinite(row[*ranking].number)) continue;
-    SweptDrop drop{.point = static_cast<long long>(row.front().number), .value = row[*ranking].number};
+    SweptDrop drop{.point = static_cast<long long>(row.front().number), .value = ranked_number(*ranking)};
     plan.points.at(drop.point, values);
     std::copy_n(values.begin(), 4, drop.parameters.begin());
     drop.down = down_of(Eigen::Quaterniond(values[0], values[1], values[2], values[3]));
     drop.attitude = static_cast<int>(plan.points.attitude_of(drop.point));
     drop.curve_depth = number(curve);
     drop.peak_g = number(peak);
-    drop.beyond_value = number(beyond_value);
+    drop.beyond_value = ranked_number(beyond_value);
     drop.beyond_impact = std::isfinite(number(beyond_impact)) ? static_cast<int>(number(beyond_impact)) : 0;
     all.drops.push_back(drop);
   }
@@ -260,7 +272,8 @@ std::optional<AllAttitudes> all_attitudes(const ReportInput& input, const Scene&
       all.report, [&](long long index) { return plan.command_of(index); },
       [&](long long place) { return plan.attitude_name(place); });
   all.report.commands.clear();
-  all.is_sample = sweep.request.scatter > 0;
+  all.scatter = sweep.request.scatter.value_or(0);
+  all.is_sample = all.scatter > 0;
   all.command = command_of(sweep.request, rank_by);
   return all;
 }
@@ -270,8 +283,10 @@ std::string ranked_words(const Column& ranking) {
   const bool is_landing = name.starts_with(of_landing);
   if (is_landing) name.remove_prefix(of_landing.size());
   std::string words(name);
-  for (const auto& [column, its_words] :
-       {std::pair{margin_column, "margin of"}, {peak_column, "peak at"}, {shock_column, "|ΔV| of"}}) {
+  for (const auto& [column, its_words] : {std::pair{margin_column, "margin of"},
+                                          {response_column, "response of"},
+                                          {peak_column, "peak at"},
+                                          {shock_column, "|ΔV| of"}}) {
     if (name.starts_with(column)) words = fmt::format("{} {}", its_words, name.substr(column.size()));
   }
   return words + (is_landing ? ", first landing" : "") + (ranking.unit.empty() ? "" : " [" + ranking.unit + "]");
@@ -286,6 +301,7 @@ std::vector<Column> attitude_columns() {
           pulse_column(),
           word_column("verdict", "", "whether the part survives it or fails"),
           {"margin", "margin", "", "of the part in it: at 1 and below it fails"},
+          {"response_g", "answer", "g", "of a part without a limit: its largest acceleration in it"},
           word_column("decided_by", "by", "what decides the margin: |ΔV|, peak, or the humps of its history"),
           {"depth_mm", "depth", "mm", "of the body's deepest point in it"},
           {"depth_percent", "of pad", "%", "the same in parts of the pad's thickness"},
@@ -302,6 +318,7 @@ std::vector<Column> attitude_columns() {
 Grid attitudes_grid(const AllAttitudes& all) {
   const bool has_peaks = std::ranges::any_of(all.blows, [](const auto& blow) { return blow && blow->peak_g > 0; });
   const bool has_margin = std::ranges::any_of(all.blows, [](const auto& blow) { return blow && blow->margin; });
+  const bool has_response = std::ranges::any_of(all.blows, [](const auto& blow) { return blow && blow->response_g; });
   const bool has_velocity = std::ranges::any_of(all.blows, [](const auto& blow) { return blow && blow->velocity > 0; });
   const bool has_depth = std::ranges::any_of(all.blows, [](const auto& blow) { return blow && blow->depth; });
   // Whether the blow's own numbers have what is ranked by.
@@ -322,6 +339,7 @@ Grid attitudes_grid(const AllAttitudes& all) {
                    : column.name == pulse_column().name                     ? has_peaks && has_velocity
                    : column.name == "delta_v"                               ? has_velocity
                    : column.name == "margin" || column.name == "decided_by" ? has_margin
+                   : column.name == "response_g"                            ? has_response
                    : column.name == "depth_mm"                              ? has_depth
                    : column.name == "depth_percent"                         ? has_share
                    : column.name == "worst"                                 ? !is_of_blow
@@ -348,17 +366,26 @@ Grid attitudes_grid(const AllAttitudes& all) {
     const bool is_deep = blow && blow->depth, has_pulse = blow && blow->peak_g > 0 && blow->velocity > 0;
     grid.rows.push_back(
         {Cell(fmt::format("{} {}", part_names[axes_of_attitude(worst.attitude)], orientation_name(worst.attitude + 1))),
-         Cell(degrees_off(all.scene, worst.attitude, worst.down), 2), blow ? Cell(blow->impact) : Cell(),
-         cell(blow && has_peaks, blow ? blow->peak_g : 0), cell(blow && has_velocity, blow ? blow->velocity : 0),
+         Cell(degrees_off(all.scene, worst.attitude, worst.down), 2),
+         blow ? Cell(blow->impact) : Cell(),
+         cell(blow && has_peaks, blow ? blow->peak_g : 0),
+         cell(blow && has_velocity, blow ? blow->velocity : 0),
          has_pulse ? said_cell(1e3 * equivalent_pulse(blow->velocity, blow->peak_g * standard_gravity).duration)
                    : Cell(),
          blow && blow->margin ? Cell(blow->margin->verdict()) : Cell(),
          cell(blow && blow->margin, blow && blow->margin ? blow->margin->value : 0),
+         blow && blow->response_g ? said_cell(*blow->response_g) : Cell(),
          blow && blow->margin ? deciding_cell(blow->margin->by) : Cell(),
          cell(is_deep, is_deep ? 1e3 * *blow->depth : 0),
-         cell(is_deep && has_share, is_deep && has_share ? 100 * *blow->depth / *pad : 0), said_cell(worst.value),
-         said_cell(mildest), cell(std::isfinite(largest_peak), largest_peak), Cell(static_cast<int>(drops)),
-         Cell(worst.parameters[0]), Cell(worst.parameters[1]), Cell(worst.parameters[2]), Cell(worst.parameters[3])});
+         cell(is_deep && has_share, is_deep && has_share ? 100 * *blow->depth / *pad : 0),
+         said_cell(worst.value),
+         said_cell(mildest),
+         cell(std::isfinite(largest_peak), largest_peak),
+         Cell(static_cast<int>(drops)),
+         Cell(worst.parameters[0]),
+         Cell(worst.parameters[1]),
+         Cell(worst.parameters[2]),
+         Cell(worst.parameters[3])});
   }
   return grid;
 }

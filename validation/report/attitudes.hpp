@@ -40,10 +40,14 @@ struct SweptDrop {
   double peak_g = 0;       ///< the largest specific force at the ranking's probe in any of its blows, or NaN
 };
 
+/// What the name of a ranking by a part's response begins with; sweeps have its margin for that, of a limit of 1 g.
+inline constexpr std::string_view response_column = "response_";
+
 /// What the drops in all attitudes give.
 struct AllAttitudes {
   std::vector<SweptDrop> drops;
   bool is_sample = true;  ///< else each attitude is exactly that
+  double scatter = 0;     ///< standard deviation of the turns about each axis [°]
   std::size_t worst = 0;
   Column column;                           ///< by which they are ranked
   std::vector<std::size_t> worst_of;       ///< of each attitude that has a drop: its worst one
@@ -61,6 +65,8 @@ struct AllAttitudes {
   [[nodiscard]] double worst_of_other_half() const;
   /// |ln| of the ratio of the halves' worst values; 0: not known.
   [[nodiscard]] double spread() const;
+  /// "260 drops on its faces, edges and corners, each ±3°".
+  [[nodiscard]] std::string drops_words() const;
   [[nodiscard]] std::ptrdiff_t count(auto&& wanted) const { return std::ranges::count_if(drops, wanted); }
 };
 

@@ -247,18 +247,23 @@ Grid cases_grid(const std::vector<const ReportCase*>& cases) {
     row.push_back(pad ? of("depth", 100 / *pad) : Cell());
     const auto& blow = one->found.answer.blow;
     row.push_back(blow && blow->margin ? deciding_cell(blow->margin->by) : Cell());
+    row.push_back(blow && blow->response_g ? said_cell(*blow->response_g) : Cell());
     grid.rows.push_back(std::move(row));
   }
   const auto any = [&](auto&& holds) {
     return std::ranges::any_of(cases, [&](const ReportCase* one) { return holds(*one); });
   };
-  const bool has_part = any([](const ReportCase& one) { return one.input.part().has_value(); });
+  const bool has_part =
+      any([](const ReportCase& one) { return one.input.part().has_value() && one.input.part()->has_limit(); });
   for (Column& column : grid.columns) {
     if (column.name == "drops") column.shown = false;  // which the headings of others say
     if (const auto& all = cases.front()->found.all; all && column.name == "failing")
       column.heading = fmt::format("fail of {}", all->drops.size());
     if (column.name == "verdict" || column.name == "margin" || column.name == "decided_by" || column.name == "failing")
       column.shown = has_part;
+    if (column.name == "response_g")
+      column.shown =
+          any([](const ReportCase& one) { return one.found.answer.blow && one.found.answer.blow->response_g; });
     if (column.name == pulse_column().name)
       column.shown = any([](const ReportCase& one) { return one.found.ranking.has_peaks; });
     if (column.name == "probe")
@@ -315,27 +320,53 @@ std::vector<std::vector<const ReportCase*>> by_part(const std::vector<const Repo
 
 bool has_margin(const ReportCase* one) { return one->found.answer.blow && one->found.answer.blow->margin; }
 
-/// "camera fails in 3 of 4 cases, least margin 0.12 (concrete, e = 0.7) to 1.3 (wood, e = 0.3)": of cases with margins.
-std::string margin_words(const std::vector<const ReportCase*>& cases) {
+bool has_response(const ReportCase* one) { return one->found.answer.blow && one->found.answer.blow->response_g; }
+
+/// " 0.12 (concrete, e = 0.7: corner -x-y+z down, 3.2° off, impact 2) to 1.3 (wood, e = 0.3: face +z down, 1° off,
+/// impact 1)": the worst case and the mildest, each with the drop that has it.
+std::string range_words(const std::vector<const ReportCase*>& cases, const auto& number) {
+  const auto end = [&](const ReportCase& one) {
+    std::string words = one.name();
+    if (const auto& all = one.found.all) words += (words.empty() ? "" : ": ") + all->name;
+    words += (words.empty() ? "impact " : ", impact ") + std::to_string(one.found.answer.blow->impact);
+    return fmt::format(" {} ({})", number(one), words);
+  };
   const ReportCase &worst = *cases.front(), &mildest = *cases.back();
+  return end(worst) + (number(mildest) != number(worst) ? " to" + end(mildest) : "");
+}
+
+/// ", of 260 drops on ..." where the drops of each case are as many.
+std::string of_drops_words(const std::vector<const ReportCase*>& cases) {
+  const auto& all = cases.front()->found.all;
+  if (!all) return "";
+  const auto is_other = [&](const ReportCase* one) {
+    return !one->found.all || one->found.all->drops_words() != all->drops_words();
+  };
+  return std::ranges::any_of(cases, is_other) ? ", of all drops" : ", of " + all->drops_words();
+}
+
+/// "camera answers with at most 832 g (…) to 120 g (…)": of cases with a part without a limit.
+std::string response_words(const std::vector<const ReportCase*>& cases) {
+  const auto number = [](const ReportCase& one) { return said(*one.found.answer.blow->response_g) + " g"; };
+  return fmt::format("{} answers with{}{}; no limit was given", cases.front()->part_name, range_words(cases, number),
+                     of_drops_words(cases));
+}
+
+/// "camera fails in 3 of 4 cases, least margin 0.12 (concrete, e = 0.7: …) to 1.3 (wood, e = 0.3: …)": of cases with
+/// margins.
+std::string margin_words(const std::vector<const ReportCase*>& cases) {
+  const ReportCase& worst = *cases.front();
   const auto margin = [](const ReportCase& one) { return said(one.found.answer.blow->margin->value); };
   const char* const which = worst.found.ranking.by == Ranking::By::margin ? "least margin" : "margin in its worst drop";
-  const std::string worst_drop = fmt::format(
-      "{} in impact {}", worst.found.all ? ": " + worst.found.all->name + "," : ",", worst.found.answer.blow->impact);
   const auto failing =
       std::ranges::count_if(cases, [](const ReportCase* one) { return !(one->found.answer.blow->margin->value > 1); });
-  if (cases.size() == 1) {
-    const std::string name = worst.name();
-    return fmt::format("{} {}, {} {}{}{}", worst.part_name, worst.found.answer.blow->margin->verdict(), which,
-                       margin(worst), name.empty() ? "" : " (" + name + ")", worst_drop);
-  }
   const auto count = static_cast<std::ptrdiff_t>(cases.size());
-  std::string words = failing == 0 || failing == count
-                          ? fmt::format("{} {} in all {} cases", worst.part_name, failing ? "fails" : "survives", count)
-                          : fmt::format("{} fails in {} of {} cases", worst.part_name, failing, count);
-  words += fmt::format(", {} {} ({})", which, margin(worst), worst.name());
-  if (margin(mildest) != margin(worst)) words += fmt::format(" to {} ({})", margin(mildest), mildest.name());
-  return words + worst_drop;
+  const std::string words =
+      count == 1 ? fmt::format("{} {}", worst.part_name, worst.found.answer.blow->margin->verdict())
+      : failing == 0 || failing == count
+          ? fmt::format("{} {} in all {} cases", worst.part_name, failing ? "fails" : "survives", count)
+          : fmt::format("{} fails in {} of {} cases", worst.part_name, failing, count);
+  return fmt::format("{}, {}{}{}", words, which, range_words(cases, margin), of_drops_words(cases));
 }
 
 /// The value of what is varied: a key of the case by its place, and behind them the scene.
@@ -415,8 +446,9 @@ std::vector<std::string> part_answers(const std::vector<const ReportCase*>& orde
   for (const std::vector<const ReportCase*>& of_part : by_part(order)) {
     const ReportCase& one = *of_part.front();
     const std::string name = one.name();
-    answers.push_back(std::ranges::all_of(of_part, has_margin)
-                          ? margin_words(of_part)
+    answers.push_back(std::ranges::all_of(of_part, has_margin) ? margin_words(of_part)
+                      : std::ranges::all_of(of_part, has_response)
+                          ? response_words(of_part)
                           : fmt::format("{}{}{}", name.empty() ? "" : "the worst is " + name + ": ",
                                         one.part_name.empty() ? "" : one.part_name + ": ",
                                         one.found.answer.blow ? one.found.lead : one.found.answer.words));
@@ -500,7 +532,8 @@ std::vector<Column> case_columns() {
        pulse_column(),
        {"depth_mm", "depth", "mm", "of the body's deepest point in it"},
        {"depth_percent", "of pad", "%", "the same in parts of the pad's thickness"},
-       word_column("decided_by", "by", "what decides the margin: |ΔV|, peak, or the humps of its history")});
+       word_column("decided_by", "by", "what decides the margin: |ΔV|, peak, or the humps of its history"),
+       {"response_g", "answer", "g", "of a part without a limit: its largest acceleration in that blow"}});
 }
 
 }  // namespace clatter::validation

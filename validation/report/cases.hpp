@@ -43,8 +43,8 @@ struct ReportCase {
 /// @throws BadInput for values that are none, and for more than 100 cases
 [[nodiscard]] std::vector<ReportCase> cases_of(const ReportInput& given);
 
-/// The cases by how hard they are, the worst first: those with a margin before those ranked by a peak, and these before
-/// those by a change of velocity.
+/// The cases by how hard they are, the worst first: those with a margin before those without a limit, and these before
+/// those ranked by a peak or a change of velocity.
 [[nodiscard]] std::vector<const ReportCase*> ranked(const std::vector<ReportCase>& cases);
 
 /// The cases that are the worst of their scene and floor or of their part, in the order of the cases.

@@ -74,6 +74,7 @@ Answer answer_of(const ShockRun& run, const Ranking& ranking) {
     answer.fields["depth"] = *blow.depth;
     if (const std::string deep = depth_words(run.scene, *blow.depth); !deep.empty()) answer.words += "; " + deep;
   }
+  if (blow.response_g) answer.fields["response_g"] = *blow.response_g;
   if (!blow.margin) return answer;
   answer.fields["verdict"] = blow.margin->verdict();
   answer.fields["margin"] = blow.margin->value;
@@ -102,16 +103,14 @@ std::string bottoming_words(const AllAttitudes& all, const Ranking& ranking) {
 
 /// The worst of all drops in a sentence: with a part in how many it survives, and the least margin of all.
 std::string worst_words(const AllAttitudes& all, const Answer& answer, const Ranking& ranking) {
-  const std::size_t drops = all.drops.size();
   if (!answer.blow || !answer.blow->margin || ranking.by != Ranking::By::margin) {
     const std::string words = answer.blow ? answer.words
                                           : fmt::format("its {} is {} {}", all.column.name,
                                                         said(all.drops[all.worst].value), all.column.unit);
-    return fmt::format("Worst of {} drops: {}: {}", drops, all.name, words);
+    return fmt::format("Worst of {}: {}: {}", all.drops_words(), all.name, words);
   }
-  return fmt::format("{} survives in {} of {} drops; least margin {}: {}, where {}",
-                     answer.fields.find("probe")->text(),
-                     all.count([](const SweptDrop& drop) { return drop.value > 1; }), drops,
+  return fmt::format("{} survives in {} of {}; least margin {}: {}, where {}", answer.fields.find("probe")->text(),
+                     all.count([](const SweptDrop& drop) { return drop.value > 1; }), all.drops_words(),
                      said(answer.blow->margin->value), all.name, answer.words);
 }
 

@@ -218,7 +218,9 @@ std::string shock_html(const ShockRun& run, ShockView view, int impact, std::opt
     if (picture.panels.empty()) continue;
     html += handout_picture(
         picture, fmt::format("Response spectra of {} with and without the second blow{}", run.probes[probe].name,
-                             of_part ? ", and all blows beside the damage boundary of the part." : "."));
+                             of_part && view.parts.front().has_limit()
+                                 ? ", and all blows beside the damage boundary of the part."
+                                 : "."));
   }
   return html;
 }

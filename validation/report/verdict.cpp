@@ -8,14 +8,18 @@
 
 #include "validation/output/number.hpp"
 #include "validation/run/discrete_scene.hpp"
+#include "validation/scene/assumed_inertia.hpp"
 #include "validation/scene/floors.hpp"
 #include "validation/scene/pad.hpp"
 #include "validation/scene/probes.hpp"
 
 namespace clatter::validation {
 
+double response_in_g(const FragilePart& part, double margin) { return part.response_at(margin) / standard_gravity; }
+
 double Ranking::value_of(const ShockRow& row) const {
   if (by == By::margin) return margin_of(row, *part, has_peaks).value;
+  if (by == By::response) return response_in_g(*part, margin_of(row, *part, has_peaks).value);
   return by == By::peak ? row.value.peak_size / standard_gravity : row.value.delta_v_size;
 }
 
@@ -41,7 +45,11 @@ std::optional<Blow> worst_blow(const std::vector<ShockRow>& rows, const Run& run
             .velocity = worst->value.delta_v_size,
             .width = worst->value.width,
             .value = ranking.value_of(*worst)};
-  if (ranking.part) blow.margin = blow_margin(*worst, *ranking.part, ranking.has_peaks);
+  if (ranking.part) {
+    const BlowMargin margin = blow_margin(*worst, *ranking.part, ranking.has_peaks);
+    if (ranking.part->has_limit()) blow.margin = margin;
+    else blow.response_g = response_in_g(*ranking.part, margin.value);
+  }
   if (ranking.has_peaks) blow.depth = run.impacts.at(static_cast<std::size_t>(blow.impact) - 1).value.indentation;
   return blow;
 }
@@ -80,6 +88,9 @@ std::string blow_words(const Blow& blow, const std::string& probe, const Ranking
           ? fmt::format("{} takes {} g in impact {}, {} m/s, as a half sine of {} ms has", probe, said(blow.peak_g),
                         blow.impact, said(blow.velocity), said(1e3 * half_sine().duration))
           : fmt::format("{} is changed by {} m/s in impact {}", probe, said(blow.velocity), blow.impact);
+  if (blow.response_g)
+    return words + fmt::format("; the part of {} Hz answers with {} g: no limit was given",
+                               said(ranking.part->frequency), said(*blow.response_g));
   if (!blow.margin) return words;
   const FragilePart& part = *ranking.part;
   const double bears = part.fragility / standard_gravity;
@@ -88,6 +99,7 @@ std::string blow_words(const Blow& blow, const std::string& probe, const Ranking
     case FragilePart::Kind::oscillator:
       return words + fmt::format("; the part of {} Hz answers with {} g and bears {} g: {}", said(part.frequency),
                                  said(bears / blow.margin->value), said(bears), decides);
+    case FragilePart::Kind::unlimited: return words;
     case FragilePart::Kind::at_place: return words + fmt::format("; the part bears {} g there", said(bears));
     case FragilePart::Kind::tested:
       return words + fmt::format("; the part bore a half sine of {} g and {} ms, {} m/s: {}", said(bears),
@@ -137,6 +149,8 @@ std::vector<std::string> assumed_words(const Scene& scene, Model model, const Bl
     items.emplace_back(
         "The half-space takes the ground under corners and edges for 11 to 31 % softer than it is, by energy (boundary "
         "elements; faces: 2 %), and their peaks for up to half of that too small: up to 15 %");
+  if (const std::string uniform = uniform_inertia_words(scene); !uniform.empty())
+    items.push_back("Moments of inertia: " + uniform);
   const HalfSpaceScene& half_space = scene.half_space;
   if (is_continuous && half_space.floor && !half_space.body_modulus) {
     items.push_back(

@@ -14,9 +14,12 @@
 
 namespace clatter::validation {
 
+/// What a part answers with where it has this margin [g].
+[[nodiscard]] double response_in_g(const FragilePart& part, double margin);
+
 /// By what the blows of a drop, and so drops, are ranked.
 struct Ranking {
-  enum class By { margin, peak, velocity };
+  enum class By { margin, response, peak, velocity };
   By by = By::peak;
   std::size_t probe = 0;
   /// Blows that follow a bounce are left out: on a ground without loss they stay as hard for ever.
@@ -24,7 +27,7 @@ struct Ranking {
   std::optional<FragilePart> part{};
   bool has_peaks = true;  ///< of the continuous model
 
-  /// A margin, or a peak [g] or change of velocity [m/s] at the probe.
+  /// A margin, or what a part without a limit answers with [g], a peak [g] or change of velocity [m/s] at the probe.
   [[nodiscard]] double value_of(const ShockRow& row) const;
   [[nodiscard]] bool is_worse(double one, double other) const { return by == By::margin ? one < other : one > other; }
 };
@@ -41,7 +44,8 @@ struct Blow {
   double width = 0;     ///< above a tenth of the peak [s]
   double value = 0;     ///< that it is ranked by
   std::optional<BlowMargin> margin{};
-  std::optional<double> depth{};  ///< of the deepest point [m]
+  std::optional<double> response_g{};  ///< of a part without a limit, in place of its margin
+  std::optional<double> depth{};       ///< of the deepest point [m]
 };
 /// The worst of a drop's blows; none: nothing struck.
 /// @param run  that the rows are of

@@ -17,6 +17,7 @@
 #include "validation/output/bad_input.hpp"
 #include "validation/output/json.hpp"
 #include "validation/output/number.hpp"
+#include "validation/scene/assumed_inertia.hpp"
 #include "validation/scene/hull.hpp"
 #include "validation/scene/keys.hpp"
 
@@ -373,9 +374,10 @@ std::string body_words(const Scene& scene, Model model) {
   const auto three = [&](const Vector3& v, const char* between) {
     return fmt::format("{1}{0}{2}{0}{3}", between, short_text(v.x()), short_text(v.y()), short_text(v.z()));
   };
-  return fmt::format("body: mass {} kg, extents {} m, centre of mass ({}) m, principal inertia {} kg·m²",
+  const std::string uniform = uniform_inertia_words(scene);
+  return fmt::format("body: mass {} kg, extents {} m, centre of mass ({}) m, principal inertia {} kg·m²{}",
                      short_text(body.mass), three(body.extents, " × "), three(body.centre, ", "),
-                     three(body.principal_inertia(), ", "));
+                     three(body.principal_inertia(), ", "), uniform.empty() ? "" : ": " + uniform);
 }
 
 std::string unit_doubts(const Scene& scene, const BodyProperties& body) {

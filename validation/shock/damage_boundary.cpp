@@ -44,12 +44,12 @@ double pulse_response(PulseShape shape, double turns) {
 
 std::optional<FragilePart> FragilePart::oscillator() const {
   if (kind == Kind::at_place) return std::nullopt;
-  if (kind == Kind::oscillator) return *this;
+  if (frequency > 0) return *this;
   return FragilePart{.frequency = 1 / (2 * duration), .fragility = 2 * fragility};
 }
 
 DamageBoundary damage_boundary(const FragilePart& part, PulseShape shape) {
-  if (part.kind != FragilePart::Kind::oscillator) {
+  if (!(part.frequency > 0)) {
     const double velocity =
         part.kind == FragilePart::Kind::tested ? TestPulse{part.fragility, part.duration}.velocity() : 0;
     return {velocity, part.fragility, velocity};
@@ -62,7 +62,7 @@ DamageBoundary damage_boundary(const FragilePart& part, PulseShape shape) {
 }
 
 double margin(const FragilePart& part, PulseShape shape, double velocity, double acceleration) {
-  if (part.kind != FragilePart::Kind::oscillator) {
+  if (!(part.frequency > 0)) {
     const DamageBoundary boundary = damage_boundary(part, shape);
     return std::fmax(boundary.critical_velocity / velocity, boundary.critical_acceleration / acceleration);
   }
@@ -96,6 +96,7 @@ std::string words_of(const FragilePart& part) {
     return fmt::format("a part that bears {} g{}", peak, place.empty() ? " at its place" : place);
   if (part.kind == FragilePart::Kind::tested)
     return fmt::format("a part{} that bore a half sine of {} g and {:.6g} ms", place, peak, 1e3 * part.duration);
+  if (!part.has_limit()) return fmt::format("a part of {:.6g} Hz{} without a limit", part.frequency, place);
   return fmt::format("a part of {:.6g} Hz{} that bears {} g", part.frequency, place, peak);
 }
 
@@ -104,6 +105,7 @@ std::string part_text(const FragilePart& part) {
   const std::string place = part.probe.empty() ? "" : part.probe + ":";
   if (part.kind == FragilePart::Kind::at_place) return place + peak + "g";
   if (part.kind == FragilePart::Kind::tested) return fmt::format("{}{}g:{:.9g}ms", place, peak, 1e3 * part.duration);
+  if (!part.has_limit()) return fmt::format("{}{:.9g}Hz", place, part.frequency);
   return fmt::format("{}{:.9g}:{}", place, part.frequency, peak);
 }
 

@@ -24,15 +24,19 @@ struct FragilePart {
   enum class Kind {
     oscillator,  ///< on an undamped mount of its natural frequency it fails at its fragility
     at_place,    ///< it fails where its place has its fragility as peak
-    tested       ///< it bore a half sine of its fragility as peak and of its duration
+    tested,      ///< it bore a half sine of its fragility as peak and of its duration
+    unlimited    ///< an oscillator of which nobody said what it bears: its fragility is 1 g, so that margins rank it
   };
-  double frequency = 0;  ///< natural [Hz], > 0; of an oscillator alone
+  double frequency = 0;  ///< natural [Hz], > 0; of an oscillator, with a limit or without one
   double fragility = 0;  ///< A_s [m/s²], > 0
   double duration = 0;   ///< of the tested half sine [s], > 0
   Kind kind = Kind::oscillator;
   std::string probe{};  ///< the name of the point where it is; empty: nobody said, so that any point may be its place
 
   [[nodiscard]] bool is_at(const std::string& place) const { return probe.empty() || probe == place; }
+  [[nodiscard]] bool has_limit() const { return kind != Kind::unlimited; }
+  /// What it answers with where it has this margin [m/s²].
+  [[nodiscard]] double response_at(double margin) const { return fragility / margin; }
   /// The undamped oscillator that the part is, or that has the damage boundary of the half sine which it bore: by two
   /// tests V_c = A_s/ω and A_c = A_s/2 of a rectangle, so that 2AT/π and A give f = 1/(2T) and A_s = 2A.  None of a
   /// part at its place, which has its peak as response.
@@ -70,7 +74,7 @@ struct BlowMargin {
 
 /// "a part of 500 Hz at crystal that bears 300 g".
 [[nodiscard]] std::string words_of(const FragilePart& part);
-/// What to type for it: "500:300", "crystal:1500g:2ms".
+/// What to type for it: "500:300", "crystal:1500g:2ms", "400Hz".
 [[nodiscard]] std::string part_text(const FragilePart& part);
 
 /// A half sine of a shock machine.

@@ -26,20 +26,20 @@ namespace {
 constexpr std::size_t least_rows = 8;
 
 constexpr double g = standard_gravity;
-constexpr UnitName acceleration_units[]{
+constexpr UnitName units_of_acceleration[]{
     {"g", g},     {"gn", g},    {"g_n", g},        {"mg", 1e-3 * g}, {"m/s^2", 1},   {"m/s2", 1},
     {"m/s²", 1},  {"m/s/s", 1}, {"m s^-2", 1},     {"m s-2", 1},     {"ms-2", 1},    {"ms^-2", 1},
     {"m.s-2", 1}, {"m·s⁻²", 1}, {"meters/s^2", 1}, {"mm/s^2", 1e-3}, {"m/sec^2", 1}, {"m/s**2", 1}};
 constexpr UnitName time_units[]{{"s", 1},     {"sec", 1},   {"seconds", 1}, {"second", 1}, {"ms", 1e-3},
                                 {"us", 1e-6}, {"µs", 1e-6}, {"μs", 1e-6},   {"ns", 1e-9},  {"min", 60}};
 
-constexpr std::span<const UnitName> record_units[]{acceleration_units, time_units};
+constexpr std::span<const UnitName> record_units[]{units_of_acceleration, time_units};
 
 using RecordColumn = TextRows::Column;
 
 bool is_time(const RecordColumn& column) {
   const std::string name = lower(column.name);
-  if (factor_of(acceleration_units, column.unit)) return false;
+  if (factor_of(units_of_acceleration, column.unit)) return false;
   return name == "t" || name == "zeit" || name == "elapsed" || name == "seconds" || name == "timestamp" ||
          name.starts_with("time") || name.ends_with("time");
 }
@@ -119,7 +119,7 @@ class Reader {
       if (!is_time(column) && time_ != k && !is_by_the_way(column) && std::isfinite(rows_.at(0, k))) axes_.push_back(k);
     }
     const auto has_unit = [&](std::size_t k) {
-      return factor_of(acceleration_units, rows_.columns()[k].unit).has_value();
+      return factor_of(units_of_acceleration, rows_.columns()[k].unit).has_value();
     };
     if (request_.columns.empty() && std::any_of(axes_.begin(), axes_.end(), has_unit))
       std::erase_if(axes_, [&](std::size_t k) { return !has_unit(k); });
@@ -157,7 +157,7 @@ class Reader {
     std::array<double, 3> factors{};
     for (std::size_t a = 0; a < axes_.size(); ++a) {
       const RecordColumn& column = rows_.columns()[axes_[a]];
-      const std::optional<double> stated = factor_of(acceleration_units, column.unit);
+      const std::optional<double> stated = factor_of(units_of_acceleration, column.unit);
       if (!stated && !request_.unit)
         rows_.refuse(fmt::format("column {}: its unit is not stated: --unit g or --unit m/s2 says it", column.name));
       factors[a] = request_.unit ? (*request_.unit == AccelerationUnit::g ? g : 1) : *stated;
@@ -182,6 +182,8 @@ class Reader {
 };
 
 }  // namespace
+
+std::span<const UnitName> acceleration_units() { return units_of_acceleration; }
 
 double AccelerationRecord::step() const {
   std::vector<double> steps;
@@ -307,6 +309,7 @@ class Measurement {
  public:
   Measurement(AccelerationRecord record, const ShockRequest& request) : request_(request) {
     shock_.record = std::move(record);
+    if (request.filter) filter(*request.filter);
     shock_.blows = BlowFinder(shock_.record).find();
   }
 
@@ -323,10 +326,56 @@ class Measurement {
  private:
   [[nodiscard]] const std::vector<Vector3>& values() const { return shock_.record.values; }
   [[nodiscard]] const std::vector<double>& times() const { return shock_.record.times; }
+  /// Before the filter, whose ends and lobes would move integrals, and which hides clipping.
+  [[nodiscard]] const std::vector<Vector3>& read() const { return read_.empty() ? values() : read_; }
 
-  [[nodiscard]] Vector3 bend(std::size_t i) const {
-    if (i == 0 || i + 1 >= values().size()) return Vector3::Zero();
-    return values()[i + 1] - 2 * values()[i] + values()[i - 1];
+  [[nodiscard]] static Vector3 bend(const std::vector<Vector3>& of, std::size_t i) {
+    if (i == 0 || i + 1 >= of.size()) return Vector3::Zero();
+    return of[i + 1] - 2 * of[i] + of[i - 1];
+  }
+
+  /// Equal steps are those that times without digits enough leave: none is off by a step.
+  void make_even() {
+    AccelerationRecord& record = shock_.record;
+    const double mean = record.times.back() / static_cast<double>(record.times.size() - 1), step = record.step();
+    bool is_even = true;
+    for (std::size_t i = 0; i < record.times.size(); ++i)
+      is_even = is_even && std::fabs(record.times[i] - mean * static_cast<double>(i)) < mean;
+    step_ = is_even ? mean : step;
+    if (is_even) return;
+    std::vector<double> even;
+    std::vector<Vector3> between;
+    for (std::size_t i = 1, n = 0; i < record.times.size(); ++i) {
+      const double begin = record.times[i - 1], length = record.times[i] - begin;
+      for (; static_cast<double>(n) * step <= record.times[i]; ++n) {
+        even.push_back(static_cast<double>(n) * step);
+        const double part = (even.back() - begin) / length;
+        between.emplace_back((1 - part) * record.values[i - 1] + part * record.values[i]);
+      }
+    }
+    record.times = even;
+    record.values = between;
+    shock_.findings.push_back(
+        fmt::format("filter: samples at unequal times were made equal, {} s apart, by straight "
+                    "lines",
+                    significant(step, 4)));
+  }
+
+  void filter(const LowPass& by) {
+    make_even();
+    constexpr double least_rate = 6;  // of the cut-off, that is ten times the class
+    if (!(by.design * step_ < 0.5))
+      throw BadInput(fmt::format(
+          "{}: --filter: is for more than {} samples in a second, twice the {} Hz of each pass; "
+          "it has {}",
+          shock_.record.path, significant(2 * by.design, 4), significant(by.design, 4), significant(1 / step_, 4)));
+    if (least_rate * by.cut_off() * step_ > 1)
+      shock_.findings.push_back(fmt::format("filter: sampled at {} Hz, SAE J211-1 wants six times the cut-off, {} Hz",
+                                            significant(1 / step_, 4), significant(least_rate * by.cut_off(), 4)));
+    shock_.record.remarks.push_back("filtered: " + by.words());
+    read_ = values();
+    shock_.record.values = by.filtered(read_, step_);
+    gain_ = by.noise_gain(step_);
   }
 
   void note_rest() {
@@ -345,11 +394,11 @@ class Measurement {
         return i > blow.first && i <= blow.last + 1;
       });
       if (!is_quiet) continue;
-      sum += (values()[i] - values()[i - 1]).cwiseAbs2() / 2;
+      sum += (read()[i] - read()[i - 1]).cwiseAbs2() / 2;
       ++count;
     }
     if (count > 0) axis_noise_ = (sum / static_cast<double>(count)).cwiseSqrt();
-    shock_.noise = axis_noise_.norm();
+    shock_.noise = gain_ * axis_noise_.norm();
     const double before = shock_.before.norm(), after = shock_.after.norm();
     const std::size_t quiet_after = values().size() - last - 1;
     if (first > 2 && quiet_after > 2) {
@@ -374,17 +423,17 @@ class Measurement {
     double sag = 0;
     for (std::size_t i = blow.first; i < blow.last; ++i) {
       const double step = times()[i + 1] - times()[i];
-      blow.delta_v += step / 2 * (values()[i] + values()[i + 1]);
-      sag += step / 12 * std::max(bend(i).norm(), bend(i + 1).norm());
+      blow.delta_v += step / 2 * (read()[i] + read()[i + 1]);
+      sag += step / 12 * std::max(bend(read(), i).norm(), bend(read(), i + 1).norm());
     }
     const double duration = times()[blow.last] - times()[blow.first],
                  count = static_cast<double>(blow.last - blow.first);
-    const double random = count > 0 ? shock_.noise * duration / std::sqrt(count) : 0;
+    const double random = count > 0 ? axis_noise_.norm() * duration / std::sqrt(count) : 0;
     const double zero = std::min(shock_.before.norm(), std::fabs(shock_.before.norm() - standard_gravity));
     blow.delta_v_size = {blow.delta_v.norm(), sag + random + zero * duration};
     const std::size_t peak = blow.largest;
     double most = 0;
-    for (std::size_t i = peak > 0 ? peak - 1 : 0; i <= peak + 1; ++i) most = std::max(most, bend(i).norm());
+    for (std::size_t i = peak > 0 ? peak - 1 : 0; i <= peak + 1; ++i) most = std::max(most, bend(values(), i).norm());
     blow.peak_size.error = most / 8 + shock_.noise;
     blow.width_error += crossing_error(blow.time) + crossing_error(blow.time + blow.width);
   }
@@ -395,7 +444,7 @@ class Measurement {
     const auto i = static_cast<std::size_t>(std::max<std::ptrdiff_t>(after - times().begin(), 1));
     if (i >= times().size()) return unknown_error;
     const double step = times()[i] - times()[i - 1], rise = std::fabs(values()[i].norm() - values()[i - 1].norm());
-    const double off = std::max(bend(i).norm(), bend(i - 1).norm()) / 8 + shock_.noise;
+    const double off = std::max(bend(values(), i).norm(), bend(values(), i - 1).norm()) / 8 + shock_.noise;
     return off < rise ? step * off / rise : step;
   }
 
@@ -403,7 +452,7 @@ class Measurement {
   void note_clipping() {
     for (int axis = 0; axis < static_cast<int>(shock_.record.axes.size()); ++axis) {
       double low = 0, high = 0;
-      for (const Vector3& value : values()) {
+      for (const Vector3& value : read()) {
         low = std::min(low, value[axis]);
         high = std::max(high, value[axis]);
       }
@@ -412,7 +461,7 @@ class Measurement {
         std::size_t run = 0, longest = 0;
         double at = 0;
         for (std::size_t i = blow.first; i <= blow.last; ++i) {
-          const double value = values()[i][axis];
+          const double value = read()[i][axis];
           const bool is_end = (value == high || value == low) && std::fabs(value) > blow.peak_size.value / 2;
           run = is_end ? run + 1 : 0;
           if (run > longest) {
@@ -484,7 +533,7 @@ class Measurement {
       bool is_known = true;
       for (int b = 0; b < impacts; ++b)
         is_known = is_known && shock_.blows[static_cast<std::size_t>(b)].peak_size.is_known();
-      for (const double frequency : frequencies(request_.low, request_.high, request_.count)) {
+      for (const double frequency : request_.natural_frequencies()) {
         ResponsePoint point = response(samples, frequency, request_.quality, axis_noise_[axis]);
         if (!is_known) point.acceleration_error = point.pseudo_velocity_error = unknown_error;
         spectrum.points.push_back(point);
@@ -494,7 +543,9 @@ class Measurement {
   }
 
   const ShockRequest& request_;
-  Vector3 axis_noise_ = Vector3::Zero();  ///< standard deviation of a reading along each axis [m/s²]
+  std::vector<Vector3> read_;             ///< before the filter; empty: there is none
+  double step_ = 0, gain_ = 1;            ///< of the filter's samples [s]; what it leaves of noise
+  Vector3 axis_noise_ = Vector3::Zero();  ///< standard deviation of a reading along each axis, unfiltered [m/s²]
   MeasuredShock shock_;
 };
 
@@ -620,7 +671,12 @@ PicturePanel record_panel(const MeasuredShock& shock, const ShockRun* simulated)
       row.push_back(shock.record.values[i][static_cast<int>(axis)] / standard_gravity);
   }
   if (!simulated || !simulated->continuous) return panel;
-  std::vector<std::vector<double>> felt = felt_history(*simulated, [](const numeric::HistoryPiece&) { return true; });
+  std::vector<std::vector<double>> felt;
+  if (simulated->filtered.empty()) felt = felt_history(*simulated, [](const numeric::HistoryPiece&) { return true; });
+  for (const FilteredHistory& history : simulated->filtered) {
+    for (std::size_t i = 0; i < history.values.size(); ++i)
+      felt.push_back({history.time(i), history.values[i].norm() / standard_gravity});
+  }
   const double level = part_of_peak * simulated->rows().front().value.peak_size / standard_gravity;
   const auto start = std::ranges::find_if(felt, [&](const std::vector<double>& row) { return row[1] > level; });
   const double first = start == felt.end() ? 0 : start->front();
@@ -690,14 +746,16 @@ Report measured_shock_report(const MeasuredShock& shock, const ShockRequest& req
   const Grid blows = blows_of(shock, simulated), pulse_rows = pulse_grid(pulses, shown_digits, view.parts);
   report.grid = view.rows == ShockRows::pulses ? pulse_rows : blows;
   if (view.rows == ShockRows::spectra) {
-    report.grid = spectrum_grid(spectra, shown_digits);
-    report.digest = spectrum_digest({spectra}, shown_digits);
+    report.grid = spectrum_grid(spectra, shown_digits, view);
+    report.digest = spectrum_digest({spectra}, shown_digits, view);
   }
   if (view.rows == ShockRows::pulses || !view.parts.empty()) report.notes = pulse_notes(view.parts, {});
   if (const std::string least = least_margin_words(pulse_rows, view.parts); !least.empty())
     report.notes.push_back(least);
   if (const std::string axes = compared_axes(spectra); !axes.empty() && view.rows == ShockRows::spectra)
     report.notes.push_back(fmt::format("spectra: {}{}", axes, request.axis ? "" : ", where each changes most; --axis"));
+  const std::vector<NamedSpectrum> compared = wholes_of(spectra);
+  for (const std::string& words : required_words(compared, view, request.quality)) report.notes.push_back(words);
   report.notes.insert(report.notes.end(), shock.findings.begin(), shock.findings.end());
   if (simulated && simulated->continuous) {
     for (const std::string& warning : simulated->continuous->planned.warnings)
@@ -710,6 +768,7 @@ Report measured_shock_report(const MeasuredShock& shock, const ShockRequest& req
   report.fields["impacts"] = row_objects(blows);
   report.fields["spectra"] = spectrum_values(spectra, request.quality);
   report.fields["pulses"] = pulse_fields(pulse_rows, view.parts);
+  add_spectrum_fields(compared, request, view, report);
   report.fields["simulated"] = simulated ? shock_report(*simulated, view).fields : Value();
   return report;
 }
@@ -720,7 +779,7 @@ Picture measured_shock_picture(const MeasuredShock& shock, const ShockRequest& r
                   .scene = {shock.record.path},
                   .panels = {record_panel(shock, simulated)}};
   const std::vector<NamedSpectrum> spectra = named_spectra(shock, simulated);
-  std::vector<PicturePanel> panels = spectrum_panels(spectra, view.severity);
+  std::vector<PicturePanel> panels = spectrum_panels(spectra, view);
   if (const std::string axes = compared_axes(spectra); !axes.empty())
     panels.front().plot.y_label = fmt::format("{}, {} [m/s]", spectra.front().probe, axes);
   for (PicturePanel& panel : panels) picture.panels.push_back(std::move(panel));

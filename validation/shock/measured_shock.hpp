@@ -3,11 +3,13 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "validation/output/picture.hpp"
 #include "validation/output/report.hpp"
+#include "validation/output/text_rows.hpp"
 #include "validation/shock/point_motion.hpp"
 #include "validation/shock/shock_report.hpp"
 #include "validation/shock/shock_run.hpp"
@@ -18,6 +20,9 @@ namespace clatter::validation {
 //
 // A file is a text with a row of numbers for each instant, read by TextRows; a sampling rate is taken from the lines
 // above the rows.
+
+/// Units of acceleration as files write them, in m/s².
+[[nodiscard]] std::span<const UnitName> acceleration_units();
 
 enum class AccelerationUnit { g, metre_per_second_squared };
 

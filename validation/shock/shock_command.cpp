@@ -23,6 +23,7 @@ struct ShockCommandInput : ShockInput {
   std::string measured;  ///< a record in place of a drop; empty: none
   std::string columns;   ///< of it, divided by commas
   std::string against;   ///< a scene to stand beside it
+  std::string required;  ///< a file of breakpoints; empty: none
   OutputChoice output;
   PlotChoice plot;
 };
@@ -51,8 +52,15 @@ ShockInput drop_beside(const ShockCommandInput& input) {
   return drop;
 }
 
+/// The required spectrum, at whose breakpoints others are computed, too.
+void read_required(const ShockCommandInput& input, ShockRequest& request, ShockView& view) {
+  if (input.required.empty()) return;
+  view.required = read_required_spectrum(input.required);
+  for (const auto& [frequency, acceleration] : view.required->points) request.breakpoints.push_back(frequency);
+}
+
 /// The drop run at its one probe; nothing where none is given.
-std::optional<ShockRun> run_beside(const ShockInput& drop) {
+std::optional<ShockRun> run_beside(const ShockInput& drop, const std::vector<double>& breakpoints) {
   if (drop.scene.source.empty() && drop.probes.empty()) return std::nullopt;
   const Scene scene = shock_scene(drop);
   const std::vector<Probe> probes = probes_of(drop);
@@ -63,13 +71,17 @@ std::optional<ShockRun> run_beside(const ShockInput& drop) {
         fmt::format("--probe: required, where on the body the record was taken: {}NAME:X,Y,Z, not {} points{}",
                     probes.empty() ? "" : "a NAME of the scene's, or ", probes.size(), names));
   }
-  return run_shock(scene, probes, request_of(drop));
+  ShockRequest request = request_of(drop);
+  request.breakpoints = breakpoints;
+  return run_shock(scene, probes, request);
 }
 
 int run_measured(const ShockCommandInput& input) {
   const ShockInput drop = drop_beside(input);
-  const std::optional<ShockRun> beside = run_beside(drop);
   ShockView view = shown_of(drop);
+  ShockRequest of_record = input.request;
+  read_required(input, of_record, view);
+  const std::optional<ShockRun> beside = run_beside(drop, of_record.breakpoints);
   check_files(input.output, plot_files(input.plot));
   PlotFile plot(input.plot);
   RecordRequest wanted{.path = input.measured, .rate = input.view.rate, .unit = record_unit(input)};
@@ -77,7 +89,6 @@ int run_measured(const ShockCommandInput& input) {
   for (std::string name; std::getline(names, name, ',');) wanted.columns.push_back(name);
   view.rate.reset();
   AccelerationRecord record = read_accelerations(wanted);
-  ShockRequest of_record = input.request;
   if (beside && record.axes.size() == 1) of_record.axis.reset();  // its only one, beside whichever of the body
   const MeasuredShock shock = measure_shock(std::move(record), of_record);
   const ShockRun* const simulated = beside ? &*beside : nullptr;
@@ -100,9 +111,12 @@ int run_shock_command(const ShockCommandInput& input) {
   if (probes.empty())
     throw BadInput("--probe: required, a point of the body as NAME:X,Y,Z in m, or [[probe]] in the scene file");
   say_doubts(scene, model_of(input), probes);
-  const ShockRequest request = request_of(input);
+  ShockRequest request = request_of(input);
   const OutputChoice& choice = input.output;
-  const ShockView view = view_of(input);
+  ShockView view = view_of(input);
+  read_required(input, request, view);
+  if (view.rate && request.filter)
+    throw BadInput("--filter: its peaks are none of the history at --rate; leave out one of them");
   check_files(choice, plot_files(input.plot));
   PlotFile plot(input.plot);
   const CooperativeInterrupt interrupt;
@@ -135,6 +149,14 @@ Command shock_command() {
                                 "rows are the history at this rate, with each peak: force, torque, pressure, probes; "
                                 "with --measured how often was sampled",
                                 "Shock"));
+    command.add(read_argument("--filter", input.request.filter, read_low_pass, "CFC1000|HZ",
+                              "low-pass before peaks and spectra, of a drop or a record: a class of SAE J211-1, or a "
+                              "cut-off; Butterworth, 2 poles forward and back",
+                              "Shock"));
+    command.add_text("--required", input.required, "FILE",
+                     "a spectrum to compare with, rows of frequency and acceleration, (g) or (m/s^2) above them: met "
+                     "or not, by how many dB",
+                     "Shock");
     const char* const group = "Measured";
     command.add_text(
         "--measured", input.measured, "FILE",

@@ -10,6 +10,7 @@
 
 #include "validation/output/bad_input.hpp"
 #include "validation/output/number.hpp"
+#include "validation/output/text_rows.hpp"
 #include "validation/run/shortfall.hpp"
 #include "validation/scene/failure.hpp"
 
@@ -21,18 +22,21 @@ double read_quality(const std::string& option, const std::string& text) {
   return read_number_option(option, text, {0.5, 1e9, true, "greater than 0.5 and at most 1e9, or none: undamped"});
 }
 
-/// "LOW:HIGH:COUNT"
+/// "LOW:HIGH:COUNT", or one frequency.
 void read_frequencies(const std::string& option, const std::string& text, ShockRequest& request) {
   constexpr Range allowed{1e-6, 1e9, false, "from 1e-6 to 1e9 Hz"};
   std::vector<std::string> parts;
   std::istringstream stream(text);
   for (std::string part; std::getline(stream, part, ':');) parts.push_back(part);
+  if (parts.size() == 1) parts = {parts[0], parts[0], "1"};
   if (parts.size() != 3 || text.back() == ':')
-    throw BadInput(fmt::format("{} {}: must be LOW:HIGH:COUNT, as in 10:10000:61", option, text));
+    throw BadInput(fmt::format("{} {}: must be LOW:HIGH:COUNT, as in 10:10000:61, or one frequency", option, text));
   request.low = read_number_option(option, parts[0], allowed);
   request.high = read_number_option(option, parts[1], allowed);
-  request.count = read_integer_option(option, parts[2], 2, 10'000);
-  if (!(request.high > request.low)) throw BadInput(fmt::format("{} {}: HIGH must be greater than LOW", option, text));
+  request.count = read_integer_option(option, parts[2], 1, 10'000);
+  if (request.count == 1 ? request.high != request.low : !(request.high > request.low))
+    throw BadInput(
+        fmt::format("{} {}: HIGH must be {} LOW", option, text, request.count == 1 ? "equal to" : "greater than"));
 }
 
 /// A number and the unit behind it: "500", "0.5 kHz".
@@ -50,12 +54,23 @@ Measured parted(std::string text) {
 }
 
 constexpr const char* part_forms =
-    "must be HZ:G, natural frequency and fragility, as 500:300 or 500Hz:300g; or G alone, the peak that it bears at "
-    "its "
-    "place, as 300g; or a half sine that it bore, with its units, as 40g:11ms; each behind the name of a probe or not, "
+    "must be HZ:G, natural frequency and fragility, as 500:300 or 500Hz:300g; or HZ alone, as 400Hz, which has no "
+    "limit; or G alone, the peak that it bears at its place, as 300g; or a half sine that it bore, with its units, as "
+    "40g:11ms; each behind the name of a probe or not, "
     "as camera:500:300";
 
 }  // namespace
+
+LowPass read_low_pass(const std::string& option, const std::string& text) {
+  constexpr Range allowed{1e-3, 1e9, false, "a class of SAE J211-1, as CFC1000, or a cut-off from 0.001 to 1e9 Hz"};
+  auto [number, unit] = parted(text);
+  const bool is_class = lower(number).starts_with("cfc");
+  if (is_class) number.erase(0, 3);
+  if (!(unit.empty() || (!is_class && (unit == "hz" || unit == "khz"))))
+    throw BadInput(fmt::format("{} '{}': must be {}", option, text, allowed.words));
+  const double value = read_number_option(option, number, allowed);
+  return is_class ? LowPass::of_class(value) : LowPass::of_cut_off(value * (unit == "khz" ? 1e3 : 1));
+}
 
 FragilePart read_part(const std::string& option, const std::string& text) {
   if (const std::size_t end = text.find(':'); end != std::string::npos) {
@@ -78,6 +93,10 @@ FragilePart read_part(const std::string& option, const std::string& text) {
                  second = colon == std::string::npos ? Measured{} : parted(text.substr(colon + 1));
   if (colon == std::string::npos && is_one_of(first.unit, {"", "g"}))
     return {.fragility = number(first) * standard_gravity, .kind = FragilePart::Kind::at_place};
+  if (colon == std::string::npos && is_one_of(first.unit, {"hz", "khz"}))
+    return {.frequency = number(first) * (first.unit == "khz" ? 1e3 : 1),
+            .fragility = standard_gravity,
+            .kind = FragilePart::Kind::unlimited};
   if (colon != std::string::npos && first.unit == "g" && is_one_of(second.unit, {"ms", "s", "us"})) {
     const double unit = second.unit == "ms" ? 1e-3 : second.unit == "us" ? 1e-6 : 1;
     return {.fragility = number(first) * standard_gravity,
@@ -94,10 +113,11 @@ FragilePart read_part(const std::string& option, const std::string& text) {
 Argument part_argument(Argument::Reader read, const std::string& help, const std::string& group) {
   return {.name = "--part",
           .target = std::move(read),
-          .type = "[PROBE:]HZ:G|G|G:MS",
+          .type = "[PROBE:]HZ:G|HZ|G|G:MS",
           .help =
               "what the part at the probe (camera:500:300, one; 500:300, any) bears: natural frequency and fragility "
-              "(500:300, 500Hz:300g), its place's peak alone (300g), or a half sine that it bore (40g:11ms): " +
+              "(500:300, 500Hz:300g), the first alone (400Hz: ranked by its response), its place's peak alone (300g), "
+              "or a half sine that it bore (40g:11ms): " +
               help,
           .group = group};
 }
@@ -145,7 +165,9 @@ ShockRequest request_of(const ShockInput& input) {
     throw BadInput("--no-sensitivity: the discrete model has no peaks, whose sensitivity it leaves out");
   ShockRequest request = input.request;
   request.continuous = model_of(input) == Model::continuous;
-  request.sensitivity = !input.no_sensitivity;
+  request.sensitivity = !input.no_sensitivity && !request.filter;
+  if (request.filter && !request.continuous)
+    throw BadInput("--filter: needs a history, which the continuous model has: a scene with a ground");
   request.parts = parts_of(input.parts, probes_of(input));
   return request;
 }
@@ -188,8 +210,8 @@ void add_shock_options(Command& command, ShockInput& input) {
                             "of the oscillators, or none: undamped (10)", "Shock"));
   command.add({.name = "--frequencies",
                .target = [&request](const auto& name, const auto& text) { read_frequencies(name, text, request); },
-               .type = "LOW:HIGH:COUNT",
-               .help = "natural, in Hz (10:10000:61)",
+               .type = "LOW:HIGH:COUNT|HZ",
+               .help = "natural, in Hz, or one (10:10000:61)",
                .group = "Shock"});
   command.add(
       whole_argument("--first", request.first, 1, 1'000'000, "N", "so many impacts are the first ones (2)", "Shock"));

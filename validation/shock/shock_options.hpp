@@ -46,6 +46,9 @@ void add_shock_options(Command& command, ShockInput& input);
 /// "HZ:G", "G" or "G:MS", the last with its units, the others with them or not, each behind "PROBE:" or not.
 /// @throws BadInput for anything else
 [[nodiscard]] FragilePart read_part(const std::string& option, const std::string& text);
+/// "CFC1000", a channel frequency class, or the cut-off of both passes together: "1650", "1650Hz", "1.65kHz".
+/// @throws BadInput for anything else
+[[nodiscard]] LowPass read_low_pass(const std::string& option, const std::string& text);
 /// --part.  @param read  takes name and text, as read_part()
 /// @param help  what it is for
 [[nodiscard]] Argument part_argument(Argument::Reader read, const std::string& help, const std::string& group);

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "validation/output/number.hpp"
 
@@ -28,7 +29,7 @@ std::vector<std::pair<double, double>> boundary_points(const FragilePart& part, 
   constexpr double shortest_turns = 0.01;
   const DamageBoundary boundary = damage_boundary(part, shape);
   const double critical_peak = boundary.critical_acceleration / standard_gravity;
-  if (part.kind != FragilePart::Kind::oscillator) {  // two lines; the upright one as high as blows are
+  if (!(part.frequency > 0)) {  // two lines; the upright one as high as blows are
     constexpr double high = 1e3;
     std::vector<std::pair<double, double>> lines{{std::max(last, 2 * boundary.critical_velocity), critical_peak}};
     if (boundary.critical_velocity > 0)
@@ -74,6 +75,8 @@ std::vector<Column> pulse_columns() {
       word_column("part", "part", "whose margins these are, as --part takes it"),
       {"restitution", "e", "", "of the impact, by the continuous model", false}};
   for (const std::size_t of : {3U, 4U, 5U, 6U, 7U, 9U, 10U, 11U}) columns.push_back(error_column(columns[of]));
+  columns.push_back({"response_g", "answer", "g",
+                     "largest acceleration of a part without a limit, under either pulse and the blow's own history"});
   return columns;
 }
 
@@ -108,15 +111,24 @@ Row pulse_row(const Pulse& pulse, int digits, const FragilePart* part) {
   add(half_sine.height(pulse.restitution), 2 * of_v);
   row.push_back(condition_cell(velocity, peak));
   // ln of a response changes by no more than ln of f T does.
+  const bool has_limit = part && part->has_limit();
   for (const PulseShape shape : shapes)
-    add(part ? margin(*part, shape, velocity.value, peak.value) : std::nan(""), of_v + 2 * of_a);
-  const auto response = part && pulse.row ? pulse.row->response_of(*part) : std::nullopt;
-  add(response ? part->oscillator()->fragility / response->value : std::nan(""),
-      response ? relative(response->error, response->value) : 0);
+    add(has_limit ? margin(*part, shape, velocity.value, peak.value) : std::nan(""), of_v + 2 * of_a);
+  const Estimated response =
+      (part && pulse.row ? pulse.row->response_of(*part) : std::nullopt).value_or(Estimated{std::nan(""), 0});
+  const bool is_felt = std::isfinite(response.value);
+  const double of_response = is_felt ? relative(response.error, response.value) : 0;
+  add(is_felt && has_limit ? part->oscillator()->fragility / response.value : std::nan(""), of_response);
   row.push_back(part ? Cell(part_text(*part)) : Cell());
   row.emplace_back(pulse.restitution, 4);
   if (!std::isfinite(pulse.restitution)) row.back() = Cell();
   row.insert(row.end(), errors.begin(), errors.end());
+  row.emplace_back();
+  if (part && !has_limit) {
+    const double least = blow_margin(*part, velocity.value, peak.value, is_felt ? response.value : 0).value;
+    const double answer = part->response_at(least) / standard_gravity;
+    row.back() = known_or_empty({answer, answer * std::fmax(of_v + 2 * of_a, of_response)}, digits);
+  }
   return row;
 }
 
@@ -134,11 +146,14 @@ Grid pulse_grid(const std::vector<Pulse>& pulses, int digits, const std::vector<
     return pulse.row &&
            std::ranges::any_of(parts, [&](const auto& part) { return pulse.row->response_of(part).has_value(); });
   });
+  const bool has_limit = std::ranges::any_of(parts, &FragilePart::has_limit);
   for (Column& column : grid.columns) {
     if (column.name == "part") column.shown = parts.size() > 1;
     else if (column.name == "model") column.shown = are_mixed(pulses);
-    else if (column.name == "margin_history") column.shown = has_history;
-    else if (column.name.starts_with("margin") && parts.empty()) column.shown = false;
+    else if (column.name == "margin_history") column.shown = has_history && has_limit;
+    else if (column.name.starts_with("margin") && !has_limit) column.shown = false;
+    else if (column.name == "response_g")
+      column.shown = std::ranges::any_of(parts, std::not_fn(&FragilePart::has_limit));
   }
   for (const Pulse& pulse : pulses) {
     const auto is_here = [&](const FragilePart& part) { return part.is_at(pulse.probe); };
@@ -196,6 +211,9 @@ std::vector<Pulse> pulses_of(const ShockRun& run) {
 namespace {
 
 std::string boundary_words(const FragilePart& part) {
+  if (!part.has_limit())
+    return fmt::format("{}: ranked by what it answers with; --part {}:G gives a limit of G, and margins",
+                       words_of(part), part_text(part));
   if (part.kind == FragilePart::Kind::at_place) {
     return fmt::format("{}: its margin is that over the peak; what rings in it is left out", words_of(part));
   }
@@ -276,9 +294,10 @@ Value pulse_fields(const Grid& grid, const std::vector<FragilePart>& parts) {
                                           {"height_without_rebound", one.pulse.height(0)}});
   }
   Value fields(Value::Fields{{"blows", row_objects(grid)}, {"service_conditions", conditions}});
-  if (parts.size() == 1) fields["damage_boundary"] = boundary_value(parts.front());
+  if (parts.size() == 1 && parts.front().has_limit()) fields["damage_boundary"] = boundary_value(parts.front());
   if (parts.size() < 2) return fields;
   for (const FragilePart& part : parts) {
+    if (!part.has_limit()) continue;
     Value boundary = boundary_value(part);
     boundary["part"] = part_text(part);
     fields["damage_boundaries"].push_back(boundary);
@@ -288,7 +307,8 @@ Value pulse_fields(const Grid& grid, const std::vector<FragilePart>& parts) {
 }
 
 std::optional<PicturePanel> boundary_panel(const std::vector<Pulse>& pulses, const FragilePart& part) {
-  if (std::ranges::none_of(pulses, [&](const Pulse& pulse) { return part.is_at(pulse.probe); })) return std::nullopt;
+  if (!part.has_limit() || std::ranges::none_of(pulses, [&](const Pulse& pulse) { return part.is_at(pulse.probe); }))
+    return std::nullopt;
   PicturePanel panel{.columns = {{"velocity", "m/s", "change of velocity"}}};
   panel.plot.x_label = words_of(part) + ": change of velocity [m/s]";
   panel.plot.y_label = "peak [g]";
@@ -307,7 +327,7 @@ std::optional<PicturePanel> boundary_panel(const std::vector<Pulse>& pulses, con
     }
     panel.plot.curves.push_back({.x = "velocity", .y = name, .legend = legend, .style = style});
   };
-  if (part.kind != FragilePart::Kind::oscillator) {
+  if (!(part.frequency > 0)) {
     add("fails above and right of this", FigureCurve::Style::line, boundary_points(part, shapes[0], last));
   } else {
     for (std::size_t i = 0; i < 2; ++i) {

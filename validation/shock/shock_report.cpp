@@ -194,6 +194,7 @@ Grid impacts_of(const ShockRun& run) {
   for (Column& column : grid.columns) {
     column.shown = std::find(shown.begin(), shown.end(), column.name) != shown.end();
     if (column.name == "indentation") column.shown = has_pad;
+    if (column.name == "sensitivity" && run.request.filter) column.shown = false;
     if (run.continuous) continue;
     for (const ShockQuantity& quantity : quantities) {  // nothing stands beside them to tell them from
       if (column.name == std::string("discrete_") + quantity.name) column.heading = quantity.symbol;
@@ -210,7 +211,14 @@ std::string blows_word(const Spectrum& spectrum) {
   return spectrum.impacts == 1 ? "1" : fmt::format("1-{}", spectrum.impacts);
 }
 
-Row point_row(const NamedSpectrum& named, const ResponsePoint& point, int digits) {
+/// What is required at a point, and 20 lg of the point over that.
+Row required_cells(const ResponsePoint& point, const ShockView& view) {
+  const auto asked = view.required ? view.required->at(point.frequency) : std::nullopt;
+  if (!asked) return {Cell(), Cell()};
+  return {Cell(*asked / standard_gravity, 4), measured_cell(decibels_over(*asked, point), 3)};
+}
+
+Row point_row(const NamedSpectrum& named, const ResponsePoint& point, int digits, const ShockView& view) {
   const ResponseExtremes whole = point.whole();
   const Spectrum& spectrum = *named.spectrum;
   const Estimated v{whole.pseudo_velocity.maximax(), point.pseudo_velocity_error};
@@ -226,6 +234,7 @@ Row point_row(const NamedSpectrum& named, const ResponsePoint& point, int digits
   }
   cells.emplace_back(error_or_nothing(v));
   cells.emplace_back(error_or_nothing(a));
+  for (const Cell& cell : required_cells(point, view)) cells.push_back(cell);
   return cells;
 }
 
@@ -267,6 +276,16 @@ std::vector<std::vector<NamedSpectrum>> shown_spectra(const ShockRun& run) {
   std::vector<std::vector<NamedSpectrum>> shown;
   for (std::size_t probe = 0; probe < run.probes.size(); ++probe) shown.push_back(shown_spectra(run, probe));
   return shown;
+}
+
+/// The spectrum of most impacts of each probe, in the model that comes first.
+std::vector<NamedSpectrum> compared_spectra(const ShockRun& run) {
+  std::vector<NamedSpectrum> compared;
+  for (std::size_t probe = 0; probe < run.probes.size(); ++probe) {
+    if (const Spectrum* const whole = run.whole(probe, run.continuous.has_value()))
+      compared.push_back(named(run, *whole));
+  }
+  return compared;
 }
 
 /// "impact 1", with the model where not all are of one.
@@ -330,7 +349,7 @@ std::string severity_words(const ShockRun& run, std::size_t probe, double severi
 std::vector<std::string> notes_of(const ShockRun& run, const ShockView& view) {
   std::vector<std::string> notes;
   if (view.rows == ShockRows::pulses || !view.parts.empty()) notes = pulse_notes(view.parts, run.probes);
-  if (run.continuous && view.rows == ShockRows::impacts) {
+  if (run.continuous && view.rows == ShockRows::impacts && !run.request.filter) {
     const numeric::Ground& ground = run.scene.world.ground;
     notes.push_back(
         fmt::format("peaks are properties of the floor: ∂ ln(peak)/∂ ln {} held, stands beside them; |ΔV| hardly is",
@@ -342,6 +361,8 @@ std::vector<std::string> notes_of(const ShockRun& run, const ShockView& view) {
     if (view.rows == ShockRows::impacts) add_spectrum_notes(run, probe, notes);
     if (view.severity) notes.push_back(severity_words(run, probe, *view.severity));
   }
+  for (const std::string& words : required_words(compared_spectra(run), view, run.request.quality))
+    notes.push_back(words);
   if (!run.discrete_reason.empty()) notes.push_back("no discrete model beside it: " + run.discrete_reason);
   if (run.parted.from > 0) {
     notes.push_back(
@@ -406,12 +427,11 @@ void add_outcome(const ShockRun& run, Report& report) {
   }
 }
 
-/// A straight line at the severity.
-void add_severity(double severity, PicturePanel& panel) {
-  panel.columns.push_back({"severity", "m/s", "severity"});
-  for (auto& row : panel.rows) row.push_back(severity);
-  panel.plot.curves.push_back(
-      {.x = "frequency", .y = "severity", .legend = "severity", .style = FigureCurve::Style::dotted});
+/// A curve to compare with, over the frequencies of the panel's rows.
+void add_line(const std::string& name, const char* unit, const auto& at, PicturePanel& panel) {
+  panel.columns.push_back({name, unit, name});
+  for (auto& row : panel.rows) row.push_back(at(row.front()));
+  panel.plot.curves.push_back({.x = "frequency", .y = name, .legend = name, .style = FigureCurve::Style::dotted});
 }
 
 /// What each probe reads along the body's axes, a panel each.
@@ -496,23 +516,89 @@ std::vector<Column> spectrum_columns() {
   }
   columns.push_back(error_column(columns[5]));
   columns.push_back(error_column(columns[6]));
+  columns.push_back({"required_g", "required", "g", "acceleration by --required"});
+  columns.push_back({"over_required", "over it", "dB", "20 lg of the acceleration over that"});
   return columns;
 }
 
-Grid spectrum_grid(const std::vector<NamedSpectrum>& spectra, int digits) {
+Grid spectrum_grid(const std::vector<NamedSpectrum>& spectra, int digits, const ShockView& view) {
   Grid grid{spectrum_columns(), {}, 5};
+  for (Column& column : grid.columns) {
+    if (column.name.ends_with("required_g") || column.name == "over_required") column.shown = view.required.has_value();
+  }
   for (const NamedSpectrum& one : spectra) {
-    for (const ResponsePoint& point : one.spectrum->points) grid.rows.push_back(point_row(one, point, digits));
+    for (const ResponsePoint& point : one.spectrum->points) grid.rows.push_back(point_row(one, point, digits, view));
   }
   return grid;
 }
 
-Grid spectrum_digest(const std::vector<std::vector<NamedSpectrum>>& shown, int digits) {
+std::vector<NamedSpectrum> wholes_of(const std::vector<NamedSpectrum>& spectra) {
+  std::vector<NamedSpectrum> wholes;
+  for (const NamedSpectrum& one : spectra) {
+    if (one.spectrum->blows == Blows::flat) continue;
+    const auto same = std::ranges::find_if(
+        wholes, [&](const NamedSpectrum& other) { return other.model == one.model && other.probe == one.probe; });
+    if (same == wholes.end()) wholes.push_back(one);
+    else if (one.spectrum->impacts > same->spectrum->impacts) *same = one;
+  }
+  return wholes;
+}
+
+std::vector<std::string> required_words(const std::vector<NamedSpectrum>& spectra, const ShockView& view,
+                                        double quality) {
+  std::vector<std::string> all;
+  for (const NamedSpectrum& one : spectra) {
+    if (!view.required) break;
+    const auto margin = margin_over(*view.required, *one.spectrum);
+    all.push_back(fmt::format("{} along {}{}, {}, {}, beside {}: {}", one.probe, one.axis,
+                              spectra.size() > 1 ? ", " + one.model : "", part_words(*one.spectrum),
+                              quality_words(quality), view.required->path,
+                              margin ? margin->words() : "no frequency in common"));
+  }
+  return all;
+}
+
+void add_spectrum_fields(const std::vector<NamedSpectrum>& compared, const ShockRequest& request, const ShockView& view,
+                         Report& report) {
+  if (request.filter) {
+    report.fields["filter"] = Value::Fields{{"design_frequency", request.filter->design},
+                                            {"cut_off", request.filter->cut_off()},
+                                            {"words", request.filter->words()}};
+  }
+  if (!view.required) return;
+  const auto known = [](std::optional<bool> is) { return is ? Value(*is) : Value(); };
+  const auto end = [](const SpectrumMargin::End& at) {
+    return Value::Fields{{"decibels", at.decibels.value},
+                         {"error_estimate", error_or_nothing(at.decibels)},
+                         {"frequency", at.frequency}};
+  };
+  Value::List list;
+  for (const NamedSpectrum& one : compared) {
+    const auto margin = margin_over(*view.required, *one.spectrum);
+    if (!margin) continue;
+    list.emplace_back(Value::Fields{{"probe", one.probe},
+                                    {"axis", one.axis},
+                                    {"model", one.model},
+                                    {"blows", blows_word(*one.spectrum)},
+                                    {"least", end(margin->least)},
+                                    {"most", end(margin->most)},
+                                    {"reached", known(margin->is_reached())},
+                                    {"kept", known(margin->is_kept())}});
+  }
+  report.fields["required"] = Value::Fields{{"file", view.required->path}, {"spectra", list}};
+}
+
+Grid spectrum_digest(const std::vector<std::vector<NamedSpectrum>>& shown, int digits, const ShockView& view) {
   Grid digest{{word_column("probe", "probe", ""), {"frequency", "f", "Hz"}}, {}, 2};
   if (shown.empty()) return digest;
   for (const char* unit : {"m/s", "g"}) {
     for (const NamedSpectrum& one : shown.front())
       digest.columns.push_back({words_of(one, shown.front()), words_of(one, shown.front()), unit});
+  }
+  if (view.required) {
+    const std::string of = words_of(wholes_of(shown.front()).front(), shown.front());
+    digest.columns.push_back({"required", "required", "g"});
+    digest.columns.push_back({"over it", of + " over it", "dB"});
   }
   for (const std::vector<NamedSpectrum>& of_probe : shown) {
     for (std::size_t i = 0; !of_probe.empty() && i < of_probe.front().spectrum->points.size(); ++i) {
@@ -520,6 +606,10 @@ Grid spectrum_digest(const std::vector<std::vector<NamedSpectrum>>& shown, int d
       for (const bool is_acceleration : {false, true}) {
         for (const NamedSpectrum& one : of_probe)
           row.push_back(measured_cell(maximax(one.spectrum->points[i], is_acceleration), std::min(digits, 4)));
+      }
+      if (view.required) {
+        for (const Cell& cell : required_cells(wholes_of(of_probe).front().spectrum->points[i], view))
+          row.push_back(cell);
       }
       digest.rows.push_back(row);
     }
@@ -542,7 +632,7 @@ Value spectrum_values(const std::vector<NamedSpectrum>& spectra, double quality)
   return list;
 }
 
-std::vector<PicturePanel> spectrum_panels(const std::vector<NamedSpectrum>& shown, std::optional<double> severity) {
+std::vector<PicturePanel> spectrum_panels(const std::vector<NamedSpectrum>& shown, const ShockView& view) {
   std::vector<PicturePanel> panels;
   if (shown.empty()) return panels;
   for (const bool is_acceleration : {false, true}) {
@@ -563,7 +653,16 @@ std::vector<PicturePanel> spectrum_panels(const std::vector<NamedSpectrum>& show
            .legend = legend,
            .style = one.model == shown.front().model ? FigureCurve::Style::line : FigureCurve::Style::dashed});
     }
-    if (severity && !is_acceleration) add_severity(*severity, panel);
+    if (view.severity && !is_acceleration)
+      add_line(
+          "severity", "m/s", [&](double) { return *view.severity; }, panel);
+    if (view.required && is_acceleration) {
+      const auto asked = [&](double frequency) {
+        const auto value = view.required->at(frequency);
+        return value ? *value / standard_gravity : no_number;
+      };
+      add_line("required", "g", asked, panel);
+    }
     panels.push_back(std::move(panel));
   }
   panels.back().plot.x_label = "natural frequency [Hz]";
@@ -585,6 +684,10 @@ Report shock_report(const ShockRun& run, const ShockView& view) {
   const std::string facets = continuous ? facet_words(run.scene, run.continuous->planned.run) : "";
   if (!facets.empty()) report.head.push_back(facets);
   report.head.push_back(probe_words(run.probes));
+  if (run.request.filter)
+    report.head.push_back(fmt::format("peak, width{} and spectra are filtered: {}; |ΔV|{} as computed",
+                                      view.rows == ShockRows::pulses ? ", T" : "", run.request.filter->words(),
+                                      view.parts.empty() ? " is" : " and a part's response to the blow itself are"));
   if (const std::string far = probe_doubts(run.scene, run.probes); !far.empty())
     report.head.insert(report.head.begin(), far);
   report.notes = notes_of(run, view);
@@ -593,8 +696,8 @@ Report shock_report(const ShockRun& run, const ShockView& view) {
   if (const std::string least = least_margin_words(pulses, view.parts); !least.empty()) report.notes.push_back(least);
   report.grid = view.rows == ShockRows::pulses ? pulses : impacts;
   if (view.rows == ShockRows::spectra) {
-    report.grid = spectrum_grid(named_spectra(run), run.scene.accuracy.digits);
-    report.digest = spectrum_digest(shown_spectra(run), run.scene.accuracy.digits);
+    report.grid = spectrum_grid(named_spectra(run), run.scene.accuracy.digits, view);
+    report.digest = spectrum_digest(shown_spectra(run), run.scene.accuracy.digits, view);
   }
   if (view.rate) {
     report.grid = shock_history_grid(run, *view.rate);
@@ -609,6 +712,7 @@ Report shock_report(const ShockRun& run, const ShockView& view) {
   report.fields["spectra"] = spectrum_values(named_spectra(run), run.request.quality);
   report.fields["envelopes"] = envelopes_value(run);
   report.fields["pulses"] = pulse_fields(pulses, view.parts);
+  add_spectrum_fields(compared_spectra(run), run.request, view, report);
   add_outcome(run, report);
   report.fields["discrete_reason"] = text_or_nothing(run.discrete_reason);
   if (run.parted.from > 0)
@@ -630,7 +734,7 @@ Picture shock_picture(const ShockRun& run, const ShockView& view, std::optional<
     const Spectrum* const discrete = run.whole(probe, false);
     if (!shown.empty() && run.continuous && discrete && run.parted.are_one(discrete->impacts))
       shown.push_back(named(run, *discrete));
-    for (PicturePanel& panel : spectrum_panels(shown, view.severity)) picture.panels.push_back(std::move(panel));
+    for (PicturePanel& panel : spectrum_panels(shown, view)) picture.panels.push_back(std::move(panel));
   }
   for (const FragilePart& part : view.parts) {
     if (auto panel = boundary_panel(pulses_of(run), part)) picture.panels.push_back(std::move(*panel));

@@ -57,6 +57,74 @@ void add_distance(const std::vector<BasePiece>& other, double quality, double er
       error_per_distance * std::fabs(mine.pseudo_velocity.maximax() - theirs.pseudo_velocity.maximax());
 }
 
+/// What an oscillator feels of a filtered history along an axis, its errors by the other recorded run.
+ResponsePoint filtered_response(const FilteredHistory& history, const FilteredHistory& other, int axis,
+                                double frequency, const ShockRequest& request, double error_per_distance) {
+  const auto of = [&](const FilteredHistory& one) {
+    std::vector<BaseSample> samples;
+    for (std::size_t i = 0; i < one.values.size(); ++i) samples.push_back({one.time(i), one.values[i][axis]});
+    return response(samples, frequency, request.quality);
+  };
+  ResponsePoint point = of(history);
+  const ResponseExtremes mine = point.whole(), theirs = of(other).whole();
+  const auto error = [&](const Extremes& here, const Extremes& there) {
+    return error_per_distance * std::fabs(here.maximax() - there.maximax()) +
+           FilteredHistory::relative_error * here.maximax();
+  };
+  point.acceleration_error += error(mine.acceleration, theirs.acceleration);
+  point.pseudo_velocity_error += error(mine.pseudo_velocity, theirs.pseudo_velocity);
+  return point;
+}
+
+/// Gives a probe's rows peak and width behind the filter, each looked for as far as the middle of the flights about it.
+void filter_rows(const FilteredHistory& history, const FilteredHistory& other, std::size_t probe,
+                 ContinuousShock& shock) {
+  constexpr double level = 0.1;  // of the peak, at which its width is measured
+  std::vector<ShockRow*> rows;
+  for (ShockRow& row : shock.rows) {
+    if (row.probe == probe) rows.push_back(&row);
+  }
+  const auto numbers = [&](const FilteredHistory& of, double begin, double end, double start) {
+    std::size_t first = of.values.size(), last = 0, peak = 0;
+    for (std::size_t i = 0; i < of.values.size(); ++i) {
+      if (of.time(i) < begin || of.time(i) > end) continue;
+      if (first == of.values.size()) first = peak = i;
+      last = i;
+      if (of.values[i].norm() > of.values[peak].norm()) peak = i;
+    }
+    ShockNumbers found;
+    if (first > last) return found;
+    found.peak = of.values[peak];
+    found.peak_size = found.peak.norm();
+    found.peak_time = of.time(peak) - start;
+    std::size_t low = peak, high = peak;
+    while (low > first && of.values[low].norm() > level * found.peak_size) --low;
+    while (high < last && of.values[high].norm() > level * found.peak_size) ++high;
+    found.width = of.time(high) - of.time(low);
+    return found;
+  };
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    ShockRow& row = *rows[i];
+    const double end = row.start + row.duration;
+    const double from = i > 0 ? (rows[i - 1]->start + rows[i - 1]->duration + row.start) / 2 : history.begin;
+    const double to = i + 1 < rows.size() ? (end + rows[i + 1]->start) / 2 : history.time(history.values.size());
+    const ShockNumbers mine = numbers(history, from, to, row.start), theirs = numbers(other, from, to, row.start);
+    ShockNumbers &value = row.value, &error = row.error;
+    const double per = shock.error_per_distance, left = FilteredHistory::relative_error * mine.peak_size;
+    if (std::isfinite(error.peak_size)) {
+      error.peak = per * (mine.peak - theirs.peak).cwiseAbs() + Vector3::Constant(left);
+      error.peak_size = per * std::fabs(mine.peak_size - theirs.peak_size) + left;
+      error.peak_time = per * std::fabs(mine.peak_time - theirs.peak_time) + history.step;
+      error.width = per * std::fabs(mine.width - theirs.width) + 2 * history.step;
+    }
+    value.peak = mine.peak;
+    value.peak_size = mine.peak_size;
+    value.peak_time = mine.peak_time;
+    value.width = mine.width;
+    row.sensitivity.reset();
+  }
+}
+
 /// Shock of a probe in the continuous model.
 void add_continuous(const ContinuousShock& shock, double mass, const Vector3& place, const ShockRequest& request,
                     const Spectrum& begun, std::vector<Spectrum>& spectra) {
@@ -68,7 +136,25 @@ void add_continuous(const ContinuousShock& shock, double mass, const Vector3& pl
     spectrum.blows = begun.blows == Blows::flat ? Blows::flat : blows;
     spectrum.impacts = impacts;
     const std::vector<BasePiece> part = first_pieces(pieces, impacts), other = first_pieces(others, impacts);
-    for (const double frequency : frequencies(request.low, request.high, request.count)) {
+    const auto filtered = [&](const MotionRecorder& motion) {
+      std::vector<MotionPiece> these;
+      for (const MotionPiece& piece : motion.pieces()) {
+        if (piece.piece.impact < impacts || (piece.piece.impact == impacts && piece.piece.in_contact))
+          these.push_back(piece);
+      }
+      return filtered_history(these, place, mass, *request.filter);
+    };
+    FilteredHistory mine, theirs;
+    if (request.filter) {
+      mine = filtered(shock.motion);
+      theirs = filtered(shock.other);
+    }
+    for (const double frequency : request.natural_frequencies()) {
+      if (request.filter) {
+        spectrum.points.push_back(
+            filtered_response(mine, theirs, begun.axis, frequency, request, shock.error_per_distance));
+        continue;
+      }
       spectrum.points.push_back(response(part, frequency, request.quality));
       add_distance(other, request.quality, shock.error_per_distance, spectrum.points.back());
     }
@@ -87,6 +173,7 @@ std::vector<VelocityStep> steps_of(const std::vector<ShockRow>& rows, std::size_
 
 void add_discrete(const std::vector<ShockRow>& rows, const ShockRequest& request, const Spectrum& begun,
                   std::vector<Spectrum>& spectra) {
+  if (request.filter) return;  // a step of velocity has no length that a filter could see
   const std::vector<VelocityStep> steps = steps_of(rows, begun.probe, begun.axis);
   for (const auto& [blows, impacts] : parts_of(known_impacts(rows), request.first)) {
     Spectrum spectrum = begun;
@@ -94,7 +181,7 @@ void add_discrete(const std::vector<ShockRow>& rows, const ShockRequest& request
     spectrum.blows = begun.blows == Blows::flat ? Blows::flat : blows;
     spectrum.impacts = impacts;
     const std::span<const VelocityStep> part(steps.data(), static_cast<std::size_t>(impacts));
-    for (const double frequency : frequencies(request.low, request.high, request.count))
+    for (const double frequency : request.natural_frequencies())
       spectrum.points.push_back(response(part, frequency, request.quality));
     spectra.push_back(std::move(spectrum));
   }
@@ -154,6 +241,15 @@ void add_flat(const numeric::Body* body, const numeric::Observer& observer, Shoc
 
 }  // namespace
 
+std::vector<double> ShockRequest::natural_frequencies() const {
+  std::vector<double> all = frequencies(low, high, count);
+  all.insert(all.end(), breakpoints.begin(), breakpoints.end());
+  std::ranges::sort(all);
+  const auto twins = std::ranges::unique(all);
+  all.erase(twins.begin(), twins.end());
+  return all;
+}
+
 const Spectrum* ShockRun::spectrum(std::size_t probe, bool of_continuous, Blows blows) const {
   const auto found = std::find_if(spectra.begin(), spectra.end(), [&](const Spectrum& one) {
     return one.probe == probe && one.continuous == of_continuous && one.blows == blows;
@@ -198,6 +294,14 @@ ShockRun run_shock(const Scene& scene, const std::vector<Probe>& probes, const S
     const DiscreteRun found = run_discrete(drop);
     run.discrete = discrete_shock(drop.drop, found.sequence, places_of(scene, probes, Model::discrete));
     run.discrete_run = found.run;
+  }
+  for (std::size_t i = 0; request.filter && run.continuous && i < probes.size(); ++i) {
+    const Vector3 place = places_of(scene, probes, Model::continuous)[i];
+    const auto of = [&](const MotionRecorder& motion) {
+      return filtered_history(motion.pieces(), place, body->mass(), *request.filter);
+    };
+    run.filtered.push_back(of(run.continuous->motion));
+    filter_rows(run.filtered.back(), of(run.continuous->other), i, *run.continuous);
   }
   for (std::size_t i = 0; i < probes.size(); ++i) {
     Spectrum begun{.probe = i, .points = {}};

@@ -8,6 +8,7 @@
 
 #include "validation/compare/discrete_side.hpp"
 #include "validation/scene/probes.hpp"
+#include "validation/shock/low_pass.hpp"
 #include "validation/shock/response_spectrum.hpp"
 #include "validation/shock/shock_rows.hpp"
 
@@ -23,6 +24,11 @@ struct ShockRequest {
   double quality = 10;        ///< Q; infinite: undamped
   int first = 2;              ///< so many impacts are the "first" ones
   std::optional<int> axis{};  ///< of the body: 0, 1, 2; none: that with the largest change of velocity of each probe
+  std::optional<LowPass> filter{};    ///< of what the continuous model or a record reads, before peaks and spectra
+  std::vector<double> breakpoints{};  ///< further natural frequencies, those of a required spectrum [Hz]
+
+  /// Natural frequencies of spectra, rising [Hz].
+  [[nodiscard]] std::vector<double> natural_frequencies() const;
 };
 
 /// Which part of the drop a spectrum is of: `first` and `all` where they have more impacts than the part before.
@@ -47,6 +53,7 @@ struct ShockRun {
   std::string discrete_reason;  ///< why there is no discrete run; empty: there is one
   PartedBlows parted;           ///< from where on rows of the two models are not beside each other
   std::vector<Spectrum> spectra;
+  std::vector<FilteredHistory> filtered;           ///< of each probe, where a filter is asked for
   std::vector<std::optional<Envelope>> envelopes;  ///< of each probe, after its first two impacts; the discrete model's
 
   [[nodiscard]] const Spectrum* spectrum(std::size_t probe, bool of_continuous, Blows blows) const;

@@ -56,7 +56,9 @@ const std::vector<ProbeNumber>& probe_numbers() {
        &LargestShock::landing_peak_g, &LargestShock::landing_peak_impact, true},
       {landing(shock_column), "m/s", "largest change of velocity over an impact of the first landing of the point ",
        &LargestShock::landing_delta_v, &LargestShock::landing_impact},
-      {std::string(margin_column), "", "least margin, at most 1: it fails, over the impacts, of the part at the point ",
+      {std::string(margin_column), "",
+       "least margin, at most 1: it fails (of a part without a limit: 1 g over its response), over the impacts, of the "
+       "part at the point ",
        &LargestShock::margin, &LargestShock::margin_impact, false, true},
       {landing(margin_column), "",
        "least margin, at most 1: it fails, over the first landing, of the part at the point ",

@@ -35,7 +35,7 @@ class Report(EmptyFolder):
 
     def test_the_page_has_every_part_in_itself_and_asks_for_nothing(self):
         page = self.page("phone-damped", "--angle", "5", *FEW, *PROBE, "--part", "300:500", "--drops", "26")
-        for part in ("of 26 drops; least margin", "The drop as given", "Attitudes", "Shock at points", "continuous model", "Accuracy",
+        for part in ("of 26 drops on faces, edges and corners", "; least margin", "The drop as given", "Attitudes", "Shock at points", "continuous model", "Accuracy",
                      "Assumptions", "leaves out", "clatter shock phone-damped"):
             self.assertIn(part, page)
         self.assertGreaterEqual(page.count("<svg"), 4)
@@ -90,7 +90,7 @@ class Report(EmptyFolder):
             for one, other in zip(shown, expected, strict=True):
                 self.assertAlmostEqual(one / other, 1, delta=2e-2 if "0" in drops else 6e-3)
             self.assertEqual(page.count("° off: "), int(drops[1]))  # the dots of the map
-            self.assertIn(f"camera survives in {answer['drops'] - answer['failing']} of {drops[1]} drops; least margin", page)
+            self.assertIn(f"camera survives in {answer['drops'] - answer['failing']} of {drops[1]} drops on faces, edges and corners", page)
 
     def test_the_table_of_faces_edges_and_corners_for_a_spreadsheet_and_the_drops_that_fail_are_those_of_the_sweep_s_rows(self):
         scene = ("phone-damped", "--impacts", "2", "--probe", "camera:0.048,0.016,0.0095", "--part", "2000:900", "--drops", "52")
@@ -194,8 +194,8 @@ class Report(EmptyFolder):
             own = [case for case in cases if case["part"] == part]
             failing = sum(case["verdict"] == "fails" for case in own)
             verdict = f"fails in {failing} of 4 cases" if 0 < failing < 4 else f"{own[0]['verdict']} in all 4 cases"
-            ends = " to ".join("{margin:.3g} ({scene}, e = {restitution})".format(**case) for case in (own[0], own[-1]))
-            self.assertIn("{} {}, least margin {}: {attitude}, in impact {impact}".format(name, verdict, ends, **own[0]), found["message"])
+            ends = " to ".join("{margin:.3g} ({scene}, e = {restitution}: {attitude}, impact {impact})".format(**case) for case in (own[0], own[-1]))
+            self.assertIn(f"{name} {verdict}, least margin {ends}, of 26 drops on faces, edges and corners, each ±3°", found["message"])
             times = {"scene": 1, "e": 1}
             for one, other in itertools.product(own, own):
                 differ = [name for name, column in (("scene", "scene"), ("e", "restitution")) if one[column] != other[column]]
@@ -345,6 +345,24 @@ class Report(EmptyFolder):
         self.refused("no probe is named crysta; did you mean crystal?", "report", "bare.toml", *options, "--part", "crysta:300g", "--format", "json")
         self.write("bad.toml", scene + probes.format("", "part = '15q'\n"))
         self.refused("bad.toml:17:8: probe.1.part", "report", "bad.toml", *options, "--format", "json")
+
+    def test_a_part_without_a_limit_is_ranked_by_its_response_and_the_report_says_so(self):
+        self.write("concrete.toml", SCENE + "floor = 'concrete'\n")
+        options = (*PROBE, *OPTIONS, "--centre", "0.005,0,0", "--floor-restitution", "0.4,0.6")
+        found = self.json_of("report", "concrete.toml", *options, "--part", "0.4kHz")
+        limited = self.json_of("report", "concrete.toml", *options, "--part", "400:100")
+        answers = [case["response_g"] for case in found["cases"]]
+        self.assertEqual(answers, sorted(answers, reverse=True))
+        for one, other in zip(found["cases"], limited["cases"], strict=True):
+            self.assertAlmostEqual(one["response_g"] * other["margin"] / 100, 1, 9)
+            self.assertEqual([one[name] for name in ("attitude", "impact", "restitution")], [other[name] for name in ("attitude", "impact", "restitution")])
+            self.assertEqual((one["verdict"], one["margin"], one["part"]), (None, None, "400Hz"))
+        self.assertIn(f"answers with {float(format(answers[0], '.3g')):g} g (e = ", found["message"])
+        self.assertIn("no limit was given", found["message"])
+        self.assertTrue(any("--inertia (body.inertia)" in note for note in found["answer"]["notes"]))
+        page = self.page("concrete.toml", *options, "--part", "400Hz")
+        self.assertNotRegex(page, "fails|survives|least margin")
+        self.assertIn("no limit was given", page)
 
     def test_attitudes_of_several_cases_are_rows_behind_scene_e_and_part(self):
         body = SCENE.replace("[body]", "angle_deg = 0\n[body]")

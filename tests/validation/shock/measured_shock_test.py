@@ -22,6 +22,24 @@ def half_sine(rate=RATE, peak=PEAK, length=LENGTH, before=1e-3, after=2e-3):
 TIMES, PULSE = half_sine()
 
 
+def largest_acceleration(base, step, frequency, quality):
+    """Of an oscillator's mass on a base that runs straight between its samples, at the samples."""
+    omega = 2 * math.pi * frequency
+    system = np.zeros((4, 4))  # of z, ż, s and its slope
+    system[0, 1], system[1, 0], system[1, 1], system[1, 2], system[2, 3] = 1, -omega**2, -omega / quality, -1, 1
+    turn, term = np.eye(4), np.eye(4)
+    for k in range(1, 30):
+        term = term @ system * step / k
+        turn = turn + term
+    z, speed, largest = 0.0, 0.0, 0.0
+    base = np.append(base, np.zeros(round(1 / (frequency * step))))
+    for here, there in zip(base, base[1:]):
+        state = turn @ (z, speed, here, (there - here) / step)
+        z, speed = state[0], state[1]
+        largest = max(largest, abs(omega / quality * speed + omega**2 * z))
+    return largest
+
+
 def rows(*columns, form="{:.9g}", separator=","):
     return "".join(separator.join(form.format(x) for x in row) + "\n" for row in zip(*columns))
 
@@ -48,7 +66,10 @@ BAD = {
     "four axes": ("t,a (g),b (g),c (g),d (g)\n" + "".join(f"{i},1,2,3,4\n" for i in range(9)), (), "--column must name one to three of t, a"),
     "no such column": ("t,a (g)\n" + rows(TIMES, PULSE), ("--column", "b"), "--column b: must be of t, a"),
     "a short row": ("t,a (g)\n0,1\n1,2\n2\n" + "3,4\n" * 9, (), ":4:1: 1 fields: must be 2"),
-    "a word among numbers": ("t,a (g)\n0,1\n1,2\n2,x\n" + "".join(f"{i},4\n" for i in range(3, 12)), (), ":4:1: column a = x: must be a finite number"),
+    "a word in the first row": ("t,a (g)\n0,x\n" + "".join(f"{i},4\n" for i in range(1, 12)), (), "a.csv:2:3: column 2 = x: must be a finite number"),
+    "a word first in the first row": ("t,a (g)\nx,1\n" + "".join(f"{i},4\n" for i in range(1, 12)), (), "a.csv:2:1: column 1 = x: must be a finite number"),
+    "nothing in the second row": ("t;b;a (g)\n0;1;2\n1;;3\n" + "".join(f"{i};2;4\n" for i in range(2, 12)), (), "a.csv:3:3: column 2 = "),
+    "a word among numbers": ("t,a (g)\n0,1\n1,2\n2,x\n" + "".join(f"{i},4\n" for i in range(3, 12)), (), ":4:3: column a = x: must be a finite number"),
     "five rows": ("t,a (g)\n" + "".join(f"{i},4\n" for i in range(5)), (), "5 rows: at least 8"),
     "no numbers": ("a tale\n", (), "no rows of numbers"),
     "an empty file": ("", (), "no rows of numbers"),
@@ -217,6 +238,55 @@ class Measured(EmptyFolder):
             self.assertAlmostEqual(float(error), float(row[f"{name}_error"]), delta=1e-9)
             if exact:
                 self.assertLessEqual(abs(float(number) - exact), float(error) + 0.5 * unit, name)
+
+    def test_a_filtered_record_is_that_of_the_squared_butterworth_response_and_keeps_its_integral(self):
+        for option, design in (("CFC1000", 2077.5), ("1.65kHz", 1650 / (math.sqrt(2) - 1) ** 0.25)):
+            step = 1 / RATE
+            bent = np.tan(np.pi * np.fft.rfftfreq(len(TIMES), step)[:-1] * step) / np.tan(np.pi * design * step)
+            right = np.fft.irfft(np.append(np.fft.rfft(PULSE)[:-1] / (1 + bent**4), 0), len(TIMES))
+            found = self.measure(FILES["a header with units"][0], "--filter", option, "--frequencies", "800")
+            (blow,) = found["impacts"]
+            self.assertLess(abs(blow["peak_g"] / max(right) - 1), 1e-6)
+            self.assertLess(abs(blow["delta_v"] / (2 * PEAK * G * LENGTH / math.pi) - 1), 1e-5)
+            self.assertAlmostEqual(found["filter"]["design_frequency"], design, 6)
+            # Ramps between the samples, by the exact step of (ż, z) for each.
+            (point,) = found["spectra"][-1]["points"]
+            self.assertLess(abs(point["acceleration"]["maximax"] / largest_acceleration(G * right, step, 800, 10) - 1), 1e-5)
+        self.write("a.csv", FILES["a header with units"][0])
+        self.assertIn("filtered: CFC 1000 of SAE J211-1", " ".join(printed("shock", "--measured", "a.csv", "--filter", "cfc 1000", cwd=self.folder).split()))
+        self.refused("--filter 'CFC'", "shock", "--measured", "a.csv", "--filter", "CFC")
+        self.refused("--filter: is for more than", "shock", "--measured", "a.csv", "--filter", "0.5e6")
+
+    def test_a_filtered_drop_has_the_peak_and_spectrum_of_its_filtered_history(self):
+        drop = ("shock", "phone-damped", "--impacts", "2", *PROBE)
+        rate, design, more = 2e6, 2077.5, 8000
+        history = [row for row in rows_of(*drop, "--rate", str(rate)) if not row["mark"]]
+        felt = np.array([[float(row[f"camera_{axis}"]) for axis in "xyz"] for row in history])
+        felt = np.concatenate([np.zeros((more, 3)), felt, np.zeros((more, 3))])
+        bent = np.tan(np.pi * np.fft.rfftfreq(len(felt), 1 / rate) / rate) / np.tan(np.pi * design / rate)
+        right = np.fft.irfft(np.fft.rfft(felt, axis=0) / (1 + bent**4)[:, None], len(felt), axis=0)
+        found = json_of(*drop, "--filter", "CFC1000", "--frequencies", "800")
+        sizes = np.linalg.norm(right, axis=1)
+        self.assertLess(abs(max(row["peak"] for row in found["impacts"]) / max(sizes) - 1), 5e-4)
+        (whole,) = [one for one in found["spectra"] if one["blows"] == "1-2"]
+        point = whole["points"][0]["acceleration"]
+        exact = largest_acceleration(right[:, "xyz".index(whole["axis"])], 1 / rate, 800, 10)
+        self.assertLess(abs(point["maximax"] - exact), point["error_estimate"] + 1e-4 * exact)
+        self.assertIn("filtered: CFC 1000", " ".join(printed(*drop, "--filter", "CFC1000").split()))
+
+    def test_a_required_spectrum_is_met_or_not_by_decibels_at_its_breakpoints(self):
+        largest = 1.768457653993672 * PEAK  # of an undamped oscillator under a half sine, at f T = 0.809936785
+        worst = 0.80993678514945079 / LENGTH
+        for factor, reached, kept in ((0.5, True, False), (2, False, True)):
+            self.write("asked.csv", f"frequency (Hz),asked (g)\n{worst},{largest * factor}\n{2 * worst},{largest * factor}\n")
+            options = ("--required", "asked.csv", "--quality", "none", "--frequencies", "100")
+            (one,) = self.measure(FILES["a header with units"][0], *options)["required"]["spectra"]
+            self.assertLess(abs(one["most"]["decibels"] + 20 * math.log10(factor)), 1e-3)
+            self.assertEqual([one["most"]["frequency"], one["reached"], one["kept"]], [worst, reached, kept])
+            words = " ".join(printed("shock", "--measured", "a.csv", *options, cwd=self.folder).split())
+            self.assertIn("as a test it is " + ("met" if reached else "not met"), words)
+        self.write("asked.csv", "Hz,asked\n100,5\n200,10\n")
+        self.refused("its unit must stand above the rows", "shock", "--measured", "a.csv", "--required", "asked.csv")
 
     def test_a_table_fits_a_terminal(self):
         self.write("a.csv", FILES["a header with units"][0])
