@@ -133,7 +133,9 @@ bool Motion::is_in_space(const std::vector<std::string>& header, const ColumnNam
 }
 
 TableRequest Motion::request(bool in_space, const ColumnNames& names) {
-  return {.required = in_space ? in_three : in_plane, .optional = {}, .words = {}, .names = names};
+  std::vector<std::string> depth;  // where y is the height in a plane of x and y
+  if (!in_space) depth = {"y", "vy"};
+  return {.required = in_space ? in_three : in_plane, .optional = depth, .words = {}, .names = names};
 }
 
 Motion::Motion(NumericTable table, const Reference& reference) : table_(std::move(table)), reference_(reference) {

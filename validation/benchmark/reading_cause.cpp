@@ -121,6 +121,8 @@ const std::vector<Reading> planar_readings{
     {"left-right", "left and right are exchanged: x, phi, vx and omega have the other sign",
      scaled({"x", "phi", "vx", "omega"}, -1)},
     {"up-down", "z points down", scaled({"z", "vz"}, -1)},
+    {"y-up", "y points up, and z stands for depth",
+     [](const Cells& at) { at("z") = at("y"), at("vz") = at("vy"); }},
     {"exchanged", "x and z are exchanged, and vx and vz", exchange_axes},
     {"exchanged", "x and z are exchanged", [](const Cells& at) { std::swap(at("x"), at("z")); }},
     {"degrees", "phi and omega are in degrees", scaled({"phi", "omega"}, radian)},
@@ -300,7 +302,11 @@ class ReadingCauses {
   /// Axes of the world that are others or point the other way, with the Euler parameters as they are, with those of a
   /// world turned so, or with their vector exchanged alike; one of a left-handed world has one sign or the other.
   void of_other_axes() {
-    if (!table_.column("q0") || table_.rows() < 3) return;
+    if (table_.rows() < 3) return;
+    if (!table_.column("q0")) {
+      of_planar_axes();
+      return;
+    }
     const NumericTable begin = table_.without(2, table_.rows() - 1);
     for (const AxesReading& axes : axes_readings()) {
       const auto change = [&](const Cells& at) { read_by(axes, at); };
@@ -319,6 +325,37 @@ class ReadingCauses {
            words_of(axes), change},
           [&] { return score_of(as_read(table_)); });
       if (all_right_) return;
+    }
+  }
+
+  /// The same in the plane, with phi counted from any axis and either way.
+  void of_planar_axes() {
+    const NumericTable begin = table_.without(2, table_.rows() - 1);
+    for (int way = 1; way < 64 && causes_.empty(); ++way) {
+      const bool is_exchange = (way & 32) != 0;
+      const double of_x = (way & 4) != 0 ? -1 : 1, of_z = (way & 8) != 0 ? -1 : 1, turn = (way & 16) != 0 ? -1 : 1;
+      const int quarter = way & 3;
+      const auto change = [&](const Cells& at) {
+        if (is_exchange) exchange_axes(at);
+        scaled({"x", "vx"}, of_x)(at), scaled({"z", "vz"}, of_z)(at), scaled({"phi", "omega"}, turn)(at);
+        at("phi") += quarter * std::numbers::pi / 2;
+      };
+      const auto as_read = [&](const NumericTable& rows) {
+        return rows.changed([&](std::span<double> row) { change({rows, row}); });
+      };
+      if (!(Motion(as_read(begin), reference_).start_error() <= reference_.tolerances[2])) continue;
+      const char *x = is_exchange ? "z" : "x", *z = is_exchange ? "x" : "z";
+      add({is_exchange  ? "exchanged"
+           : of_z < 0 ? "up-down"
+           : of_x < 0 ? "left-right"
+                      : "phi-sign",
+           fmt::format("x, z, phi stand as {}{}, {}{}, {}{}phi", of_x < 0 ? "-" : "", x, of_z < 0 ? "-" : "", z,
+                       quarter == 0 ? "" : fmt::format("{}° ", 90 * quarter),
+                       turn < 0      ? "-"
+                       : quarter > 0 ? "+"
+                                     : ""),
+           change},
+          [&] { return score_of(as_read(table_)); });
     }
   }
 
