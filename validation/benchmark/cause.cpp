@@ -116,7 +116,9 @@ std::string range_words(double low, double high) {
 void add_offset_of_steps(const Motion& motion, std::span<const FoundImpact> impacts, const Reference& reference,
                          const Misses& misses, std::vector<Cause>& causes) {
   const double step = 1.001 * motion.step();
-  const auto is_instant = [](const FoundImpact& one) { return !one.points.empty() && one.last_row == one.first_row + 1; };
+  const auto is_instant = [](const FoundImpact& one) {
+    return !one.points.empty() && one.last_row == one.first_row + 1;
+  };
   if (misses.delays.empty() || !std::ranges::all_of(impacts, is_instant)) return;
   const auto [soonest, latest] = std::ranges::minmax(misses.delays);
   const auto [lowest, highest] = std::ranges::minmax(misses.heights);
@@ -124,9 +126,9 @@ void add_offset_of_steps(const Motion& motion, std::span<const FoundImpact> impa
   for (const FoundImpact& one : impacts)
     way = std::fmax(way, -step * reference.velocity(one.before, one.points.front()).z());
   if (lowest > way && highest - lowest <= way) {
-    causes.push_back({"margin", highest, (highest - lowest) / highest,
-                      fmt::format("the body strikes {} m above the ground, more than a step's way",
-                                  range_words(lowest, highest))});
+    causes.push_back(
+        {"margin", highest, (highest - lowest) / highest,
+         fmt::format("the body strikes {} m above the ground, more than a step's way", range_words(lowest, highest))});
   } else if (soonest >= 2 * step && latest - soonest <= step && impacts.size() > 1) {
     causes.push_back({"delay", soonest, (latest - soonest) / latest,
                       fmt::format("each impact comes {} s late, and a step is {} s", range_words(soonest, latest),
@@ -432,7 +434,8 @@ struct Diagnosed {
       if (impact.begins_in_a_row) continue;
       bool is_resolved = impact.is_resolved;
       if (first_order && !impact.points.empty()) {
-        const double way = first_order->flying.creep.norm() * (motion.time(impact.last_row) - motion.time(impact.first_row));
+        const double way =
+            first_order->flying.creep.norm() * (motion.time(impact.last_row) - motion.time(impact.first_row));
         is_resolved |= std::fabs(reference.height(impact.before, impact.points.front())) <= 1.001 * way;
       }
       balance += is_resolved ? 1 : -1;
@@ -578,8 +581,9 @@ std::vector<Cause> ranked(const Diagnosed& run, std::vector<Cause> causes, bool 
     cause.error_without = run.error_of(without, by);
     if (!std::isfinite(*cause.error_without) || !std::isfinite(all) || !has_first_order) return;
     const std::string left = significant(rounded_up(*cause.error_without), 2), now = significant(rounded_up(all), 2);
-    cause.words += left == now ? fmt::format("; mending this alone leaves V, Ω and t off by {}", now)
-                               : fmt::format("; without this alone V, Ω and t would be off by {} and not {}", left, now);
+    cause.words += left == now
+                       ? fmt::format("; mending this alone leaves V, Ω and t off by {}", now)
+                       : fmt::format("; without this alone V, Ω and t would be off by {} and not {}", left, now);
   };
   Stepping resolved = stepping, second_order = stepping;
   resolved.step = 0;
@@ -589,9 +593,12 @@ std::vector<Cause> ranked(const Diagnosed& run, std::vector<Cause> causes, bool 
   if (has_first_order) {
     Cause first_order = run.first_order->cause;
     if (by_step || is_as_the_run) tell(first_order, second_order, law);
-    const bool is_law_first = !by_step && run.score.is_law_first() && !(run.score.law_error <= run.reference.tolerances[2]);
-    const bool is_first = causes.empty() || (!is_law_first && first_order.error_without.value_or(all) <
-                                                                  causes.front().error_without.value_or(0));
+    const bool is_trifle =
+        !by_step && run.score.is_law_first() && !(run.score.law_error <= run.reference.tolerances[2]);
+    const auto is_larger = [&] {
+      return first_order.error_without.value_or(all) < causes.front().error_without.value_or(0);
+    };
+    const bool is_first = causes.empty() || (!is_trifle && is_larger());
     causes.insert(is_first ? causes.begin() : causes.end(), first_order);
     for (std::size_t i = 1; i < causes.size(); ++i) causes[i].is_more |= is_first || i + 1 == causes.size();
   }

@@ -230,7 +230,8 @@ class ImpactCauses {
       tell("restitution", best.e, "e = " + three_digits(best.e) + asked(law_.law.restitution));
     if (best.friction != law_.law.friction_value)
       tell("friction", best.friction, "friction " + three_digits(best.friction) + asked(law_.law.friction_value));
-    if (best.solver != Solver::right) tell(solver_name(best.solver), {}, solver_words(best.solver));
+    const auto [solver, solver_words] = named(best.solver);
+    if (best.solver != Solver::right) tell(solver, {}, solver_words);
     if (causes_.size() < 2) causes_.clear();
   }
 
@@ -300,25 +301,23 @@ class ImpactCauses {
     return some;
   }
 
-  static const char* solver_name(Solver solver) {
-    return solver == Solver::pyramid        ? "friction-pyramid"
-           : solver == Solver::unequal      ? "friction-weights"
-           : solver == Solver::normal_first ? "normal-first"
-                                            : "friction-direction";
-  }
-
-  static const char* solver_words(Solver solver) {
+  /// Name and words of a wrong one.
+  static std::pair<const char*, const char*> named(Solver solver) {
     switch (solver) {
       case Solver::pyramid:
-        return "friction with a bound of its own along x and along y, a pyramid in place of the cone,";
+        return {"friction-pyramid",
+                "friction with a bound of its own along x and along y, a pyramid in place of the cone,"};
       case Solver::unequal:
-        return "friction that is brought back to the cone after unequal steps along x and y, not against the slip,";
+        return {"friction-weights",
+                "friction that is brought back to the cone after unequal steps along x and y, not against the slip,"};
       case Solver::normal_first:
-        return "a normal impulse without friction, to which the tangential one is added, as by codes that solve one "
-               "after the other,";
+        return {"normal-first",
+                "a normal impulse without friction, to which the tangential one is added, as by codes that solve one "
+                "after the other,"};
       case Solver::normal_first_reversed:
-        return "friction of the other sign, along the slip, added to the normal impulse without friction,";
-      default: return "friction of the other sign, along the slip and not against it,";
+        return {"friction-direction",
+                "friction of the other sign, along the slip, added to the normal impulse without friction,"};
+      default: return {"friction-direction", "friction of the other sign, along the slip and not against it,"};
     }
   }
 
@@ -340,7 +339,8 @@ class ImpactCauses {
     if (best == Solver::right) return;
     if (!(left <= explained * explained * worst_) || (by_step_ && !(left <= reference_.tolerances[1]))) return;
     const std::string which = impacts_words(impacts_.size(), total_, 0) + " " + misfit_words(left);
-    causes_.push_back({solver_name(best), {}, left, fmt::format("{} explains {}", solver_words(best), which)});
+    const auto [name, words] = named(best);
+    causes_.push_back({name, {}, left, fmt::format("{} explains {}", words, which)});
     causes_.back().law = changed(solving(best), friction);
     if (friction == asked) return;
     causes_.push_back({"friction", friction, left,

@@ -74,24 +74,6 @@ void all_in_milliseconds(const Cells& at) {
   scaled({"vx", "vy", "vz", "omega", "wx", "wy", "wz"}, 1e3)(at);
 }
 
-/// Components along y and z of vectors whose y pointed up.
-void turn_up(const Cells& at, const std::vector<std::pair<const char*, const char*>>& pairs) {
-  for (const auto& [y, z] : pairs) {
-    const double up = at(y);
-    at(y) = -at(z), at(z) = up;
-  }
-}
-
-void from_y_up(const Cells& at) {
-  turn_up(at, {{"y", "z"}, {"vy", "vz"}, {"wy", "wz"}});
-  const double half = std::sqrt(0.5);
-  const space::Quaternion turn = space::Quaternion(half, half, 0, 0) * at.attitude();
-  at("q0") = turn.w(), at("q1") = turn.x(), at("q2") = turn.y(), at("q3") = turn.z();
-}
-
-/// The same of a body whose own axes are turned likewise.
-void from_y_up_throughout(const Cells& at) { turn_up(at, {{"y", "z"}, {"q2", "q3"}, {"vy", "vz"}, {"wy", "wz"}}); }
-
 space::Quaternion attitude_of(const Cells& at) {
   const double half = at.has("q0") ? 0 : at("phi") / 2;
   return at.has("q0") ? at.attitude() : space::Quaternion(std::cos(half), 0, -std::sin(half), 0);
@@ -121,8 +103,7 @@ const std::vector<Reading> planar_readings{
     {"left-right", "left and right are exchanged: x, phi, vx and omega have the other sign",
      scaled({"x", "phi", "vx", "omega"}, -1)},
     {"up-down", "z points down", scaled({"z", "vz"}, -1)},
-    {"y-up", "y points up, and z stands for depth",
-     [](const Cells& at) { at("z") = at("y"), at("vz") = at("vy"); }},
+    {"y-up", "y points up, and z stands for depth", [](const Cells& at) { at("z") = at("y"), at("vz") = at("vy"); }},
     {"exchanged", "x and z are exchanged, and vx and vz", exchange_axes},
     {"exchanged", "x and z are exchanged", [](const Cells& at) { std::swap(at("x"), at("z")); }},
     {"degrees", "phi and omega are in degrees", scaled({"phi", "omega"}, radian)},
@@ -141,9 +122,6 @@ const std::vector<Reading> space_readings{
     {"scalar-last", "the Euler parameters have their scalar last", scalar_first},
     {"omega-sign", "the angular velocity has the other sign", scaled({"wx", "wy", "wz"}, -1)},
     {"up-down", "z points down", scaled({"z", "vz"}, -1)},
-    {"y-up", "y points up, and z out of the page", from_y_up},
-    {"y-up", "y points up in the world and in the body, and z out of the page", from_y_up_throughout},
-    {"mirrored", "the axes are left-handed: y points the other way", scaled({"y", "q1", "q3", "vy", "wx", "wz"}, -1)},
     {"degrees", "the angular velocity is in degrees per second", scaled({"wx", "wy", "wz"}, radian)},
     {"turns", "the angular velocity is in turns per second", scaled({"wx", "wy", "wz"}, full_turn)},
     {"millimetres", "lengths are in millimetres", scaled({"x", "y", "z", "vx", "vy", "vz"}, 1e-3)},
@@ -324,7 +302,7 @@ class ReadingCauses {
                                 : "mirrored",
            words_of(axes), change},
           [&] { return score_of(as_read(table_)); });
-      if (all_right_) return;
+      if (!causes_.empty()) return;
     }
   }
 
@@ -345,10 +323,8 @@ class ReadingCauses {
       };
       if (!(Motion(as_read(begin), reference_).start_error() <= reference_.tolerances[2])) continue;
       const char *x = is_exchange ? "z" : "x", *z = is_exchange ? "x" : "z";
-      add({is_exchange  ? "exchanged"
-           : of_z < 0 ? "up-down"
-           : of_x < 0 ? "left-right"
-                      : "phi-sign",
+      const char* name = is_exchange ? "exchanged" : of_z < 0 ? "up-down" : of_x < 0 ? "left-right" : "phi-sign";
+      add({name,
            fmt::format("x, z, phi stand as {}{}, {}{}, {}{}phi", of_x < 0 ? "-" : "", x, of_z < 0 ? "-" : "", z,
                        quarter == 0 ? "" : fmt::format("{}° ", 90 * quarter),
                        turn < 0      ? "-"

@@ -325,7 +325,7 @@ void add_answer(const DrawnAnswer& answer, double curve, PicturePanel& panel) {
   panel.plot.curves.push_back({.x = "impact",
                                .y = "error",
                                .legend = answer.legend,
-                               .style = curve < colours           ? FigureCurve::Style::line_points
+                               .style = curve < colours            ? FigureCurve::Style::line_points
                                         : answer.errors.size() > 1 ? FigureCurve::Style::dashed
                                                                    : FigureCurve::Style::squares,
                                .where = {{"curve", curve}}});
@@ -351,9 +351,10 @@ std::vector<DrawnAnswer> drawn_answers(const std::vector<Submission>& submission
   }
   for (const SubmissionGroup& group : groups) {
     const std::string name = group_name(group.head);
-    DrawnAnswer& worst = drawn.emplace_back(DrawnAnswer{
-        fmt::format("{}{}worst of {} files: {}", name, name.empty() ? "" : ", ", group.files, verdict_name(group.verdict)),
-        {}});
+    DrawnAnswer& worst =
+        drawn.emplace_back(DrawnAnswer{fmt::format("{}{}worst of {} files: {}", name, name.empty() ? "" : ", ",
+                                                   group.files, verdict_name(group.verdict)),
+                                       {}});
     for (const Submission& one : submissions) {
       if (one.head.group() != group.head.group()) continue;
       const std::vector<double> errors = errors_of(one);

@@ -349,7 +349,9 @@ void add_causes(const Submission& one, SubmissionGroup& group) {
   std::set<std::string> names;  // either of two causes may have one name
   for (const Cause& cause : one.causes) names.insert(cause.name);
   if (one.law_is_unexplained) names.insert(unexplained_law);
-  const std::string first = one.law_is_unexplained ? unexplained_law : one.causes.empty() ? "" : one.causes.front().name;
+  const std::string first = one.law_is_unexplained ? unexplained_law
+                            : one.causes.empty()   ? ""
+                                                   : one.causes.front().name;
   for (const std::string& name : names) {
     auto found = std::ranges::find(group.causes, name, &SubmissionGroup::CauseCount::name);
     if (found == group.causes.end()) found = group.causes.insert(found, {.name = name});
@@ -454,7 +456,8 @@ std::vector<SubmissionGroup> group_submissions(const std::vector<Submission>& su
   std::ranges::sort(groups, {}, [](const SubmissionGroup& group) { return group.head.group(); });
   for (SubmissionGroup& group : groups) {
     std::ranges::sort(group.steps, std::greater{}, [](const auto& one) { return one.step.value_or(0); });
-    std::ranges::stable_sort(group.causes, std::greater{}, [](const auto& one) { return std::pair(one.files, one.leads); });
+    std::ranges::stable_sort(group.causes, std::greater{},
+                             [](const auto& one) { return std::pair(one.files, one.leads); });
     group.order = observed_order(group.steps);
   }
   return groups;

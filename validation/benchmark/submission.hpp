@@ -68,7 +68,7 @@ struct SubmissionGroup {
     std::size_t files = 0, leads = 0;
   };
   std::vector<CauseCount> causes{};  ///< the one of most files first, of these that which is most often the first
-  double unexplained = 0;  ///< Cause::unexplained of the worst file; infinite: not known of each
+  double unexplained = 0;            ///< Cause::unexplained of the worst file; infinite: not known of each
 };
 
 /// "newton routh", "poisson, routh", "moreau", … as DeclaredLaw::name.  @throws BadInput beginning with `where`
