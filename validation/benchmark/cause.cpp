@@ -427,7 +427,7 @@ struct Diagnosed {
   }
 
   /// Whether a code resolves the instants of its impacts: most of those that do not begin in a row, where nobody knows.
-  /// Flights of first order come to the ground where free ones are off it by what they creep in a step.
+  /// Flights of first order come to the ground where free ones are off it by what they creep in a few steps.
   [[nodiscard]] bool resolves_instants() const {
     std::ptrdiff_t balance = 0;
     for (const FoundImpact& impact : impacts) {
@@ -436,7 +436,7 @@ struct Diagnosed {
       if (first_order && !impact.points.empty()) {
         const double way =
             first_order->flying.creep.norm() * (motion.time(impact.last_row) - motion.time(impact.first_row));
-        is_resolved |= std::fabs(reference.height(impact.before, impact.points.front())) <= 1.001 * way;
+        is_resolved |= std::fabs(reference.height(impact.before, impact.points.front())) <= 4 * way;
       }
       balance += is_resolved ? 1 : -1;
     }

@@ -34,12 +34,13 @@ Sizes sizes_of(const Reference& reference, const ReferenceSequence& sequence) {
 }
 
 /// "P_t/P_n = 0.300 and not -0.300, e = 0.500": restitution and friction of an impact at one point, and the law's; of
-/// a jump that has both of the law's how much the spin changes beside r × P.
+/// a jump that has both of the law's how much the spin changes beside r × P.  Where no point explains it, those of the
+/// lowest.
 std::string measured_words(const Reference& reference, const DeclaredLaw& law, const FoundImpact& impact) {
   const auto& [before, after] = impact.bookings.front();
-  if (impact.points.size() != 1) return "";
-  const int point = impact.points.front();
-  const auto exact = answer_of(reference, law, before, impact.points);
+  if (impact.points.size() > 1) return "";
+  const int point = impact.points.empty() ? reference.lowest(before.attitude) : impact.points.front();
+  const auto exact = answer_of(reference, law, before, {point});
   if (!exact) return "";
   const auto ratio = [&](const State& state) {
     const Vector3 change = state.velocity - before.velocity;
@@ -63,7 +64,7 @@ std::string measured_words(const Reference& reference, const DeclaredLaw& law, c
   const double along = (after.angular_velocity - before.angular_velocity).dot(turn) / turn.squaredNorm();
   if (std::fabs(along - 1) > 1e-2) all += fmt::format(", the spin changes by {} times r × P", significant(along, 3));
   else if (!differs) return "";
-  return ": " + all;
+  return impact.points.empty() ? ": no point of the body explains its jump; of the lowest one " + all : ": " + all;
 }
 
 /// Twice the kinetic energy of a difference of velocities.
@@ -198,10 +199,11 @@ void explain(Score& score, double tolerance, double time) {
     for (std::size_t i = 0; i < std::min(score.impacts.size(), score.expected); ++i) {
       const ImpactScore& one = score.impacts[i];
       if (one.law_error <= tolerance) continue;
-      add(one.law_error, fmt::format("{} does not follow the law{}", impact_words(score, i),
-                                     std::isfinite(one.law_error) ? one.measured
-                                     : one.place == "?"           ? ": no point of the body explains its jump"
-                                                                  : ", which has no answer there"));
+      const char* otherwise =
+          one.place == "?" ? ": no point of the body explains its jump" : ", which has no answer there";
+      const bool is_measured = std::isfinite(one.law_error) || !one.measured.empty();
+      add(one.law_error,
+          fmt::format("{} does not follow the law{}", impact_words(score, i), is_measured ? one.measured : otherwise));
       score.law_words = score.findings.back();
       break;
     }
