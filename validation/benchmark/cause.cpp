@@ -45,6 +45,13 @@ struct Misses {
       const double speed = -reference.velocity(impact.before, impact.points.front()).z();
       const double square = speed * speed + 2 * reference.gravity * heights.back();  // at the ground
       delays.push_back(-2 * heights.back() / (speed + std::sqrt(std::fmax(square, 0))));
+      // The point turns with the body, too: Newton's steps back along the flight.
+      const analytic::space::FreeFlight flight = reference.flight(impact.before);
+      for (int i = 0; i < 3 && delays.back() > 0; ++i) {
+        const State then = flight.at(-delays.back());
+        const int point = impact.points.front();
+        delays.back() += reference.height(then, point) / reference.velocity(then, point).z();
+      }
     }
   }
 
@@ -105,6 +112,12 @@ bool contacts_last(const Motion& motion, std::span<const FoundImpact> impacts, d
   });
 }
 
+/// Whether an impact falls on a row, as one at the end of a step.
+bool is_at_row(const Motion& motion, const FoundImpact& impact) {
+  const double steps = (impact.time + motion.first_touch() - motion.time(impact.first_row)) / motion.step();
+  return std::fabs(steps - std::round(steps)) <= 1e-3;
+}
+
 /// "0.00200 to 0.00225", or one number where both are the same.
 std::string range_words(double low, double high) {
   const std::string one = three_digits(low), other = three_digits(high);
@@ -153,11 +166,7 @@ void add_delay(const Motion& motion, const Reference& reference, std::span<const
     return;
   }
   // A code of steps may strike at the first row after the touch, always as late by chance.
-  const auto is_at_row = [&](const FoundImpact& impact) {
-    const double steps = (impact.time + motion.first_touch() - motion.time(impact.first_row)) / motion.step();
-    return std::fabs(steps - std::round(steps)) <= 1e-3;
-  };
-  if (is_within_step && std::ranges::all_of(impacts, is_at_row)) return;
+  if (is_within_step && std::ranges::all_of(impacts, [&](const auto& one) { return is_at_row(motion, one); })) return;
   causes.push_back({"delay", delays.front(), left,
                     fmt::format("each impact comes {} s late, {}", three_digits(delays.front()), misfit_words(left))});
 }
@@ -282,6 +291,17 @@ std::vector<Cause> causes_of_list(const Answer& answer, const Reference& referen
   causes = impact_causes_of(reference, sequence.law, impacts, 0, trials);
   add_mass(reference, impacts, causes);
   return chosen(std::move(causes));
+}
+
+/// The largest law error that a step does not make.
+double law_left_by_step(const Reference& reference, const DeclaredLaw& law, std::span<const FoundImpact> impacts,
+                        double gravity_of_step) {
+  double left = 0;
+  for (const FoundImpact& impact : impacts) {
+    const double error = law_error(reference, law, impact);
+    if (!(error <= 2 * law_error_of_speed(reference, impact, gravity_of_step))) left = worse(left, error);
+  }
+  return left;
 }
 
 // What the steps of a code are worth, by a code that follows the law from the run's own start.
@@ -434,9 +454,11 @@ struct Diagnosed {
       if (impact.begins_in_a_row) continue;
       bool is_resolved = impact.is_resolved;
       if (first_order && !impact.points.empty()) {
-        const double way =
-            first_order->flying.creep.norm() * (motion.time(impact.last_row) - motion.time(impact.first_row));
-        is_resolved |= std::fabs(reference.height(impact.before, impact.points.front())) <= 4 * way;
+        const double time = motion.time(impact.last_row) - motion.time(impact.first_row);
+        const int point = impact.points.front();
+        const double fall = std::fabs(reference.velocity(impact.before, point).z()) * time;
+        const double way = std::fmin(4 * first_order->flying.creep.norm() * time, 0.1 * fall);
+        is_resolved |= std::fabs(reference.height(impact.before, point)) <= way;
       }
       balance += is_resolved ? 1 : -1;
     }
@@ -481,14 +503,8 @@ struct Diagnosed {
     return of.motion_error();
   }
 
-  /// The largest law error that the step does not make.
   [[nodiscard]] double law_left() const {
-    double left = 0;
-    for (const FoundImpact& impact : impacts) {
-      const double error = law_error(reference, sequence.law, impact);
-      if (!(error <= 2 * law_error_of_speed(reference, impact, gravity_of_step()))) left = worse(left, error);
-    }
-    return left;
+    return law_left_by_step(reference, sequence.law, impacts, gravity_of_step());
   }
 };
 
@@ -502,10 +518,14 @@ std::vector<Cause> causes_at_start(const Diagnosed& run) {
 std::vector<Cause> causes_of_scene(const Diagnosed& run, const Misses& misses) {
   std::vector<Cause> causes;
   add_margin(run.answer, run.reference, run.score, run.impacts, misses, causes);
-  // After one impact alone a depth that a step makes is the step's.
+  // After one impact alone a depth in a row is that of the step; another one may be always the same.
   if (!causes.empty() && run.asked().size() == 1 && *causes.front().value < 0)
     add_time_step(run.motion, run.reference, run.score, run.flight_left, run.impacts, causes);
-  if (causes.size() > 1) return {causes.back()};
+  if (causes.size() > 1) {
+    if (is_at_row(run.motion, run.impacts.front())) return {causes.back()};
+    std::swap(causes.front(), causes.back());
+    return causes;
+  }
   if (causes.empty() && !run.impacts.empty())
     causes = size_causes_of(run.motion, run.reference, run.sequence.law, run.impacts.front(), run.law_left());
   if (causes.empty()) add_height(run.answer, run.motion, run.reference, run.impacts, causes);
@@ -680,21 +700,26 @@ std::vector<Cause> found_causes(const Answer& answer, const Reference& reference
 
 }  // namespace
 
-std::vector<Cause> causes_of(const Answer& answer, const Reference& reference, const Score& score,
-                             std::string& remark) {
+Diagnosis diagnosis_of(const Answer& answer, const Reference& reference, const Score& score) {
   Trials trials;
-  std::vector<Cause> causes = found_causes(answer, reference, score, trials);
+  Diagnosis diagnosis{found_causes(answer, reference, score, trials)};
   // A step of first order makes no law error, and a run's early end nothing at all.
-  const bool is_explained = std::ranges::any_of(causes, [&](const Cause& cause) {
+  const bool is_explained = std::ranges::any_of(diagnosis.causes, [&](const Cause& cause) {
     if (cause.name == "cut-off") return score.impacts_error() <= reference.tolerances[1];
     return cause.name != "first-order-step" || score.law_error <= reference.tolerances[2];
   });
-  if (!is_explained) {
-    remark = trials.are_spent() ? "the search for its causes ended after its last trial: shorter steps may tell"
-             : answer.is_list   ? "no known single cause fits"
-                                : "no known single cause fits; shorter steps may tell";
-  }
-  return causes;
+  if (is_explained) return diagnosis;
+  diagnosis.remark = trials.are_spent() ? "the search for its causes ended after its last trial: shorter steps may tell"
+                     : answer.is_list   ? "no known single cause fits"
+                                        : "no known single cause fits; shorter steps may tell";
+  const auto sequence = std::ranges::find(reference.sequences, score.law, [](const auto& one) { return one.law.name; });
+  if (answer.is_list || score.found == 0 || sequence == reference.sequences.end()) return diagnosis;
+  const Motion motion(answer.table, reference);
+  std::vector<FoundImpact> impacts = impacts_of(motion, reference);
+  impacts.resize(std::min(impacts.size(), sequence->truth.size()));
+  const double left = law_left_by_step(reference, sequence->law, impacts, motion.step() * reference.pull().norm());
+  diagnosis.law_is_unexplained = !reference.is_compliant && !(left <= reference.tolerances[2]);
+  return diagnosis;
 }
 
 }  // namespace clatter::validation

@@ -289,11 +289,10 @@ Submission judge(const ReadFile& file, const SubmissionHead& head, const Referen
   if (!step_words.empty()) submission.score.findings.push_back(step_words);
   submission.verdict = verdict_of(submission.score, reference.tolerances);
   if (!(submission.score.impacts_error() <= reference.tolerances[1]) || submission.score.ends_early) {
-    std::string remark;
-    submission.causes = causes_of(answer, reference, submission.score, remark);
-    if (!remark.empty()) submission.score.findings.push_back(remark);
-    submission.law_is_unexplained =
-        !remark.empty() && submission.score.found > 0 && !(submission.score.law_error <= reference.tolerances[2]);
+    Diagnosis diagnosis = diagnosis_of(answer, reference, submission.score);
+    if (!diagnosis.remark.empty()) submission.score.findings.push_back(diagnosis.remark);
+    submission.causes = std::move(diagnosis.causes);
+    submission.law_is_unexplained = diagnosis.law_is_unexplained;
   }
   return submission;
 }

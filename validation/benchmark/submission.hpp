@@ -38,9 +38,8 @@ struct Submission {
   bool gradients = false;  ///< with derivatives
   Score score{};
   Verdict verdict = Verdict::fails;
-  std::vector<Cause> causes{};  ///< what explains a run that is not sharp
-  /// Whether impacts are off the law beyond the class "good" and none of the causes explains that.
-  bool law_is_unexplained = false;
+  std::vector<Cause> causes{};      ///< what explains a run that is not sharp
+  bool law_is_unexplained = false;  ///< Diagnosis::law_is_unexplained
 };
 
 /// Files of one problem, engine, version, settings and law.
