@@ -296,10 +296,10 @@ class ReadingCauses {
       } catch (const std::exception&) {
         continue;
       }
-      const bool is_up = axes.from[2].axis != 2;
-      add({is_up                ? "y-up"
-           : axes.is_exchange() ? "exchanged"
-                                : "mirrored",
+      const bool is_up = axes.from[2].axis != 2, is_exchange = axes.is_exchange();
+      add({is_up         ? "y-up"
+           : is_exchange ? "exchanged"
+                         : "mirrored",
            words_of(axes), change},
           [&] { return score_of(as_read(table_)); });
       if (!causes_.empty()) return;
