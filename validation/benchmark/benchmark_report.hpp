@@ -41,12 +41,13 @@ struct UnreadFile {
 void add_unread(const std::vector<UnreadFile>& unread, Report& report);
 
 /// Where files of a group differ in their step, the largest error over the step, a curve for each group, else that of
-/// each impact, a curve for each file; with the classes of the first file's problem.
+/// each impact, a curve for each file or, where they are many, for each group; with the classes of the first file's
+/// problem.
 [[nodiscard]] Picture score_picture(const std::vector<Submission>& submissions);
 
-/// The same of runs of a scene that has no certified answers: they are judged by the discrete model.
+/// As score_report() of runs of a scene that has no certified answers: they are judged by the discrete model.
 [[nodiscard]] Report against_report(const Scene& scene, const Reference& reference,
-                                    const std::vector<Submission>& submissions);
+                                    const std::vector<Submission>& submissions, bool details);
 
 /// What is asked of each file: a class, "good", or a largest error, "1e-3".
 struct Requirement {

@@ -45,6 +45,13 @@ struct Misses {
       const double speed = -reference.velocity(impact.before, impact.points.front()).z();
       const double square = speed * speed + 2 * reference.gravity * heights.back();  // at the ground
       delays.push_back(-2 * heights.back() / (speed + std::sqrt(std::fmax(square, 0))));
+      // The point turns with the body, too: Newton's steps back along the flight.
+      const analytic::space::FreeFlight flight = reference.flight(impact.before);
+      for (int i = 0; i < 3 && delays.back() > 0; ++i) {
+        const State then = flight.at(-delays.back());
+        const int point = impact.points.front();
+        delays.back() += reference.height(then, point) / reference.velocity(then, point).z();
+      }
     }
   }
 
@@ -105,13 +112,53 @@ bool contacts_last(const Motion& motion, std::span<const FoundImpact> impacts, d
   });
 }
 
+/// Whether an impact falls on a row, as one at the end of a step.
+bool is_at_row(const Motion& motion, const FoundImpact& impact) {
+  const double steps = (impact.time + motion.first_touch() - motion.time(impact.first_row)) / motion.step();
+  return std::fabs(steps - std::round(steps)) <= 1e-3;
+}
+
+/// "0.00200 to 0.00225", or one number where both are the same.
+std::string range_words(double low, double high) {
+  const std::string one = three_digits(low), other = three_digits(high);
+  return one == other ? one : one + " to " + other;
+}
+
+/// Impacts of a code of steps that all come early by more than a step, above the ground by one height but for a step's
+/// way, or all late by one time but for a step, and that of two steps at least.
+void add_offset_of_steps(const Motion& motion, std::span<const FoundImpact> impacts, const Reference& reference,
+                         const Misses& misses, std::vector<Cause>& causes) {
+  const double step = 1.001 * motion.step();
+  const auto is_instant = [](const FoundImpact& one) {
+    return !one.points.empty() && one.last_row == one.first_row + 1;
+  };
+  if (misses.delays.empty() || !std::ranges::all_of(impacts, is_instant)) return;
+  const auto [soonest, latest] = std::ranges::minmax(misses.delays);
+  const auto [lowest, highest] = std::ranges::minmax(misses.heights);
+  double way = 0;
+  for (const FoundImpact& one : impacts)
+    way = std::fmax(way, -step * reference.velocity(one.before, one.points.front()).z());
+  if (lowest > way && highest - lowest <= way) {
+    causes.push_back(
+        {"margin", highest, (highest - lowest) / highest,
+         fmt::format("the body strikes {} m above the ground, more than a step's way", range_words(lowest, highest))});
+  } else if (soonest >= 2 * step && latest - soonest <= step && impacts.size() > 1) {
+    causes.push_back({"delay", soonest, (latest - soonest) / latest,
+                      fmt::format("each impact comes {} s late, and a step is {} s", range_words(soonest, latest),
+                                  three_digits(motion.step()))});
+  }
+}
+
 /// Impacts that come late by one time.
+/// @param by_steps whether the code strikes at its steps: within one, times are alike by chance
 void add_delay(const Motion& motion, const Reference& reference, std::span<const FoundImpact> impacts,
-               const Misses& misses, std::vector<Cause>& causes) {
+               const Misses& misses, bool by_steps, std::vector<Cause>& causes) {
   const std::vector<double>& delays = misses.delays;
-  if (delays.size() < 2 || !(std::fabs(misses.heights.front()) > 1e-5 * reference.reach())) return;
+  if (by_steps) add_offset_of_steps(motion, impacts, reference, misses, causes);
+  if (!causes.empty() || delays.size() < 2 || !(std::fabs(misses.heights.front()) > 1e-5 * reference.reach())) return;
   const double left = Misses::spread(delays);
-  if (!(left <= explained) || !(delays.front() > 0)) return;
+  const bool is_within_step = by_steps && delays.front() <= 1.001 * motion.step();
+  if (!(left <= (is_within_step ? 1e-3 : explained)) || !(delays.front() > 0)) return;
   if (contacts_last(motion, impacts, delays.front())) {
     causes.push_back({"contact-time", 2 * delays.front(), left,
                       fmt::format("its contacts take {} s: an impact counts in the middle, {} s after the touch, {}",
@@ -119,11 +166,7 @@ void add_delay(const Motion& motion, const Reference& reference, std::span<const
     return;
   }
   // A code of steps may strike at the first row after the touch, always as late by chance.
-  const auto is_at_row = [&](const FoundImpact& impact) {
-    const double steps = (impact.time + motion.first_touch() - motion.time(impact.first_row)) / motion.step();
-    return std::fabs(steps - std::round(steps)) <= 1e-3;
-  };
-  if (delays.front() <= 1.001 * motion.step() && std::ranges::all_of(impacts, is_at_row)) return;
+  if (is_within_step && std::ranges::all_of(impacts, [&](const auto& one) { return is_at_row(motion, one); })) return;
   causes.push_back({"delay", delays.front(), left,
                     fmt::format("each impact comes {} s late, {}", three_digits(delays.front()), misfit_words(left))});
 }
@@ -222,15 +265,6 @@ std::vector<Cause> chosen(std::vector<Cause> causes) {
   return causes;
 }
 
-/// Whether a code resolves the instants of its impacts: most of those that do not begin in a row, where nobody knows.
-bool resolves_instants(const std::vector<FoundImpact>& impacts) {
-  std::ptrdiff_t balance = 0;
-  for (const FoundImpact& impact : impacts) {
-    if (!impact.begins_in_a_row) balance += impact.is_resolved ? 1 : -1;
-  }
-  return balance > 0;
-}
-
 /// What the columns of a run mean in place of what they should.
 std::vector<Cause> readings_of(const Answer& answer, const Motion& motion, const Reference& reference,
                                const Score& score) {
@@ -257,6 +291,17 @@ std::vector<Cause> causes_of_list(const Answer& answer, const Reference& referen
   causes = impact_causes_of(reference, sequence.law, impacts, 0, trials);
   add_mass(reference, impacts, causes);
   return chosen(std::move(causes));
+}
+
+/// The largest law error that a step does not make.
+double law_left_by_step(const Reference& reference, const DeclaredLaw& law, std::span<const FoundImpact> impacts,
+                        double gravity_of_step) {
+  double left = 0;
+  for (const FoundImpact& impact : impacts) {
+    const double error = law_error(reference, law, impact);
+    if (!(error <= 2 * law_error_of_speed(reference, impact, gravity_of_step))) left = worse(left, error);
+  }
+  return left;
 }
 
 // What the steps of a code are worth, by a code that follows the law from the run's own start.
@@ -359,14 +404,16 @@ std::vector<FoundImpact> replayed(const Motion& motion, const Reference& referen
   }
 }
 
-/// The largest distance of velocities after impacts, over the speed; unknown where the places are others.
-double replay_distance(const Reference& reference, const std::vector<FoundImpact>& replay,
+/// The largest distance of velocities after impacts, over the speed; unknown where the places are others, or times by
+/// more than a step.
+double replay_distance(const Reference& reference, double step, const std::vector<FoundImpact>& replay,
                        std::span<const FoundImpact> impacts) {
   if (impacts.empty() || replay.size() < impacts.size()) return Score::unknown;
   double distance = 0;
   for (std::size_t i = 0; i < impacts.size(); ++i) {
     const State &a = replay[i].after, &b = impacts[i].after;
-    if (replay[i].place != impacts[i].place) return Score::unknown;
+    const double late = std::fabs(replay[i].time - impacts[i].time);
+    if (replay[i].place != impacts[i].place || (step > 0 && !(late <= 1.001 * step))) return Score::unknown;
     const Vector3 fall = (replay[i].time - impacts[i].time) * reference.pull();  // that of b at the time of a
     distance = worse(distance, (a.velocity - b.velocity - fall).norm() / reference.speed());
     distance =
@@ -399,16 +446,35 @@ struct Diagnosed {
     return std::span(impacts).first(std::min(impacts.size(), sequence.truth.size()));
   }
 
+  /// Whether a code resolves the instants of its impacts: most of those that do not begin in a row, where nobody knows.
+  /// Flights of first order come to the ground where free ones are off it by what they creep in a few steps.
+  [[nodiscard]] bool resolves_instants() const {
+    std::ptrdiff_t balance = 0;
+    for (const FoundImpact& impact : impacts) {
+      if (impact.begins_in_a_row) continue;
+      bool is_resolved = impact.is_resolved;
+      if (first_order && !impact.points.empty()) {
+        const double time = motion.time(impact.last_row) - motion.time(impact.first_row);
+        const int point = impact.points.front();
+        const double fall = std::fabs(reference.velocity(impact.before, point).z()) * time;
+        const double way = std::fmin(4 * first_order->flying.creep.norm() * time, 0.1 * fall);
+        is_resolved |= std::fabs(reference.height(impact.before, point)) <= way;
+      }
+      balance += is_resolved ? 1 : -1;
+    }
+    return balance > 0;
+  }
+
   /// g × step of a code that does not resolve the instants of its impacts, otherwise 0 [m/s].
   [[nodiscard]] double gravity_of_step() const {
-    const bool is_exact = !first_order && resolves_instants(impacts);
+    const bool is_exact = !first_order && resolves_instants();
     return is_exact ? 0 : motion.step() * reference.pull().norm();
   }
 
   /// How the run goes on in time, by its impacts and flights; of the orders of a step's parts the one that comes
   /// nearest to it.
   [[nodiscard]] Stepping stepping(const DeclaredLaw& law) const {
-    Stepping best{.step = resolves_instants(impacts) ? 0 : motion.step()};
+    Stepping best{.step = resolves_instants() ? 0 : motion.step()};
     if (first_order) best.flying = first_order->flying;
     if (reference.is_compliant || impacts.empty()) return best;
     best.flies_first = impacts.front().time > best.step / 2;
@@ -424,7 +490,7 @@ struct Diagnosed {
   /// replay_distance() of some of the run's impacts from those of a code.
   [[nodiscard]] double distance_of(const Stepping& stepping, const DeclaredLaw& law,
                                    std::span<const FoundImpact> first) const {
-    return replay_distance(reference, replayed(motion, reference, law, stepping, first.size()), first);
+    return replay_distance(reference, stepping.step, replayed(motion, reference, law, stepping, first.size()), first);
   }
   /// V, Ω and t of a code off the truth, as far as the run goes.
   [[nodiscard]] double error_of(const Stepping& stepping, const DeclaredLaw& law) const {
@@ -437,14 +503,8 @@ struct Diagnosed {
     return of.motion_error();
   }
 
-  /// The largest law error that the step does not make.
   [[nodiscard]] double law_left() const {
-    double left = 0;
-    for (const FoundImpact& impact : impacts) {
-      const double error = law_error(reference, sequence.law, impact);
-      if (!(error <= 2 * law_error_of_speed(reference, impact, gravity_of_step()))) left = worse(left, error);
-    }
-    return left;
+    return law_left_by_step(reference, sequence.law, impacts, gravity_of_step());
   }
 };
 
@@ -458,10 +518,11 @@ std::vector<Cause> causes_at_start(const Diagnosed& run) {
 std::vector<Cause> causes_of_scene(const Diagnosed& run, const Misses& misses) {
   std::vector<Cause> causes;
   add_margin(run.answer, run.reference, run.score, run.impacts, misses, causes);
-  // After one impact alone nobody knows whether its depth is that of a step or always the same.
+  // After one impact alone a depth in a row is that of the step; another one may be always the same.
   if (!causes.empty() && run.asked().size() == 1 && *causes.front().value < 0)
     add_time_step(run.motion, run.reference, run.score, run.flight_left, run.impacts, causes);
   if (causes.size() > 1) {
+    if (is_at_row(run.motion, run.impacts.front())) return {causes.back()};
     std::swap(causes.front(), causes.back());
     return causes;
   }
@@ -538,9 +599,11 @@ std::vector<Cause> ranked(const Diagnosed& run, std::vector<Cause> causes, bool 
   const auto tell = [&](Cause& cause, const Stepping& without, const DeclaredLaw& by) {
     if (run.reference.is_compliant || !is_known || cause.name == "delay" || cause.name == "contact-time") return;
     cause.error_without = run.error_of(without, by);
-    if (std::isfinite(*cause.error_without) && std::isfinite(all) && has_first_order)
-      cause.words += fmt::format("; without this alone V, Ω and t would be off by {} and not {}",
-                                 significant(rounded_up(*cause.error_without), 2), significant(rounded_up(all), 2));
+    if (!std::isfinite(*cause.error_without) || !std::isfinite(all) || !has_first_order) return;
+    const std::string left = significant(rounded_up(*cause.error_without), 2), now = significant(rounded_up(all), 2);
+    cause.words += left == now
+                       ? fmt::format("; mending this alone leaves V, Ω and t off by {}", now)
+                       : fmt::format("; without this alone V, Ω and t would be off by {} and not {}", left, now);
   };
   Stepping resolved = stepping, second_order = stepping;
   resolved.step = 0;
@@ -550,8 +613,12 @@ std::vector<Cause> ranked(const Diagnosed& run, std::vector<Cause> causes, bool 
   if (has_first_order) {
     Cause first_order = run.first_order->cause;
     if (by_step || is_as_the_run) tell(first_order, second_order, law);
-    const bool is_first =
-        causes.empty() || first_order.error_without.value_or(all) < causes.front().error_without.value_or(0);
+    const bool is_trifle =
+        !by_step && run.score.is_law_first() && !(run.score.law_error <= run.reference.tolerances[2]);
+    const auto is_larger = [&] {
+      return first_order.error_without.value_or(all) < causes.front().error_without.value_or(0);
+    };
+    const bool is_first = causes.empty() || (!is_trifle && is_larger());
     causes.insert(is_first ? causes.begin() : causes.end(), first_order);
     for (std::size_t i = 1; i < causes.size(); ++i) causes[i].is_more |= is_first || i + 1 == causes.size();
   }
@@ -578,8 +645,9 @@ std::vector<Cause> causes_of_impacts(const Diagnosed& run, const Misses& misses,
   if (causes.empty() && !has_places && !(distance <= same))
     causes = far_body_causes_of(run.answer, run.reference, run.sequence.law, impacts, trials);
   if (causes.empty() && !(distance <= same) && !run.score.ends_early)
-    add_delay(run.motion, run.reference, run.asked(), misses, causes);
-  if (causes.empty()) add_time_step(run.motion, run.reference, run.score, run.flight_left, impacts, causes);
+    add_delay(run.motion, run.reference, run.asked(), misses, stepping.step > 0, causes);
+  if (causes.empty() && !(run.first_order && stepping.step == 0))
+    add_time_step(run.motion, run.reference, run.score, run.flight_left, impacts, causes);
   causes = chosen(std::move(causes));
   if (causes.empty() && distance <= alike) add_replayed(run, distance, causes);
   if (causes.empty()) add_many_rows(run, causes);
@@ -632,21 +700,26 @@ std::vector<Cause> found_causes(const Answer& answer, const Reference& reference
 
 }  // namespace
 
-std::vector<Cause> causes_of(const Answer& answer, const Reference& reference, const Score& score,
-                             std::string& remark) {
+Diagnosis diagnosis_of(const Answer& answer, const Reference& reference, const Score& score) {
   Trials trials;
-  std::vector<Cause> causes = found_causes(answer, reference, score, trials);
+  Diagnosis diagnosis{found_causes(answer, reference, score, trials)};
   // A step of first order makes no law error, and a run's early end nothing at all.
-  const bool is_explained = std::ranges::any_of(causes, [&](const Cause& cause) {
+  const bool is_explained = std::ranges::any_of(diagnosis.causes, [&](const Cause& cause) {
     if (cause.name == "cut-off") return score.impacts_error() <= reference.tolerances[1];
     return cause.name != "first-order-step" || score.law_error <= reference.tolerances[2];
   });
-  if (!is_explained) {
-    remark = trials.are_spent() ? "the search for its causes ended after its last trial: shorter steps may tell"
-             : answer.is_list   ? "no known single cause fits"
-                                : "no known single cause fits; shorter steps may tell";
-  }
-  return causes;
+  if (is_explained) return diagnosis;
+  diagnosis.remark = trials.are_spent() ? "the search for its causes ended after its last trial: shorter steps may tell"
+                     : answer.is_list   ? "no known single cause fits"
+                                        : "no known single cause fits; shorter steps may tell";
+  const auto sequence = std::ranges::find(reference.sequences, score.law, [](const auto& one) { return one.law.name; });
+  if (answer.is_list || score.found == 0 || sequence == reference.sequences.end()) return diagnosis;
+  const Motion motion(answer.table, reference);
+  std::vector<FoundImpact> impacts = impacts_of(motion, reference);
+  impacts.resize(std::min(impacts.size(), sequence->truth.size()));
+  const double left = law_left_by_step(reference, sequence->law, impacts, motion.step() * reference.pull().norm());
+  diagnosis.law_is_unexplained = !reference.is_compliant && !(left <= reference.tolerances[2]);
+  return diagnosis;
 }
 
 }  // namespace clatter::validation

@@ -138,6 +138,14 @@ class Trials {
                                                      const std::vector<FoundImpact>& impacts,
                                                      const analytic::space::Quaternion& first);
 
+/// What explains a run, and what that leaves open.
+struct Diagnosis {
+  std::vector<Cause> causes;
+  std::string remark{};  ///< what the search could not tell, in words; empty: nothing
+  /// Whether impacts are off the law beyond the class "good" and what a step does, and no cause explains that.
+  bool law_is_unexplained = false;
+};
+
 // What may have gone wrong in a foreign run: hypotheses with one number each, fitted to the run's own impacts and
 // flights, or to the rows as they were written.
 
@@ -150,8 +158,6 @@ class Trials {
 /// units and frames; lists mass, ends and the sense of Omega.
 ///
 /// Flights and impacts have their causes independently of each other.
-/// @param remark what the search could not tell, in words; empty: nothing
-[[nodiscard]] std::vector<Cause> causes_of(const Answer& answer, const Reference& reference, const Score& score,
-                                           std::string& remark);
+[[nodiscard]] Diagnosis diagnosis_of(const Answer& answer, const Reference& reference, const Score& score);
 
 }  // namespace clatter::validation

@@ -98,10 +98,10 @@ class ImpactCauses {
     return std::move(causes_);
   }
 
-  /// A normal impulse that is the one without friction, with a tangential one beside it: no number is free.  Without
-  /// this any such impact would be one of another restitution, since that alone fits it, too.
-  std::vector<Cause> of_normal_alone() {
-    if (!broken_.empty() && worst_ > reference_.tolerances[1] && !reference_.is_compliant) add_normal_alone();
+  /// Friction that is solved wrongly.  No number is free, so that this goes first: where the normal impulse is the one
+  /// without friction, another restitution fits, too.
+  std::vector<Cause> of_solver() {
+    if (!broken_.empty() && worst_ > reference_.tolerances[1] && !reference_.is_compliant) add_solver();
     return std::move(causes_);
   }
 
@@ -112,7 +112,6 @@ class ImpactCauses {
     if (broken_.empty() || !(worst_ > reference_.tolerances[1])) return {};
     add_threshold();
     if (!causes_.empty()) return std::move(causes_);
-    if (add_cut_cone()) return std::move(causes_);
     add_law();
     add_restitution();
     add_friction();
@@ -206,9 +205,8 @@ class ImpactCauses {
     for (const Booking& booking : impacts_.front().bookings) {
       const Together found = numbers_of(booking);
       if (!(found.e >= 0 && found.e <= 1 && found.inertia > 0.1 && found.inertia < 10)) continue;
-      for (Together one = found; const Cone cone : {Cone::round, Cone::pyramid, Cone::unequal}) {
-        one.cone = cone;
-        if (cone != Cone::round && (!has_friction() || reference_.is_planar)) break;
+      for (Together one = found; const Solver solver : solvers()) {
+        one.solver = solver;
         for (const double friction : {law_.law.friction_value, found.friction}) {
           one.friction = friction;
           one.misfit = misfit(change_of(one), 0, all());
@@ -232,18 +230,14 @@ class ImpactCauses {
       tell("restitution", best.e, "e = " + three_digits(best.e) + asked(law_.law.restitution));
     if (best.friction != law_.law.friction_value)
       tell("friction", best.friction, "friction " + three_digits(best.friction) + asked(law_.law.friction_value));
-    if (best.cone != Cone::round) {
-      const bool is_cut = best.cone == Cone::pyramid;
-      tell(
-          is_cut ? "friction-pyramid" : "friction-weights", {},
-          is_cut ? "a friction pyramid in place of the cone" : "friction brought back to the cone after unequal steps");
-    }
+    const auto [solver, solver_words] = named(best.solver);
+    if (best.solver != Solver::right) tell(solver, {}, solver_words);
     if (causes_.size() < 2) causes_.clear();
   }
 
   struct Together {
     double inertia = 1, e = 0, friction = 0, misfit = Score::unknown;
-    Cone cone = Cone::round;
+    Solver solver = Solver::right;
   };
 
   [[nodiscard]] Change change_of(const Together& numbers) const {
@@ -251,8 +245,8 @@ class ImpactCauses {
       if (numbers.inertia != 1) reference.scale_inertia(numbers.inertia);
       law.law.restitution = numbers.e;
       if (has_friction()) law.law.friction_value = numbers.friction;
-      law.cone = numbers.cone;
-      law.is_moreau |= numbers.cone != Cone::round;
+      law.solver = numbers.solver;
+      law.is_moreau |= numbers.solver != Solver::right;
     };
   }
 
@@ -290,29 +284,6 @@ class ImpactCauses {
                      three_digits(fastest), three_digits(slowest), which()));
   }
 
-  void add_normal_alone() {
-    if (!has_friction()) return;
-    double left = 0, coupled = Score::unknown;
-    for (const std::size_t i : broken_) {
-      FoundImpact asked = impacts_[i];
-      if (asked.points.size() > 1) return;
-      asked.bookings.resize(1);
-      const auto exact = answer_of(reference_, law_, asked.bookings.front().before, asked.points);
-      if (!exact) return;
-      asked.bookings.front().after = *exact;
-      left = worse(left, normal_alone(impacts_[i]));
-      coupled = std::fmin(coupled, normal_alone(asked));
-    }
-    // Where friction does not change the normal impulse, it is that without friction whatever else is wrong.
-    if (!(left <= explained * explained * std::fmin(worst_, coupled)) || is_of_the_step(left)) return;
-    causes_.push_back({"normal-first",
-                       {},
-                       left,
-                       fmt::format("the normal impulse is the one without friction, and the tangential one is added to "
-                                   "it, as by codes that solve one after the other: that explains {} {}",
-                                   which(), misfit_words(left))});
-  }
-
   /// The law without friction.
   [[nodiscard]] DeclaredLaw smooth() const {
     DeclaredLaw smooth = law_;
@@ -322,43 +293,74 @@ class ImpactCauses {
     return smooth;
   }
 
-  /// The change of normal velocity off that without friction, relative, in the nearest booking; unknown where no
-  /// tangential impulse goes with it.
-  [[nodiscard]] double normal_alone(const FoundImpact& impact) const {
-    double least = Score::unknown;
-    for (const auto& [before, after] : impact.bookings) {
-      const Vector3 change = after.velocity - before.velocity;
-      const auto exact = answer_of(reference_, smooth(), before, impact.points);
-      if (!exact || !(change.head<2>().norm() > 1e-2 * change.z())) continue;
-      least = std::fmin(least, std::fabs(change.z() / (exact->velocity.z() - before.velocity.z()) - 1));
-    }
-    return least;
+  /// The right one, and the wrong ones that differ from it.
+  [[nodiscard]] std::vector<Solver> solvers() const {
+    if (!has_friction() || law_.law.friction_value == 0) return {Solver::right};
+    std::vector<Solver> some{Solver::right, Solver::reversed, Solver::normal_first, Solver::normal_first_reversed};
+    if (!reference_.is_planar) some.insert(some.end(), {Solver::pyramid, Solver::unequal});
+    return some;
   }
 
-  /// A friction cone in space that is cut into a pyramid, or met with unequal steps: the one that leaves least.  No
-  /// number of them is free, so that a step which could make errors as large is no doubt.
-  bool add_cut_cone() {
-    if (reference_.is_planar || !has_friction()) return false;
-    const auto of = [](Cone cone) -> Change {
-      return [cone](Reference&, DeclaredLaw& law, double) {
-        law.is_moreau = true;
-        law.cone = cone;
-      };
+  /// Name and words of a wrong one.
+  static std::pair<const char*, const char*> named(Solver solver) {
+    switch (solver) {
+      case Solver::pyramid:
+        return {"friction-pyramid",
+                "friction with a bound of its own along x and along y, a pyramid in place of the cone,"};
+      case Solver::unequal:
+        return {"friction-weights",
+                "friction that is brought back to the cone after unequal steps along x and y, not against the slip,"};
+      case Solver::normal_first:
+        return {"normal-first",
+                "a normal impulse without friction, to which the tangential one is added, as by codes that solve one "
+                "after the other,"};
+      case Solver::normal_first_reversed:
+        return {"friction-direction",
+                "friction of the other sign, along the slip, added to the normal impulse without friction,"};
+      default: return {"friction-direction", "friction of the other sign, along the slip and not against it,"};
+    }
+  }
+
+  /// The wrong solver that leaves least, with the friction that is asked for or that of the first impact's impulse.
+  void add_solver() {
+    if (impacts_.front().points.size() > 1 || takes_steps()) return;
+    double left = Score::unknown, friction = 0;
+    Solver best = Solver::right;
+    const double asked = law_.law.friction_value, ratio = std::fabs(impulse_ratio_of(broken_.front()));
+    for (const double value : {asked, ratio}) {
+      if (value != asked && !(value > same)) break;  // no friction, of any sign
+      for (const Solver solver : solvers()) {
+        if (solver == Solver::right && value == asked) continue;
+        const double one = misfit(solving(solver), value, all());
+        if (one < left) best = solver, left = one, friction = value;
+      }
+      if (left <= explained * explained * worst_) break;
+    }
+    if (best == Solver::right) return;
+    if (!(left <= explained * explained * worst_) || (by_step_ && !(left <= reference_.tolerances[1]))) return;
+    const std::string which = impacts_words(impacts_.size(), total_, 0) + " " + misfit_words(left);
+    const auto [name, words] = named(best);
+    causes_.push_back({name, {}, left, fmt::format("{} explains {}", words, which)});
+    causes_.back().law = changed(solving(best), friction);
+    if (friction == asked) return;
+    causes_.push_back({"friction", friction, left,
+                       fmt::format("friction {} ({} is asked) with it", three_digits(friction), shortest(asked))});
+    causes_.back().is_more = true;
+  }
+
+  static Change solving(Solver solver) {
+    return [solver](Reference&, DeclaredLaw& law, double friction) {
+      law.is_moreau = true;
+      law.solver = solver;
+      law.law.friction_value = friction;
     };
-    const double cut = misfit(of(Cone::pyramid), 0, all()), unequal = misfit(of(Cone::unequal), 0, all());
-    const bool is_cut = cut < unequal;
-    const double left = is_cut ? cut : unequal;
-    if (!(left <= explained * worst_)) return false;
-    const char* what =
-        is_cut ? "friction with a bound of its own along x and along y, a pyramid in place of the cone,"
-               : "friction that is brought back to the cone after unequal steps along x and y, not against the slip,";
-    causes_.push_back(
-        {is_cut ? "friction-pyramid" : "friction-weights",
-         {},
-         left,
-         fmt::format("{} explains {} {}", what, impacts_words(impacts_.size(), total_, 0), misfit_words(left))});
-    causes_.back().law = changed(of(is_cut ? Cone::pyramid : Cone::unequal), 0);
-    return true;
+  }
+
+  /// P_t/P_n, in the plane with the sign of P_t, of the momentum that an impact gives.
+  [[nodiscard]] double impulse_ratio_of(std::size_t i) const {
+    const Booking& booking = impacts_[i].bookings.front();
+    const Vector3 change = booking.after.velocity - booking.before.velocity;
+    return (reference_.is_planar ? change.x() : change.head<2>().norm()) / change.z();
   }
 
   /// Another of the laws that the problem has a truth for.
@@ -434,11 +436,16 @@ class ImpactCauses {
       law.law.friction_value = value;
     };
     const Fitted fit = least_of(0, 2, [&](double value) { return misfit(coulomb, value, broken_); });
-    const std::string words = fit.value <= 1e-6 ? "no friction" : fmt::format("friction {}", three_digits(fit.value));
+    const bool slips = std::ranges::any_of(broken_, [&](std::size_t i) { return slips_before(i); });
+    const std::string words = fit.value > 1e-6 ? fmt::format("friction {}", three_digits(fit.value))
+                              : slips          ? "no friction"
+                                               : "no friction, or friction by the slip before, which is none,";
     const std::size_t before = causes_.size();
     if (broken_.size() == impacts_.size() || !(misfit(coulomb, fit.value, all()) > explained * worst_))
       keep("friction", fit, fmt::format("{} ({} is asked) explains {}", words, shortest(asked), which()), coulomb);
-    if (causes_.size() > before || add_friction_that_pushes(asked) || !reference_.is_planar) return;
+    if (causes_.size() > before || !reference_.is_planar) return;
+    // Against the slip before and along the slip after: either may be meant.
+    if (add_friction_that_pushes(asked) && pushes()) return;
     const Change ratio = [](Reference&, DeclaredLaw& law, double value) {
       law.is_moreau = false;
       law.law.friction = analytic::FrictionKind::impulse_ratio;
@@ -449,8 +456,8 @@ class ImpactCauses {
       keep("friction-direction", {std::fabs(as_ratio.value), as_ratio.misfit}, pushing_words(as_ratio.value));
     else
       keep("friction-ratio", as_ratio,
-           fmt::format("a tangential impulse of {} times the normal one, whatever the slip (friction {} is asked), "
-                       "explains {}",
+           fmt::format("a tangential impulse of {} times the normal one, against the slip before but whatever it "
+                       "becomes (friction {} is asked), explains {}",
                        three_digits(as_ratio.value), shortest(asked), which()));
   }
 
@@ -460,7 +467,7 @@ class ImpactCauses {
       law.is_moreau = true;
       law.law.friction_value = -value;
     };
-    if (!(asked > 0) || !pushes()) return false;
+    if (!(asked > 0)) return false;
     const std::size_t before = causes_.size();
     const Fitted fit = least_of(0, 2, [&](double value) { return misfit(along, value, broken_); });
     keep("friction-direction", fit, pushing_words(fit.value));
@@ -472,12 +479,22 @@ class ImpactCauses {
                        three_digits(std::fabs(friction)), which());
   }
 
-  /// Whether each tangential impulse points along the slip before it.
+  /// Whether each tangential impulse points along the slip before it or, where there is none, along the one that the
+  /// normal impulse makes.
   [[nodiscard]] bool pushes() const {
-    return std::all_of(broken_.begin(), broken_.end(), [&](std::size_t i) {
-      const double slip = speed_of(i, impacts_[i].bookings.front().before).x();
-      return std::fabs(slip) > 1e-3 * reference_.speed() && slip * impacts_[i].impulse.x() > 0;
+    return std::ranges::all_of(broken_, [&](std::size_t i) {
+      const State& before = impacts_[i].bookings.front().before;
+      double slip = speed_of(i, before).x();
+      if (!slips_before(i)) {
+        const Vector3 normal(0, 0, impacts_[i].impulse.z());
+        slip = speed_of(i, reference_.struck(before, impacts_[i].points.front(), normal)).x();
+      }
+      return slip * impacts_[i].impulse.x() > 0;
     });
+  }
+
+  [[nodiscard]] bool slips_before(std::size_t i) const {
+    return speed_of(i, impacts_[i].bookings.front().before).head<2>().norm() > 1e-3 * reference_.speed();
   }
 
   /// Properties of the body hold at every impact.
@@ -591,7 +608,7 @@ bool Trials::spend(const FoundImpact& impact) {
 std::vector<Cause> impact_causes_of(const Reference& reference, const DeclaredLaw& law,
                                     const std::vector<FoundImpact>& impacts, double gravity_of_step, Trials& trials) {
   const std::vector<FoundImpact> plain = as_in_rows(reference, law, impacts);
-  std::vector<Cause> causes = ImpactCauses(reference, law, impacts, gravity_of_step, trials).of_normal_alone();
+  std::vector<Cause> causes = ImpactCauses(reference, law, impacts, gravity_of_step, trials).of_solver();
   if (causes.empty()) causes = ImpactCauses(reference, law, plain, gravity_of_step, trials).of_impacts(plain);
   return !causes.empty() ? causes : ImpactCauses(reference, law, impacts, gravity_of_step, trials).of_impacts(impacts);
 }

@@ -133,7 +133,12 @@ bool Motion::is_in_space(const std::vector<std::string>& header, const ColumnNam
 }
 
 TableRequest Motion::request(bool in_space, const ColumnNames& names) {
-  return {.required = in_space ? in_three : in_plane, .optional = {}, .words = {}, .names = names};
+  std::vector<std::string> depth;  // where y is the height in a plane of x and y
+  for (const std::string name : {"y", "vy"}) {
+    const auto is_it = [&](const auto& given) { return given.second == name; };
+    if (!in_space && std::ranges::none_of(names, is_it)) depth.push_back(name);
+  }
+  return {.required = in_space ? in_three : in_plane, .optional = depth, .words = {}, .names = names};
 }
 
 Motion::Motion(NumericTable table, const Reference& reference) : table_(std::move(table)), reference_(reference) {

@@ -74,24 +74,6 @@ void all_in_milliseconds(const Cells& at) {
   scaled({"vx", "vy", "vz", "omega", "wx", "wy", "wz"}, 1e3)(at);
 }
 
-/// Components along y and z of vectors whose y pointed up.
-void turn_up(const Cells& at, const std::vector<std::pair<const char*, const char*>>& pairs) {
-  for (const auto& [y, z] : pairs) {
-    const double up = at(y);
-    at(y) = -at(z), at(z) = up;
-  }
-}
-
-void from_y_up(const Cells& at) {
-  turn_up(at, {{"y", "z"}, {"vy", "vz"}, {"wy", "wz"}});
-  const double half = std::sqrt(0.5);
-  const space::Quaternion turn = space::Quaternion(half, half, 0, 0) * at.attitude();
-  at("q0") = turn.w(), at("q1") = turn.x(), at("q2") = turn.y(), at("q3") = turn.z();
-}
-
-/// The same of a body whose own axes are turned likewise.
-void from_y_up_throughout(const Cells& at) { turn_up(at, {{"y", "z"}, {"q2", "q3"}, {"vy", "vz"}, {"wy", "wz"}}); }
-
 space::Quaternion attitude_of(const Cells& at) {
   const double half = at.has("q0") ? 0 : at("phi") / 2;
   return at.has("q0") ? at.attitude() : space::Quaternion(std::cos(half), 0, -std::sin(half), 0);
@@ -121,6 +103,7 @@ const std::vector<Reading> planar_readings{
     {"left-right", "left and right are exchanged: x, phi, vx and omega have the other sign",
      scaled({"x", "phi", "vx", "omega"}, -1)},
     {"up-down", "z points down", scaled({"z", "vz"}, -1)},
+    {"y-up", "y points up, and z stands for depth", [](const Cells& at) { at("z") = at("y"), at("vz") = at("vy"); }},
     {"exchanged", "x and z are exchanged, and vx and vz", exchange_axes},
     {"exchanged", "x and z are exchanged", [](const Cells& at) { std::swap(at("x"), at("z")); }},
     {"degrees", "phi and omega are in degrees", scaled({"phi", "omega"}, radian)},
@@ -139,9 +122,6 @@ const std::vector<Reading> space_readings{
     {"scalar-last", "the Euler parameters have their scalar last", scalar_first},
     {"omega-sign", "the angular velocity has the other sign", scaled({"wx", "wy", "wz"}, -1)},
     {"up-down", "z points down", scaled({"z", "vz"}, -1)},
-    {"y-up", "y points up, and z out of the page", from_y_up},
-    {"y-up", "y points up in the world and in the body, and z out of the page", from_y_up_throughout},
-    {"mirrored", "the axes are left-handed: y points the other way", scaled({"y", "q1", "q3", "vy", "wx", "wz"}, -1)},
     {"degrees", "the angular velocity is in degrees per second", scaled({"wx", "wy", "wz"}, radian)},
     {"turns", "the angular velocity is in turns per second", scaled({"wx", "wy", "wz"}, full_turn)},
     {"millimetres", "lengths are in millimetres", scaled({"x", "y", "z", "vx", "vy", "vz"}, 1e-3)},
@@ -300,7 +280,11 @@ class ReadingCauses {
   /// Axes of the world that are others or point the other way, with the Euler parameters as they are, with those of a
   /// world turned so, or with their vector exchanged alike; one of a left-handed world has one sign or the other.
   void of_other_axes() {
-    if (!table_.column("q0") || table_.rows() < 3) return;
+    if (table_.rows() < 3) return;
+    if (!table_.column("q0")) {
+      of_planar_axes();
+      return;
+    }
     const NumericTable begin = table_.without(2, table_.rows() - 1);
     for (const AxesReading& axes : axes_readings()) {
       const auto change = [&](const Cells& at) { read_by(axes, at); };
@@ -312,13 +296,42 @@ class ReadingCauses {
       } catch (const std::exception&) {
         continue;
       }
-      const bool is_up = axes.from[2].axis != 2;
-      add({is_up                ? "y-up"
-           : axes.is_exchange() ? "exchanged"
-                                : "mirrored",
+      const bool is_up = axes.from[2].axis != 2, is_exchange = axes.is_exchange();
+      add({is_up         ? "y-up"
+           : is_exchange ? "exchanged"
+                         : "mirrored",
            words_of(axes), change},
           [&] { return score_of(as_read(table_)); });
-      if (all_right_) return;
+      if (!causes_.empty()) return;
+    }
+  }
+
+  /// The same in the plane, with phi counted from any axis and either way.
+  void of_planar_axes() {
+    const NumericTable begin = table_.without(2, table_.rows() - 1);
+    for (int way = 1; way < 64 && causes_.empty(); ++way) {
+      const bool is_exchange = (way & 32) != 0;
+      const double of_x = (way & 4) != 0 ? -1 : 1, of_z = (way & 8) != 0 ? -1 : 1, turn = (way & 16) != 0 ? -1 : 1;
+      const int quarter = way & 3;
+      const auto change = [&](const Cells& at) {
+        if (is_exchange) exchange_axes(at);
+        scaled({"x", "vx"}, of_x)(at), scaled({"z", "vz"}, of_z)(at), scaled({"phi", "omega"}, turn)(at);
+        at("phi") += quarter * std::numbers::pi / 2;
+      };
+      const auto as_read = [&](const NumericTable& rows) {
+        return rows.changed([&](std::span<double> row) { change({rows, row}); });
+      };
+      if (!(Motion(as_read(begin), reference_).start_error() <= reference_.tolerances[2])) continue;
+      const char *x = is_exchange ? "z" : "x", *z = is_exchange ? "x" : "z";
+      const char* name = is_exchange ? "exchanged" : of_z < 0 ? "up-down" : of_x < 0 ? "left-right" : "phi-sign";
+      add({name,
+           fmt::format("x, z, phi stand as {}{}, {}{}, {}{}phi", of_x < 0 ? "-" : "", x, of_z < 0 ? "-" : "", z,
+                       quarter == 0 ? "" : fmt::format("{}° ", 90 * quarter),
+                       turn < 0      ? "-"
+                       : quarter > 0 ? "+"
+                                     : ""),
+           change},
+          [&] { return score_of(as_read(table_)); });
     }
   }
 

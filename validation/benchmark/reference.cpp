@@ -184,6 +184,17 @@ std::vector<TruthRow> discrete_truth(const Reference& reference, const auto& dro
   return rows;
 }
 
+/// The normal impulse without friction, then the tangential one that stops the slip that is left, or is at the bound.
+Vector3 normal_first_impulse(const space::Contact& contact, const analytic::ImpactLaw& law) {
+  const space::Matrix3& inverse = contact.inverse_inertia;
+  Vector3 impulse(0, 0, -(1 + law.restitution) * contact.velocity.z() / inverse(2, 2));
+  const Eigen::Vector2d slip = (contact.velocity + inverse * impulse).head<2>();
+  const Eigen::Vector2d stop = -inverse.topLeftCorner<2, 2>().inverse() * slip;
+  const double bound = law.friction_value * impulse.z();
+  impulse.head<2>() = stop * std::fmin(1, bound / std::fmax(stop.norm(), 1e-300));
+  return impulse;
+}
+
 /// An impulse of Newton's restitution and one of the cones that are not round, by projected Gauss-Seidel.
 /// @throws std::domain_error where that does not converge
 Vector3 cut_impulse(const space::Contact& contact, const DeclaredLaw& law) {
@@ -196,7 +207,7 @@ Vector3 cut_impulse(const space::Contact& contact, const DeclaredLaw& law) {
     last = impulse;
     impulse.z() = std::fmax(0, solved(2) - law.law.restitution * start.z() / inverse(2, 2));
     const double bound = law.law.friction_value * impulse.z();
-    if (law.cone == Cone::pyramid) {
+    if (law.solver == Solver::pyramid) {
       for (const int k : {0, 1}) impulse[k] = std::clamp(solved(k), -bound, bound);
     } else {
       const Eigen::Vector2d wanted(solved(0), solved(1));
@@ -207,11 +218,26 @@ Vector3 cut_impulse(const space::Contact& contact, const DeclaredLaw& law) {
   return impulse;
 }
 
+/// The impulse of one contact by Moreau's law, or as a code finds it that solves that wrongly.
+/// @throws as moreau_map()
+Vector3 solved_impulse(const space::Contact& contact, const DeclaredLaw& declared) {
+  const Vector3 mirror(-1, -1, 1);
+  const auto right = [&] {
+    return space::moreau_impulse(contact, declared.law.friction_value, declared.law.restitution).impulse;
+  };
+  switch (declared.solver) {
+    case Solver::right: return right();
+    case Solver::reversed: return mirror.cwiseProduct(right());
+    case Solver::normal_first: return normal_first_impulse(contact, declared.law);
+    case Solver::normal_first_reversed: return mirror.cwiseProduct(normal_first_impulse(contact, declared.law));
+    default: return cut_impulse(contact, declared);
+  }
+}
+
 /// Moreau's impulse of one contact: Newton's restitution and Coulomb's cone for the velocity at the end; a negative
 /// coefficient of friction acts along the slip.
 /// @throws NumericalError if no direction of slip satisfies it.
 State moreau_map(const Reference& reference, const DeclaredLaw& declared, const State& before, int point) {
-  const analytic::ImpactLaw& law = declared.law;
   const Vector3 arm = reference.arm(before.attitude, point), velocity = reference.velocity(before, point);
   State after = before;
   if (!(velocity.z() < 0)) return after;
@@ -219,9 +245,7 @@ State moreau_map(const Reference& reference, const DeclaredLaw& declared, const 
   const space::Matrix3 inverse = turned * reference.body.inertia.inverse() * turned.transpose();
   const space::Contact contact{.inverse_inertia = space::inverse_contact_inertia(reference.body.mass, inverse, arm),
                                .velocity = velocity};
-  const Vector3 impulse = declared.cone != Cone::round
-                              ? cut_impulse(contact, declared)
-                              : space::moreau_impulse(contact, law.friction_value, law.restitution).impulse;
+  const Vector3 impulse = solved_impulse(contact, declared);
   after.velocity += impulse / reference.body.mass;
   after.angular_velocity += inverse * arm.cross(impulse);
   return after;

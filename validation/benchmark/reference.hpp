@@ -72,17 +72,22 @@ struct Problem : Terms {
 /// What gave the truth, in words.
 [[nodiscard]] std::string oracle_of(const Problem& problem);
 
-/// What bounds friction by Moreau's law: Coulomb's cone, a pyramid with sides along x and y, or the cone with the
-/// impulse brought back to it after steps 1/W_xx and 1/W_yy of projected Gauss-Seidel, which are not alike along x and
-/// y.
-enum class Cone { round, pyramid, unequal };
+/// How a code finds friction by Moreau's law: as that says, or wrongly.
+enum class Solver {
+  right,
+  pyramid,       ///< in place of the cone, with sides along x and y
+  unequal,       ///< back to the cone after steps 1/W_xx and 1/W_yy of projected Gauss-Seidel, along x and y
+  reversed,      ///< the right impulse, its tangential part with the other sign
+  normal_first,  ///< the normal impulse without friction, then what stops the slip or is at the bound
+  normal_first_reversed
+};
 
 /// A law of impact that a run may declare.
 struct DeclaredLaw {
   std::string name;  ///< "newton routh", …; "any" where the laws agree
   analytic::ImpactLaw law;
   bool is_moreau = false;  ///< Newton's e and Coulomb's cone at the end of the impact, instead of along it
-  Cone cone = Cone::round;
+  Solver solver = Solver::right;
 
   [[nodiscard]] bool is_named(const std::string& other) const { return name == other || name == "any"; }
 };

@@ -33,6 +33,40 @@ Sizes sizes_of(const Reference& reference, const ReferenceSequence& sequence) {
   return sizes;
 }
 
+/// "P_t/P_n = 0.300 and not -0.300, e = 0.500": restitution and friction of an impact at one point, and the law's; of
+/// a jump that has both of the law's how much the spin changes beside r × P.  Where no point explains it, those of the
+/// lowest.
+std::string measured_words(const Reference& reference, const DeclaredLaw& law, const FoundImpact& impact) {
+  const auto& [before, after] = impact.bookings.front();
+  if (impact.points.size() > 1) return "";
+  const int point = impact.points.empty() ? reference.lowest(before.attitude) : impact.points.front();
+  const auto exact = answer_of(reference, law, before, {point});
+  if (!exact) return "";
+  const auto ratio = [&](const State& state) {
+    const Vector3 change = state.velocity - before.velocity;
+    return (reference.is_planar ? change.x() : change.head<2>().norm()) / change.z();
+  };
+  const auto restitution = [&](const State& state) {
+    return -reference.velocity(state, point).z() / reference.velocity(before, point).z();
+  };
+  bool differs = false;
+  const auto words = [&](const char* name, double found, double asked) {
+    constexpr double last_digits = 1e-9;
+    const std::string one = significant(std::fabs(found) > last_digits ? found : 0, 3);
+    const std::string other = significant(std::fabs(asked) > last_digits ? asked : 0, 3);
+    differs |= one != other;
+    return fmt::format("{} = {}{}", name, one, one == other ? "" : " and not " + other);
+  };
+  std::string all = words("e", restitution(after), restitution(*exact));
+  if (law.law.has_cone()) all = words("P_t/P_n", ratio(after), ratio(*exact)) + ", " + all;
+  const Vector3 impulse = reference.body.mass * (after.velocity - before.velocity);
+  const Vector3 turn = reference.struck(before, point, impulse).angular_velocity - before.angular_velocity;
+  const double along = (after.angular_velocity - before.angular_velocity).dot(turn) / turn.squaredNorm();
+  if (std::fabs(along - 1) > 1e-2) all += fmt::format(", the spin changes by {} times r × P", significant(along, 3));
+  else if (!differs) return "";
+  return impact.points.empty() ? ": no point of the body explains its jump; of the lowest one " + all : ": " + all;
+}
+
 /// Twice the kinetic energy of a difference of velocities.
 double distance(const Reference& reference, const State& a, const State& b) {
   const Vector3 turn = a.attitude.conjugate() * (a.angular_velocity - b.angular_velocity);
@@ -53,6 +87,7 @@ ImpactScore impact_score(const Reference& reference, const ReferenceSequence& se
                     .impulse_tangential = impact.impulse.x(),
                     .after = impact.after};
   for (const std::vector<int>& points : impact.pair) score.pair.push_back(reference.place_name(points));
+  if (score.law_error > reference.tolerances[2]) score.measured = measured_words(reference, sequence.law, impact);
   if (i >= sequence.truth.size()) return score;
   const TruthRow& truth = sequence.truth[i];
   const State& after = sequence.after[i];
@@ -164,17 +199,16 @@ void explain(Score& score, double tolerance, double time) {
     for (std::size_t i = 0; i < std::min(score.impacts.size(), score.expected); ++i) {
       const ImpactScore& one = score.impacts[i];
       if (one.law_error <= tolerance) continue;
-      add(one.law_error, fmt::format("{} does not follow the law{}", impact_words(score, i),
-                                     std::isfinite(one.law_error) ? ""
-                                     : one.place == "?"           ? ": no point of the body explains its jump"
-                                                                  : ", which has no answer there"));
+      const char* otherwise =
+          one.place == "?" ? ": no point of the body explains its jump" : ", which has no answer there";
+      const bool is_measured = std::isfinite(one.law_error) || !one.measured.empty();
+      add(one.law_error,
+          fmt::format("{} does not follow the law{}", impact_words(score, i), is_measured ? one.measured : otherwise));
+      score.law_words = score.findings.back();
       break;
     }
   };
-  // What a step leaves of the law is small beside what else it does, and comes last.
-  constexpr double least_part = 0.05;
-  const bool is_law_first = !(score.law_error <= least_part * score.motion_error());
-  if (is_law_first) tell_law();
+  if (score.is_law_first()) tell_law();
   for (std::size_t i = 0; i + 1 < score.impacts.size(); ++i) {
     const ImpactScore &one = score.impacts[i], &next = score.impacts[i + 1];
     if (one.pair.empty() || one.pair != next.pair || one.first_line != next.first_line) continue;
@@ -202,7 +236,7 @@ void explain(Score& score, double tolerance, double time) {
     }
     if (score.findings.size() != before) break;
   }
-  if (!is_law_first) tell_law();
+  if (!score.is_law_first()) tell_law();
 }
 
 template <class Judge>
@@ -522,6 +556,8 @@ double worse(double error, double other) {
 const char* verdict_name(Verdict verdict) { return verdict_names()[static_cast<std::size_t>(verdict)].c_str(); }
 
 double Score::motion_error() const { return worse(velocity_error, worse(angular_error, time_error)); }
+
+bool Score::is_law_first() const { return !(law_error <= 0.05 * motion_error()); }
 
 double Score::error() const { return worse(impacts_error(), gradient_error); }
 

@@ -39,6 +39,7 @@ struct ImpactScore {
   double drift = 0;           ///< of energy in flight after it, of the first impact also before it
   double flight_error = 0;    ///< of the rows there
   double error = 0;           ///< the largest of these, of the first impact also the start's
+  std::string measured{};     ///< restitution and friction beside the law's, where it does not follow that
   double impulse_normal = 0;  ///< [N·s]
   double impulse_tangential = 0;
   analytic::space::State after;
@@ -80,9 +81,12 @@ struct Score {
   /// Whether the impacts that are missing can still come after the last row: errors are those of what there is.
   bool ends_early = false;
   std::vector<std::string> findings{};  ///< what is wrong, in words, the first first
+  std::string law_words{};              ///< the one of them that an impact does not follow the law; empty: none
 
   /// V, Ω and t.
   [[nodiscard]] double motion_error() const;
+  /// Whether the law is broken by more than a small part of that: what a step leaves of it comes last.
+  [[nodiscard]] bool is_law_first() const;
   /// The largest of all but that of derivatives.
   [[nodiscard]] double impacts_error() const;
   /// The largest of all.

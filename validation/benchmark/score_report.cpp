@@ -82,6 +82,7 @@ double share_of(const Submission& one, const Cause& cause) {
 Value submission_value(const std::vector<Column>& columns, const Submission& one) {
   Value value = row_object(columns, submission_row(one));
   value["findings"] = one.score.findings;
+  value["law_unexplained"] = one.law_is_unexplained;
   Value causes{Value::List{}};
   for (const Cause& cause : one.causes) {
     causes.push_back(Value::Fields{{"cause", cause.name},
@@ -109,8 +110,9 @@ Value group_value(const SubmissionGroup& group) {
   value["order"] = group.order ? Value(group.order->value) : Value();
   value["order_error"] = group.order ? error_or_nothing(*group.order) : Value();
   value["causes"] = Value::List{};
-  for (const auto& [name, count] : group.causes)
-    value["causes"].push_back(Value::Fields{{"cause", name}, {"files", static_cast<long long>(count)}});
+  for (const auto& [name, files, leads] : group.causes)
+    value["causes"].push_back(Value::Fields{
+        {"cause", name}, {"files", static_cast<long long>(files)}, {"first_in", static_cast<long long>(leads)}});
   value["unexplained"] = rounded_up(group.unexplained);
   for (const SubmissionGroup::Step& step : group.steps) {
     Value one;
@@ -125,11 +127,13 @@ Value group_value(const SubmissionGroup& group) {
   return value;
 }
 
-/// Causes that explain a run in place of each other in one line, those beside them in lines of their own.
-std::vector<std::string> cause_words(const std::vector<Cause>& causes) {
+/// Causes that explain a run in place of each other in one line, those beside them in lines of their own; first that
+/// the law is broken where none explains that.
+std::vector<std::string> cause_words(const Submission& one) {
   std::vector<std::string> lines, either;
-  for (const Cause& cause : causes) {
-    if (cause.is_more) lines.push_back("and: " + cause.words);
+  if (one.law_is_unexplained) lines.push_back(fmt::format("{}: {}", unexplained_law, one.score.law_words));
+  for (const Cause& cause : one.causes) {
+    if (cause.is_more || one.law_is_unexplained) lines.push_back("and: " + cause.words);
     else either.push_back(cause.words);
   }
   if (either.empty()) return lines;
@@ -210,8 +214,8 @@ std::string group_causes(const SubmissionGroup& group) {
   for (const std::string& part : {group.head.problem, group.head.engine, group.head.settings})
     words += (part.empty() ? "" : words == "causes" ? " in " : ", ") + part;
   std::string separator = ": ";
-  for (const auto& [name, count] : group.causes) {
-    words += separator + fmt::format("{} in {}", name, count);
+  for (const auto& [name, files, leads] : group.causes) {
+    words += separator + fmt::format("{} in {}", name, files);
     if (separator == ": ") words += fmt::format(" of {} files", group.files);
     separator = ", ";
   }
@@ -222,6 +226,7 @@ std::string group_causes(const SubmissionGroup& group) {
 
 /// The likely cause, and how much of the error of V, Ω and t would go without it: "time-step (91 %)".
 std::string short_reason(const Submission& one) {
+  if (one.law_is_unexplained) return unexplained_law;
   if (one.causes.empty()) return "";
   const Cause& cause = one.causes.front();
   const double share = share_of(one, cause);
@@ -270,7 +275,10 @@ Grid groups_in_lines(const std::vector<SubmissionGroup>& groups, const std::vect
       if (one.head.group() == group.head.group()) best = std::min(best, one.verdict);
     }
     std::string cause;
-    if (!group.causes.empty()) cause = fmt::format("{} in {}", group.causes.front().first, group.causes.front().second);
+    for (const auto& [name, files, leads] : group.causes) {  // all that are as common and as often the first
+      if (files != group.causes.front().files || leads != group.causes.front().leads) break;
+      cause += (cause.empty() ? "" : ", ") + fmt::format("{} in {}", name, files);
+    }
     lines.rows.push_back({Cell(group_name(group.head)), Cell(static_cast<long long>(group.files)),
                           Cell(verdict_name(best)), Cell(verdict_name(group.verdict)),
                           group.order ? Cell(group.order->value, 3) : Cell(), Cell(text_or_nothing(cause))});
@@ -279,12 +287,19 @@ Grid groups_in_lines(const std::vector<SubmissionGroup>& groups, const std::vect
 }
 
 /// What is wrong with a file, and why.
-void add_details(const Submission& one, std::vector<std::string>& notes) {
+/// @param all  whether its findings are told, not the first alone
+void add_details(const Submission& one, bool all, std::vector<std::string>& notes) {
   const std::string name = one.name;
   const bool says_why = !one.score.order_is_right || one.verdict == Verdict::incomplete;  // in a finding
   if (one.verdict != Verdict::exact && !says_why) notes.push_back(name + ": " + class_words(one));
-  for (const std::string& words : cause_words(one.causes)) notes.push_back(name + ": " + words);
-  for (const std::string& finding : one.score.findings) notes.push_back(name + ": " + finding);
+  for (const std::string& words : cause_words(one)) notes.push_back(name + ": " + words);
+  for (const std::string& finding : one.score.findings) {
+    if (one.law_is_unexplained && finding == one.score.law_words) continue;
+    notes.push_back(name + ": " + finding);
+    if (all || one.score.findings.size() == 1) continue;
+    notes.push_back(fmt::format("{}: {} findings in all, by --details", name, one.score.findings.size()));
+    break;
+  }
   if (!one.is_list && !one.head.step) notes.push_back(name + ": its step is unknown, for want of a line \"# step:\"");
   if (!one.score.law_is_declared && one.score.law != "any")
     notes.push_back(name + ": declares no law; judged by the one that fits best, " + one.score.law);
@@ -292,18 +307,62 @@ void add_details(const Submission& one, std::vector<std::string>& notes) {
 
 constexpr double least_drawn = 1e-17, most_drawn = 10;  // errors are drawn there that are 0, larger or unknown
 
-void add_answer(const Submission& submission, double curve, PicturePanel& panel) {
-  for (std::size_t n = 0; n < submission.score.impacts.size(); ++n) {
-    panel.rows.push_back(
-        {curve, static_cast<double>(n + 1), std::clamp(submission.score.impacts[n].error, least_drawn, most_drawn)});
+/// Errors of impacts by one curve, and the axes that show them.
+struct DrawnAnswer {
+  std::string legend;
+  std::vector<double> errors;  ///< of each impact
+};
+
+void add_answer(const DrawnAnswer& answer, double curve, PicturePanel& panel) {
+  constexpr double colours = 9;  // of the palette: curves beyond look otherwise
+  for (std::size_t n = 0; n < answer.errors.size(); ++n) {
+    const double error = std::clamp(answer.errors[n], least_drawn, most_drawn), at = static_cast<double>(n + 1);
+    panel.rows.push_back({curve, at, error});
+    Range2& y = panel.plot.y;
+    y = {std::fmin(y.low, error / 5), std::fmax(y.high, error * 5)};
+    panel.plot.x.high = std::fmax(panel.plot.x.high, at + 0.5);
   }
-  panel.plot.curves.push_back(
-      {.x = "impact",
-       .y = "error",
-       .legend = fmt::format("{}: {}", submission.name, verdict_name(submission.verdict)) +
-                 (std::isfinite(submission.score.error()) ? " by " + submission.score.decided_by() : ""),
-       .style = FigureCurve::Style::line_points,
-       .where = {{"curve", curve}}});
+  panel.plot.curves.push_back({.x = "impact",
+                               .y = "error",
+                               .legend = answer.legend,
+                               .style = curve < colours            ? FigureCurve::Style::line_points
+                                        : answer.errors.size() > 1 ? FigureCurve::Style::dashed
+                                                                   : FigureCurve::Style::squares,
+                               .where = {{"curve", curve}}});
+}
+
+std::vector<double> errors_of(const Submission& submission) {
+  std::vector<double> errors;
+  for (const ImpactScore& one : submission.score.impacts) errors.push_back(one.error);
+  return errors;
+}
+
+/// A curve for each file or, where these are many, of each group with the worst error of each impact.
+std::vector<DrawnAnswer> drawn_answers(const std::vector<Submission>& submissions,
+                                       const std::vector<SubmissionGroup>& groups) {
+  constexpr std::size_t many = 6;
+  std::vector<DrawnAnswer> drawn;
+  if (submissions.size() <= many || groups.size() == submissions.size()) {
+    for (const Submission& one : submissions)
+      drawn.push_back({fmt::format("{}: {}", one.name, verdict_name(one.verdict)) +
+                           (std::isfinite(one.score.error()) ? " by " + one.score.decided_by() : ""),
+                       errors_of(one)});
+    return drawn;
+  }
+  for (const SubmissionGroup& group : groups) {
+    const std::string name = group_name(group.head);
+    DrawnAnswer& worst =
+        drawn.emplace_back(DrawnAnswer{fmt::format("{}{}worst of {} files: {}", name, name.empty() ? "" : ", ",
+                                                   group.files, verdict_name(group.verdict)),
+                                       {}});
+    for (const Submission& one : submissions) {
+      if (one.head.group() != group.head.group()) continue;
+      const std::vector<double> errors = errors_of(one);
+      worst.errors.resize(std::max(worst.errors.size(), errors.size()));
+      for (std::size_t n = 0; n < errors.size(); ++n) worst.errors[n] = worse(worst.errors[n], errors[n]);
+    }
+  }
+  return drawn;
 }
 
 constexpr double wrong_impacts = -10;  ///< curve of steps at which a file has wrong, missing or more impacts
@@ -331,20 +390,16 @@ void add_steps(const SubmissionGroup& group, double curve, PicturePanel& panel) 
                                .where = {{"curve", curve}}});
 }
 
-/// Their limits as dotted lines, those within the axis; by name each if there is room in the legend.
-void add_classes(const std::vector<double>& tolerances, const std::string& of_what, bool names_each,
-                 PicturePanel& panel) {
+/// Their limits as dotted lines, those within the axis.
+void add_classes(const std::vector<double>& tolerances, const std::string& of_what, PicturePanel& panel) {
   const std::string& axis = panel.columns[1].name;
   for (std::size_t k = 0; k < tolerances.size(); ++k) {
     if (!(tolerances[k] > panel.plot.y.low && tolerances[k] < panel.plot.y.high)) continue;
     const double curve = -1 - static_cast<double>(k);
     for (const double x : {panel.plot.x.low, panel.plot.x.high}) panel.rows.push_back({curve, x, tolerances[k]});
-    std::string legend;
-    if (names_each) legend = fmt::format("limit of {}{}", verdict_name(static_cast<Verdict>(k)), of_what);
-    else if (k == 0) legend = "from below up to: exact, sharp, good, coarse" + of_what;
     panel.plot.curves.push_back({.x = axis,
                                  .y = "error",
-                                 .legend = legend,
+                                 .legend = fmt::format("limit of {}{}", verdict_name(static_cast<Verdict>(k)), of_what),
                                  .style = k % 2 == 0 ? FigureCurve::Style::dotted : FigureCurve::Style::dashed,
                                  .where = {{"curve", curve}},
                                  .colour = ink});
@@ -420,7 +475,7 @@ Report score_report(const std::string& command, const std::vector<Submission>& s
     report.digest = Grid{report.grid.columns, {}};
     for (const Submission& one : sorted) {
       report.digest->rows.push_back(submission_row(one));
-      add_details(one, report.notes);
+      add_details(one, details || command == "benchmark", report.notes);
     }
   }
   for (const SubmissionGroup& group : groups) {
@@ -478,7 +533,8 @@ Picture score_picture(const std::vector<Submission>& submissions) {
                                  {"error", "1", "the largest of all errors of the impact and the flight after it"}},
                      .plot = {.x_label = "number of the impact",
                               .y_label = "largest error, relative",
-                              .y = {3e-18, 10},
+                              .x = {0.5, 1.5},
+                              .y = {},
                               .legend_place = "beside",
                               .logarithmic_x = over_steps,
                               .logarithmic_y = true,
@@ -488,7 +544,7 @@ Picture score_picture(const std::vector<Submission>& submissions) {
     panel.columns[2].quantity = "the largest of V, Ω and t";
     panel.plot.x_label = "step [s]";
     panel.plot.y_label = "error of V, Ω and t, relative, of the worst start";
-    panel.plot.y = {};
+    panel.plot.x = {};
     for (std::size_t i = 0; i < groups.size(); ++i) add_steps(groups[i], static_cast<double>(i), panel);
     panel.plot.curves.push_back({.x = "step",
                                  .y = "error",
@@ -497,30 +553,27 @@ Picture score_picture(const std::vector<Submission>& submissions) {
                                  .where = {{"curve", wrong_impacts}},
                                  .colour = ink});
   } else {
-    std::size_t most = 1;
-    for (std::size_t file = 0; file < submissions.size(); ++file) {
-      most = std::max(most, submissions[file].score.impacts.size());
-      add_answer(submissions[file], static_cast<double>(file), panel);
-    }
-    panel.plot.x = {0.5, static_cast<double>(most) + 0.5};
+    for (double curve = 0; const DrawnAnswer& one : drawn_answers(submissions, groups)) add_answer(one, curve++, panel);
+    if (!(panel.plot.y.low < panel.plot.y.high)) panel.plot.y = {least_drawn, most_drawn};  // no impact at all
   }
   std::vector<std::string> problems;
   bool have_one_scale = true;
-  const std::string& first = submissions.front().head.problem;
-  const std::vector<double>& tolerances = problem_named("", first).tolerances;
+  const std::string& first = submissions.front().asked;
+  const std::vector<double>& tolerances = submissions.front().tolerances;
   for (const Submission& one : submissions) {
-    const std::string name = "problem " + one.head.problem;
+    const std::string name = (one.problem_version > 0 ? "problem " : "") + one.asked;
     if (std::find(problems.begin(), problems.end(), name) == problems.end()) problems.push_back(name);
-    have_one_scale = have_one_scale && problem_named("", one.head.problem).tolerances == tolerances;
+    have_one_scale = have_one_scale && one.tolerances == tolerances;
   }
-  add_classes(tolerances, have_one_scale ? "" : " of " + first, over_steps, panel);
+  add_classes(tolerances, have_one_scale ? "" : " of " + first, panel);
   return {.what = over_steps ? "Errors of answers over their time steps" : "Errors of answers, impact by impact",
           .scene = problems,
           .panels = {panel}};
 }
 
-Report against_report(const Scene& scene, const Reference& reference, const std::vector<Submission>& submissions) {
-  Report report = score_report("compare", submissions, true);
+Report against_report(const Scene& scene, const Reference& reference, const std::vector<Submission>& submissions,
+                      bool details) {
+  Report report = score_report("compare", submissions, details);
   report.head = scene_head(scene, Model::discrete);
   report.fields["scene"] = scene_value(scene, Model::discrete);
   report.fields["message"] = text_or_nothing(reference.remark);

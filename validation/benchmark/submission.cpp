@@ -193,7 +193,8 @@ ReadFile read_file(const std::string& path, const ColumnNames& names) {
   };
   const bool is_list = has("place");
   if (!is_list) {
-    const TableRequest request = Motion::request(Motion::is_in_space(header, names), names);
+    TableRequest request = Motion::request(Motion::is_in_space(header, names), names);
+    if (!has("z") && has("y") && has("vy")) request.renaming = "if y points up --columns z=y,vz=vy reads it so";
     return {NumericTable::parse(path, std::move(text), request), is_list, {}};
   }
   TableRequest request = impact_list_request(has("Px"), names);
@@ -262,6 +263,8 @@ Submission judge(const ReadFile& file, const SubmissionHead& head, const Referen
   Submission submission{.path = file.table.path(),
                         .name = std::filesystem::path(file.table.path()).filename().string(),
                         .head = head,
+                        .asked = reference.name,
+                        .tolerances = reference.tolerances,
                         .is_list = file.is_list,
                         .gradients = !file.gradients.empty()};
   const std::string other = "counter-clockwise";
@@ -286,9 +289,10 @@ Submission judge(const ReadFile& file, const SubmissionHead& head, const Referen
   if (!step_words.empty()) submission.score.findings.push_back(step_words);
   submission.verdict = verdict_of(submission.score, reference.tolerances);
   if (!(submission.score.impacts_error() <= reference.tolerances[1]) || submission.score.ends_early) {
-    std::string remark;
-    submission.causes = causes_of(answer, reference, submission.score, remark);
-    if (!remark.empty()) submission.score.findings.push_back(remark);
+    Diagnosis diagnosis = diagnosis_of(answer, reference, submission.score);
+    if (!diagnosis.remark.empty()) submission.score.findings.push_back(diagnosis.remark);
+    submission.causes = std::move(diagnosis.causes);
+    submission.law_is_unexplained = diagnosis.law_is_unexplained;
   }
   return submission;
 }
@@ -343,10 +347,15 @@ std::optional<Estimated> observed_order(const std::vector<SubmissionGroup::Step>
 void add_causes(const Submission& one, SubmissionGroup& group) {
   std::set<std::string> names;  // either of two causes may have one name
   for (const Cause& cause : one.causes) names.insert(cause.name);
+  if (one.law_is_unexplained) names.insert(unexplained_law);
+  const std::string first = one.law_is_unexplained ? unexplained_law
+                            : one.causes.empty()   ? ""
+                                                   : one.causes.front().name;
   for (const std::string& name : names) {
-    const auto found = std::ranges::find(group.causes, name, [](const auto& cause) { return cause.first; });
-    if (found == group.causes.end()) group.causes.emplace_back(name, 1);
-    else ++found->second;
+    auto found = std::ranges::find(group.causes, name, &SubmissionGroup::CauseCount::name);
+    if (found == group.causes.end()) found = group.causes.insert(found, {.name = name});
+    ++found->files;
+    found->leads += name == first ? 1 : 0;
   }
   const bool is_right = one.causes.empty() && one.verdict <= Verdict::sharp;
   if (!is_right)
@@ -446,7 +455,8 @@ std::vector<SubmissionGroup> group_submissions(const std::vector<Submission>& su
   std::ranges::sort(groups, {}, [](const SubmissionGroup& group) { return group.head.group(); });
   for (SubmissionGroup& group : groups) {
     std::ranges::sort(group.steps, std::greater{}, [](const auto& one) { return one.step.value_or(0); });
-    std::ranges::stable_sort(group.causes, std::greater{}, [](const auto& one) { return one.second; });
+    std::ranges::stable_sort(group.causes, std::greater{},
+                             [](const auto& one) { return std::pair(one.files, one.leads); });
     group.order = observed_order(group.steps);
   }
   return groups;

@@ -23,17 +23,23 @@ struct SubmissionHead {
   [[nodiscard]] auto group() const { return std::tie(problem, engine, version, settings, law); }
 };
 
+/// What is said in place of a cause where impacts break the law and none explains that.
+inline constexpr const char* unexplained_law = "law unexplained";
+
 /// A file and how it does.
 struct Submission {
   std::string path;
   std::string name{};  ///< the file's, for readers; name_apart()
   SubmissionHead head;
+  std::string asked{};             ///< the problem's ID, or the scene's file
+  std::vector<double> tolerances;  ///< of the classes, there
   int problem_version = 0;
   bool is_list = false;    ///< of impacts, not a motion
   bool gradients = false;  ///< with derivatives
   Score score{};
   Verdict verdict = Verdict::fails;
-  std::vector<Cause> causes{};  ///< what explains a run that is not sharp
+  std::vector<Cause> causes{};      ///< what explains a run that is not sharp
+  bool law_is_unexplained = false;  ///< Diagnosis::law_is_unexplained
 };
 
 /// Files of one problem, engine, version, settings and law.
@@ -55,8 +61,13 @@ struct SubmissionGroup {
   std::optional<Estimated> order;
   Verdict verdict = Verdict::exact;  ///< of the worst file
   std::size_t files = 0, incomplete = 0;
-  std::vector<std::pair<std::string, std::size_t>> causes{};  ///< in how many files each was found, the most first
-  double unexplained = 0;  ///< Cause::unexplained of the worst file; infinite: not known of each
+  /// A cause, in how many files it was found, and in how many it is the first.
+  struct CauseCount {
+    std::string name;
+    std::size_t files = 0, leads = 0;
+  };
+  std::vector<CauseCount> causes{};  ///< the one of most files first, of these that which is most often the first
+  double unexplained = 0;            ///< Cause::unexplained of the worst file; infinite: not known of each
 };
 
 /// "newton routh", "poisson, routh", "moreau", … as DeclaredLaw::name.  @throws BadInput beginning with `where`

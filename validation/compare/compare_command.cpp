@@ -127,6 +127,7 @@ struct CompareInput {
   std::vector<std::string> against;
   ColumnNames columns;
   std::optional<Requirement> require;
+  bool details = false;
   OutputChoice output;
   PlotChoice plot;
 };
@@ -138,9 +139,9 @@ int compare_foreign(const CompareInput& input) {
   const Scene scene = read_scene_flags(flags);
   const OutputChoice& choice = input.output;
   if (scene.sweep) throw BadInput(fmt::format("{}: --against takes a scene that sweeps nothing", scene.path));
-  if (!input.plot.path.empty()) throw BadInput("--plot: not with --against");
   const Requirement requirement = input.require.value_or(Requirement{});
-  check_files(choice);
+  check_files(choice, plot_files(input.plot));
+  PlotFile plot(input.plot);
   const Reference reference = reference_of(scene);
   std::vector<Submission> submissions;
   bool is_met = true;
@@ -149,7 +150,11 @@ int compare_foreign(const CompareInput& input) {
     is_met = meets(submissions.back(), requirement) && is_met;
   }
   name_apart(submissions);
-  write_report(choice, against_report(prepared(scene).scene, reference, submissions));
+  write_report(choice, against_report(prepared(scene).scene, reference, submissions, input.details));
+  if (plot.is_wanted()) {
+    const Picture picture = score_picture(submissions);
+    plot.write(picture, run_words("compare", picture.what, scene));
+  }
   return is_met ? 0 : check_failed;
 }
 
@@ -207,6 +212,7 @@ int run_compare(const CompareInput& input) {
   if (!input.against.empty()) return compare_foreign(input);
   if (!input.columns.empty()) throw BadInput("--columns: only with --against");
   if (input.require) throw BadInput("--require: only with --against");
+  if (input.details) throw BadInput("--details: only with --against");
   const Scene scene = read_scene_flags(input.scene);
   const OutputChoice& choice = input.output;
   if (is_given(input.scene, "--history")) throw BadInput("--history: compare writes none; clatter simulate does");
@@ -227,6 +233,7 @@ Command compare_command() {
     command.add(
         read_argument("--require", input.require, read_requirement, "CLASS",
                       "of --against: exact|sharp|good|coarse|incomplete, or a largest error of complete answers"));
+    command.add_flag("--details", input.details, "of --against: all errors, causes and findings of each file");
     add_output_options(command, input.output);
     add_plot_options(command, input.plot);
     command.footer =

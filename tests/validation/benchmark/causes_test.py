@@ -202,7 +202,7 @@ class Words(EmptyFolder):
         code.moment *= 3
         findings = judged(code.text(code.rows(1 / 500)))["findings"]
         self.assertIn("impact 1 (lines 53 to 54) is at no point of the body, must be at a", findings)
-        self.assertIn("impact 1 (lines 53 to 54) does not follow the law: no point of the body explains its jump", findings)
+        self.assertIn("impact 1 (lines 53 to 54) does not follow the law: no point of the body explains its jump; of the lowest one e = ", " ".join(findings))
 
 
 class Documents(EmptyFolder):

@@ -282,7 +282,19 @@ class Exact(EmptyFolder):
         self.assertEqual(run("compare", *fall, "--against", path).stdout.splitlines()[1:5], head)
         for columns in ("omega=vz", "x=z"):  # a column of the file is one of the reader's
             self.refused(f"column {columns.split('=')[1]} is taken for", "compare", *self.FLAGS, "--against", path, "--columns", columns)
-        self.each_refused({"--columns t=time": "--columns", "--require good": "--require"}, "compare", "rod-10")
+        self.each_refused({"--columns t=time": "--columns", "--require good": "--require", "--details": "--details"}, "compare", "rod-10")
+
+    def test_a_run_of_a_scene_has_its_first_finding_and_a_picture(self):
+        motion, end = self.exact()
+        path = self.write("run.csv", motion.text(motion.rows(1 / 400, end)))
+        other = ("--angle", "26", "--speed", "1.3", "--impacts", "3", "--against", path)
+        count = len(told("compare", *other)["files"][0]["findings"])
+        self.assertGreater(count, 1)
+        short, whole = (printed("compare", *other, *more) for more in ((), ("--details",)))
+        self.assertIn(f"run.csv: {count} findings in all, by --details", short)
+        self.assertLess(short.count("impact 1 ("), whole.count("impact 1 ("))
+        printed("compare", *other, "--plot", self.path("p.svg"), "--plot-script")
+        self.assertIn("run.csv: fails", self.read("p.gnuplot"))
 
     def test_impacts_that_rounding_decides_are_no_truth(self):
         path = self.write("run.csv", Code("box", 0).text(Code("box", 0).rows(1 / 200)))
