@@ -17,10 +17,21 @@ using batch::block_size;
 
 double number_at(std::span<const double> numbers, std::size_t i) { return numbers[numbers.size() == 1 ? 0 : i]; }
 
-std::array<std::span<const double>, 7> arrays_of(const BatchDrops& drops) {
-  return {drops.inclination, drops.normal,      drops.tangential,   drops.angular,
-          drops.gravity,     drops.restitution, drops.impulse_ratio};
-}
+/// One number of a drop: its name, the array of a batch that has it, and where a block of eight drops keeps it.
+struct DropNumber {
+  const char* name;
+  std::span<const double> BatchDrops::*array;
+  batch::Block batch::LaneDrops::*lanes;
+};
+constexpr DropNumber drop_numbers[]{
+    {"inclination", &BatchDrops::inclination, &batch::LaneDrops::inclination},
+    {"normal", &BatchDrops::normal, &batch::LaneDrops::normal},
+    {"tangential", &BatchDrops::tangential, &batch::LaneDrops::tangential},
+    {"angular", &BatchDrops::angular, &batch::LaneDrops::angular},
+    {"gravity", &BatchDrops::gravity, &batch::LaneDrops::gravity},
+    {"restitution", &BatchDrops::restitution, &batch::LaneDrops::restitution},
+    {"impulse_ratio", &BatchDrops::impulse_ratio, &batch::LaneDrops::impulse_ratio},
+};
 
 batch::LaneBody lane_body(const PlanarBody& body) {
   batch::LaneBody lanes{
@@ -39,12 +50,10 @@ batch::LaneBody lane_body(const PlanarBody& body) {
 /// The eight drops from number `first` on; the last one fills the block up.
 batch::LaneDrops lane_drops(const BatchDrops& drops, std::size_t first) {
   batch::LaneDrops lanes;
-  const auto arrays = arrays_of(drops);
-  batch::Block* const blocks[] = {&lanes.inclination, &lanes.normal,      &lanes.tangential,   &lanes.angular,
-                                  &lanes.gravity,     &lanes.restitution, &lanes.impulse_ratio};
   const std::size_t last = drops.count() - 1;
-  for (std::size_t k = 0; k < arrays.size(); ++k) {
-    for (std::size_t i = 0; i < block_size; ++i) (*blocks[k])[i] = number_at(arrays[k], std::min(first + i, last));
+  for (const DropNumber& number : drop_numbers) {
+    for (std::size_t i = 0; i < block_size; ++i)
+      (lanes.*number.lanes)[i] = number_at(drops.*number.array, std::min(first + i, last));
   }
   return lanes;
 }
@@ -135,7 +144,7 @@ BatchEnd batch_end(Outcome outcome, bool has_tail) {
 
 std::size_t BatchDrops::count() const {
   std::size_t most = 1;
-  for (const std::span<const double> numbers : arrays_of(*this)) most = std::max(most, numbers.size());
+  for (const DropNumber& number : drop_numbers) most = std::max(most, (this->*number.array).size());
   return most;
 }
 
@@ -152,15 +161,11 @@ Drop BatchDrops::drop(std::size_t i) const {
 }
 
 void BatchDrops::validate() const {
-  constexpr const char* names[]{"inclination", "normal",      "tangential",   "angular",
-                                "gravity",     "restitution", "impulse_ratio"};
-  const auto arrays = arrays_of(*this);
-  for (std::size_t k = 0; k < arrays.size(); ++k) {
-    if (arrays[k].size() != 1 && arrays[k].size() != count()) {
-      throw std::invalid_argument("arrays of a batch: " + std::string(names[k]) + " has " +
-                                  std::to_string(arrays[k].size()) + " numbers; must be 1 or " +
-                                  std::to_string(count()) + ", as the longest has");
-    }
+  for (const DropNumber& number : drop_numbers) {
+    const std::size_t size = (this->*number.array).size();
+    if (size == 1 || size == count()) continue;
+    throw std::invalid_argument("arrays of a batch: " + std::string(number.name) + " has " + std::to_string(size) +
+                                " numbers; must be 1 or " + std::to_string(count()) + ", as the longest has");
   }
   Drop drop;  // one, whatever its body
   drop.body = body;
@@ -174,7 +179,7 @@ namespace {
 /// @param drop  makes it, unless its numbers are none
 BatchOutcome outcome_of_scalar(auto&& drop, int limit) {
   try {
-    return outcome_of(impact_sequence(drop(), {.impacts = limit}));
+    return outcome_of(summed_sequence(drop(), {.impacts = limit}));
   } catch (const OutsideModelError&) {
     return without_numbers(BatchEnd::outside);
   } catch (const NumericalError&) {

@@ -13,14 +13,19 @@
 
 namespace clatter::analytic {
 
-/// Drops of one body, as arrays; each array has as many numbers as there are drops, or one for all of them.  An
-/// impact's law is Newton's, or one of those that agree with it here, and P_t = μ_i P_n.
+/// Drops of one body, as arrays that somebody else keeps; each array has as many numbers as there are drops, or one for
+/// all of them, which those that are left out have as Drop has it.  An impact's law is Newton's, or one of those that
+/// agree with it here, and P_t = μ_i P_n.
 struct BatchDrops {
+  static constexpr double zero[1]{0}, one[1]{1};
+
   PlanarBody body;
-  std::span<const double> inclination;                  ///< [rad]
-  std::span<const double> normal, tangential, angular;  ///< velocity before the first impact [m/s, rad/s]
-  std::span<const double> gravity;                      ///< [m/s²]
-  std::span<const double> restitution, impulse_ratio;   ///< e, μ_i
+  std::span<const double> inclination;               ///< [rad]
+  std::span<const double> normal, tangential{zero};  ///< velocity before the first impact [m/s]
+  std::span<const double> angular{zero};             ///< likewise [rad/s]
+  std::span<const double> gravity{zero};             ///< [m/s²]
+  std::span<const double> restitution{one};          ///< e
+  std::span<const double> impulse_ratio{zero};       ///< μ_i
 
   [[nodiscard]] std::size_t count() const;
   /// Drop i for the scalar code.

@@ -13,17 +13,18 @@ cd -- "$prefix"  # where the examples write
 cmake --install "$build" --prefix "$prefix" --strip >"$prefix/install.log"
 
 with_cmake() {
-  cmake -S "$source" -B "$prefix/consumer" -G Ninja -DCMAKE_BUILD_TYPE=Debug -DCMAKE_PREFIX_PATH="$prefix" >"$prefix/log"
+  cmake -S "$source" -B "$prefix/consumer" -G Ninja -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS="-Wall -Wextra -Wconversion -Werror" -DCMAKE_PREFIX_PATH="$prefix" >"$prefix/log"
   cmake --build "$prefix/consumer" --target all headers >>"$prefix/log" || { cat -- "$prefix/log"; return 1; }
   "$prefix/consumer/analytic_example"
   "$prefix/consumer/space_example"
+  "$prefix/consumer/batch_example"
   "$prefix/consumer/numeric_example"
 }
 
 with_pkg_config() {
   local flags library
   flags=$(PKG_CONFIG_PATH=$(dirname -- "$(find "$prefix" -name clatter.pc)") pkg-config --cflags --libs clatter)
-  for library in analytic space numeric; do
+  for library in analytic space batch numeric; do
     # shellcheck disable=SC2086  # the flags are words
     g++ -std=c++20 "$source/${library}_example.cpp" -o "$prefix/$library" $flags
     "$prefix/$library"
@@ -63,8 +64,8 @@ as_a_part() {
     cp -r -- "$source/mine" "$part"
     [[ $how == add_subdirectory ]] || sed -i "s|^add_sub.*|include(FetchContent)\nFetchContent_Declare(clatter SOURCE_DIR $root)\nFetchContent_MakeAvailable(clatter)|" "$part/CMakeLists.txt"
     cp -- "$source/analytic_example.cpp" "$part/main.cpp"
-    cmake -S "$part" -B "$part/build" -G Ninja -DCLATTER_SOURCE="$root" -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_FLAGS=-march=native >"$prefix/log" 2>&1 || { cat -- "$prefix/log"; return 1; }
-    for example in analytic space numeric; do
+    cmake -S "$part" -B "$part/build" -G Ninja -DCLATTER_SOURCE="$root" -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_FLAGS="-march=native -Wall -Wextra -Wconversion -Werror" >"$prefix/log" 2>&1 || { cat -- "$prefix/log"; return 1; }
+    for example in analytic space batch numeric; do
       cp -- "$source/${example}_example.cpp" "$part/main.cpp"
       cmake --build "$part/build" --target CMakeFiles/mine.dir/main.cpp.o >"$prefix/log" 2>&1 || { cat -- "$prefix/log"; return 1; }
       g++ "$part/build/CMakeFiles/mine.dir/main.cpp.o" -o "$part/mine" "${libraries[@]}" -lgsl -lgslcblas -ldl

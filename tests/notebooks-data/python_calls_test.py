@@ -3,6 +3,7 @@
 their results."""
 
 import copy
+import csv
 import inspect
 import itertools
 import operator
@@ -204,6 +205,7 @@ class Results(unittest.TestCase):
                 for column in frame.columns:
                     if frame[column].dtype == float:
                         np.testing.assert_array_equal(frame[column], result[column], err_msg=column)
+                        np.testing.assert_array_equal(result[1:3][column], result[column][1:3], err_msg=column)
                         self.assertFalse(frame[column].map(lambda one: one is None).any() and frame[column].map(
                             lambda one: isinstance(one, float)).any(), f"{column}: numbers and None")
         kinds = pandas.DataFrame(clatter.sweep("phone-corner", orientation=[5, 10], model="discrete", columns="hardest")).dtypes
@@ -220,6 +222,15 @@ class Results(unittest.TestCase):
         self.assertEqual((len(history[-1]), len(history[2:5])), (len(frame.columns), 3))
         states = clatter.sequence(10).at([0.1, 0.2])
         self.assertEqual(list(pandas.DataFrame(states)["position_z"]), list(states["position_z"]))
+        self.assertEqual(list(states[1:]["position_z"]), list(states["position_z"])[1:])
+        atlas = clatter.atlas("phone")
+        for row, text in zip(atlas, csv.DictReader(line for line in atlas.to_text("csv").splitlines() if not line.startswith("#"))):
+            self.assertEqual([" ".join(map(str, row.order)), len(row.impulses)], [text["order"], row.impacts])
+            self.assertEqual(row.approaches, [float(one) for one in text["approaches"].split()])
+        self.assertEqual([len(one) for one in atlas["impulses"]], list(atlas["impacts"]))
+        with tempfile.TemporaryDirectory() as folder:
+            page = clatter.report("phone-damped", impacts=1, drops=0, model="discrete", output=Path(folder, "page.html"))
+            self.assertIn("<html", page.read_text(encoding="utf-8"))
         worst = clatter.report("phone-damped", impacts=1, probe=probe, drops=4, sensitivity=False)
         frame = pandas.DataFrame(worst)
         row = frame[[attitude in worst.answer.attitude for attitude in frame["attitude"]]].iloc[0]

@@ -418,6 +418,9 @@ losses: clatter.Record | None = run.energy_losses
 clatter.map(over={"angle": (1, 60), "restitution": "0.1:1:log"}, quantity="ratio")
 clatter.map(over={"angle": (1, 60), "restitution": (0.1, 1)}, quantity="hardest=1", samples=9)
 figure = clatter.figure(7, gravity_numbers=1)
+chosen: clatter.RowList[clatter.Impact] = run[1:3]
+later: clatter.States = run.at([0.1, 0.2])[1:]
+ranges: clatter.Atlas = clatter.atlas("phone")
 rows: clatter.Rows = clatter.sweep("phone-damped", probe={"camera": (0, 0, 0)}, part="100")
 counts: dict[str, dict[str, int]] = clatter.sweep("rod-10", angle=[1, 2], summary=True).texts
 """

@@ -205,7 +205,8 @@ void check_ground(const SceneValues& values, Scene& scene, Model model) {
     values.require(
         "ground.stiffness",
         "k_G in N/m3, such as 1e11, which clatter shock --ground finds; or ground.modulus of an elastic half-space, "
-        "ground.floor by name, or ground.curve of a pad");
+        "ground.floor by name, or ground.curve of a pad; a scene without a ground has the discrete model alone, whose "
+        "cost clatter sweep --dry-run tells");
   if (is_half_space) settle_half_space(scene.half_space, ground);
   if (!values.has("ground.stiffness") && is_springs) {
     only_for(values, {"ground.damping", "ground.restitution", "ground.static_friction", "ground.sliding_friction"},

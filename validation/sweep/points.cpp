@@ -75,15 +75,29 @@ SweepAxis read_listed_axis(const std::string& key, const std::string& text, bool
   return axis;
 }
 
+/// COUNT, the last part of a grid that has it.
+long long read_count(const AxisText& given) {
+  const double count = given.number(3, "COUNT");
+  if (!(count >= 2) || count != std::floor(count)) given.refuse("COUNT must be a whole number from 2 on");
+  if (!(count <= static_cast<double>(most_scenes))) given.refuse(too_many());
+  return static_cast<long long>(count);
+}
+
 SweepAxis read_ratio_axis(const AxisText& given, const std::string& key, bool whole) {
   SweepAxis axis{.key = key, .first = given.number(0, "FROM"), .last = given.number(1, "TO"), .logarithmic = true};
   if (whole) given.refuse("a key of whole numbers has no logarithmic grid");
   if (axis.first == 0 || axis.last == 0 || (axis.first > 0) != (axis.last > 0))
     given.refuse("FROM and TO of a logarithmic grid must have one sign, and not be 0");
-  const double count = given.number(3, "COUNT");
-  if (!(count >= 2) || count != std::floor(count)) given.refuse("COUNT must be a whole number from 2 on");
-  if (!(count <= static_cast<double>(most_scenes))) given.refuse(too_many());
-  axis.count = static_cast<long long>(count);
+  axis.count = read_count(given);
+  return axis;
+}
+
+SweepAxis read_even_axis(const AxisText& given, const std::string& key, bool whole) {
+  SweepAxis axis{.key = key, .first = given.number(0, "FROM"), .last = given.number(1, "TO"), .whole = whole};
+  axis.count = read_count(given);
+  axis.step = (axis.last - axis.first) / static_cast<double>(axis.count - 1);
+  if (axis.step == 0) given.refuse("FROM and TO must differ");
+  if (whole && axis.step != std::floor(axis.step)) given.refuse("COUNT must leave whole numbers between FROM and TO");
   return axis;
 }
 
@@ -194,7 +208,8 @@ SweepAxis read_grid_axis(const std::string& key, const std::string& text, bool w
   const AxisText given(key, text, whole);
   const std::size_t parts = given.parts().size();
   if (parts == 4 && given.parts()[2] == "log") return read_ratio_axis(given, key, whole);
-  if (parts != 3) given.refuse("must be VALUE, A,B,..., FROM:TO:STEP or FROM:TO:log:COUNT");
+  if (parts == 4 && given.parts()[2] == "lin") return read_even_axis(given, key, whole);
+  if (parts != 3) given.refuse("must be VALUE, A,B,..., FROM:TO:STEP, FROM:TO:lin:COUNT or FROM:TO:log:COUNT");
   SweepAxis axis{
       .key = key, .first = given.number(0, "FROM"), .last = 0, .step = given.number(2, "STEP"), .whole = whole};
   const double to = given.number(1, "TO");

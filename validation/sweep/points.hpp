@@ -72,8 +72,8 @@ struct SweepAxis {
   [[nodiscard]] double drawn(double part) const;
 };
 
-/// FROM:TO:STEP, the values from FROM by STEP as far as TO, STEP with the sign of TO − FROM; FROM:TO:log:COUNT, values
-/// with equal ratios, both ends taken; or A,B,...: these.
+/// FROM:TO:STEP, the values from FROM by STEP as far as TO, STEP with the sign of TO − FROM; FROM:TO:lin:COUNT, values
+/// with equal steps, or FROM:TO:log:COUNT, with equal ratios, both ends taken; or A,B,...: these.
 /// @throws BadInput naming the key, what was given and what is allowed.
 [[nodiscard]] SweepAxis read_grid_axis(const std::string& key, const std::string& text, bool whole);
 /// LOW:HIGH or LOW:HIGH:log.  @throws BadInput likewise.

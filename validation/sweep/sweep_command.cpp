@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <fmt/format.h>
+#include <time.h>
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -12,6 +13,7 @@
 #include <memory>
 #include <numbers>
 #include <optional>
+#include <regex>
 #include <set>
 #include <span>
 #include <sstream>
@@ -366,7 +368,8 @@ struct SweepInput {
   SweepRequest request;
   std::string output;  ///< empty: stdout
   std::optional<int> threads;
-  bool restart = false, check = false;
+  bool restart = false, check = false, dry_run = false;
+  std::vector<std::string> parts;  ///< files of its --scenes that are checked together
   std::optional<Format> format;
   bool ascii = false, bare = false;
   PlotChoice plot;
@@ -695,18 +698,171 @@ int check_file(const SweepInput& input, const SweepPlan& plan) {
   return failed;
 }
 
+/// The scenes that a part of a sweep says it is of, "FROM:TO:STEP"; empty: it does not say.
+std::string scenes_of_part(const SweepInput& part, const SweepPlan& plan) {
+  std::string lines;
+  if (is_hdf5(part)) {
+    const auto head = read_hdf5_head(part.output, column_head(plan, plan.report()));
+    if (head) lines = lines_of(*head);
+  } else {
+    std::ifstream file(part.output, std::ios::binary);
+    for (std::string line; std::getline(file, line) && line.starts_with("# ");) lines += line + "\n";
+  }
+  static const std::regex own("# here: scenes ([0-9]+) to ([0-9]+)( by ([0-9]+))?\n");
+  std::smatch found;
+  if (!std::regex_search(lines, found, own)) return "";
+  return fmt::format("{}:{}:{}", found.str(1), found.str(2), found[4].matched ? found.str(4) : "1");
+}
+
+/// Places of a sweep's scenes that are marked, in words: "7, 200 to 399", of the first gaps.
+std::string runs_of(const std::vector<char>& marks, char mark) {
+  constexpr std::size_t most = 20;
+  std::vector<std::string> runs;
+  std::size_t more = 0;
+  for (std::size_t begin = 0; begin < marks.size();) {
+    std::size_t end = begin;
+    while (end < marks.size() && marks[end] == mark) ++end;
+    if (end > begin && runs.size() == most) ++more;
+    else if (end > begin)
+      runs.push_back(end == begin + 1 ? std::to_string(begin) : fmt::format("{} to {}", begin, end - 1));
+    begin = std::max(end, begin + 1);
+  }
+  return fmt::format("{}{}", fmt::join(runs, ", "), more > 0 ? fmt::format(" and {} more", more) : "");
+}
+
+/// How often the scenes of a sweep are in the files of its parts.
+struct PartsFound {
+  enum Mark : char { absent, once, again };
+  std::vector<char> marks;
+  std::size_t amiss = 0;  ///< files that are not whole parts of it
+
+  void add(const PickedScenes& scenes) {
+    for (long long k = 0; k < scenes.count; ++k) {
+      char& mark = marks[static_cast<std::size_t>(scenes.at(k))];
+      mark = mark == absent ? once : again;
+    }
+  }
+};
+
+/// What a file has of its scenes, in words; those of a whole one are added to what was found.
+std::string part_words(const SweepInput& input, const SweepPlan& whole, PartsFound& found) try {
+  SweepInput part = input;
+  part.request.scenes = scenes_of_part(input, whole);
+  const SweepPlan plan = read_sweep_plan(part.request);
+  const std::optional<FileThere> there = file_there(part, plan);
+  if (!there) return "is not there, or empty";
+  const std::string of = fmt::format("scenes {} to {}{}", plan.range.first, plan.range.last(),
+                                     plan.range.step > 1 ? fmt::format(" by {}", plan.range.step) : "");
+  const FoundRows& rows = there->rows;
+  if (!rows.amiss.empty()) return fmt::format("{}, not in order: {}", of, rows.amiss);
+  if (!rows.is_whole())
+    return fmt::format("{}, lacks {}: {}", of, plan.range.count - rows.scenes, rows.missing.front());
+  found.add(plan.range);
+  return fmt::format("{}, whole{}", of, there->fell_short.empty() ? "" : "; " + there->fell_short);
+} catch (const BadInput& error) {
+  const std::string words = error.what(), begin = fmt::format("--output {}: is there already, ", input.output);
+  return words.starts_with(begin) ? words.substr(begin.size(), words.find("; --restart") - begin.size()) : words;
+}
+
+/// Says of each file of a part what it lacks, and what all of them lack together.
+int check_parts(const SweepInput& input, const SweepPlan& plan) {
+  if (!input.check || !input.output.empty() || !input.request.scenes.empty())
+    throw BadInput("--parts: needs --check, and neither --output nor --scenes, which each file says itself");
+  PartsFound found{.marks = std::vector<char>(static_cast<std::size_t>(plan.points.count()), PartsFound::absent)};
+  for (const std::string& path : input.parts) {
+    SweepInput part = input;
+    part.output = path;
+    const auto before = std::ranges::count(found.marks, PartsFound::absent);
+    const std::string words = part_words(part, plan, found);
+    if (std::ranges::count(found.marks, PartsFound::absent) == before) ++found.amiss;
+    say(fmt::format("{}: {}", path, words));
+  }
+  const auto count_of = [&](PartsFound::Mark mark) { return std::ranges::count(found.marks, mark); };
+  const auto lacking = count_of(PartsFound::absent), twice = count_of(PartsFound::again);
+  say(fmt::format("{} of {} scenes are there{}{}", plan.points.count() - lacking, plan.points.count(),
+                  lacking == 0 ? "" : fmt::format("; missing: {}", runs_of(found.marks, PartsFound::absent)),
+                  twice == 0 ? "" : fmt::format("; more than once: {}", runs_of(found.marks, PartsFound::again))));
+  return lacking == 0 && twice == 0 && found.amiss == 0 ? 0 : 1;
+}
+
+std::vector<Column> dry_run_columns() {
+  return {{"scenes", "scenes", "", "scenes that the sweep has"},
+          {"bytes", "bytes", "B", "size of the file, of HDF5 before compression"},
+          {"cpu_time", "cpu time", "s", "processor time of all scenes"},
+          {"cpu_time_error", "cpu time error", "s", "its standard error, by the scatter among the scenes tried", false},
+          {"threads", "threads", "", "threads that share it"},
+          {"time", "time", "s", "processor time over threads"},
+          {"tried", "tried", "", "scenes that were computed for this"}};
+}
+
+double thread_seconds() {
+  timespec now{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+/// Computes some scenes, spread over the sweep, and tells what all of them take; writes none.
+int run_dry(const SweepInput& input, SweepPlan plan, const SweepBody& body, int threads) {
+  if (input.check || input.request.summary || input.restart || !input.plot.path.empty())
+    throw BadInput("--dry-run: goes with neither --check, --summary, --restart nor --plot");
+  constexpr double most_seconds = 5;
+  constexpr long long most_scenes_tried = 1000;
+  constexpr double golden = 0.6180339887498949;  // its multiples are spread evenly, wherever they end
+  plan.packed = false;
+  const CooperativeInterrupt interrupt;
+  SceneRunner runner(plan, body, [&] { return interrupt.requested(); });
+  const auto count = static_cast<double>(plan.range.count);
+  const long long most = std::min(plan.range.count, most_scenes_tried);
+  double sum = 0, squares = 0, bytes = 0, rows = 0;
+  long long tried = 0;
+  for (; tried < most && sum < most_seconds && !interrupt.requested(); ++tried) {
+    const double part = std::fmod((static_cast<double>(tried) + 0.5) * golden, 1);
+    const long long place = most == plan.range.count ? tried : static_cast<long long>(part * count);
+    const double begin = thread_seconds();
+    const RangeRows there = runner({place, 1});
+    const double took = thread_seconds() - begin;
+    sum += took, squares += took * took;
+    bytes += static_cast<double>(there.text.size());
+    rows += static_cast<double>(std::ranges::count(there.text, '\n'));
+  }
+  if (interrupt.requested()) return interrupted_status;
+  const auto n = static_cast<double>(tried);
+  const double scatter = n > 1 ? std::sqrt(std::fmax(squares - sum * sum / n, 0) / (n - 1)) : no_number;
+  Report report = plan.report();
+  if (is_hdf5(input)) bytes = rows * 8 * static_cast<double>(report.grid.columns.size());
+  const double head = is_hdf5(input) ? 0 : static_cast<double>(csv_head(report, input.bare).size());
+  const double all = sum / n * count;
+  report.grid.columns = dry_run_columns();
+  constexpr int digits = 3;  // shown: others would follow the scenes tried, or the machine
+  Row row{plan.range.count};
+  row.emplace_back(std::round(head + bytes / n * count), digits);
+  row.emplace_back(all, digits);
+  row.emplace_back(Value(rounded_up(scatter / std::sqrt(n) * count)));
+  row.emplace_back(threads);
+  row.emplace_back(all / threads, digits);
+  row.emplace_back(tried);
+  report.grid.rows.push_back(std::move(row));
+  report.fields["rows"] = row_objects(report.grid);
+  fmt::print(
+      "{}",
+      report_text(report, {.format = input.format.value_or(Format::table), .ascii = input.ascii, .bare = input.bare}));
+  return 0;
+}
+
 int run_command(const SweepInput& input, Ranks& ranks) {
   const SweepRequest& request = input.request;
   if (request.file.empty() && request.sets.empty())
     throw BadInput("SCENE, or keys by --set: required, clatter help keys has them");
   SweepPlan plan = read_sweep_plan(request);
+  if (!input.parts.empty()) return ranks.writes() ? check_parts(input, plan) : 0;
   plan.packed = input.request.summary || is_hdf5(input);
   const int threads = thread_count(input.threads, ranks);
-  check_output(input);
-  if (input.check) return ranks.writes() ? check_file(input, plan) : 0;
+  if (!input.dry_run) check_output(input);
+  if (input.check && !input.dry_run) return ranks.writes() ? check_file(input, plan) : 0;
   if (ranks.writes()) say_doubts(plan.scene, plan.layout.model, plan.layout.probes);
   // A body that cannot be made is bad input, but a row's where it is swept.
   const SweepBody body = plan.body_values.empty() ? make_sweep_body(plan, plan.scene) : SweepBody{};
+  if (input.dry_run) return ranks.writes() ? run_dry(input, plan, body, threads) : 0;
   return ranks.writes() ? run_sweep(input, plan, body, threads, ranks) : serve_ranges(runners_of(plan, body), ranks);
 }
 
@@ -738,7 +894,7 @@ void add_request_options(Command& command, SweepRequest& request) {
   add_scene_argument(command, request.file, false);
   command.add({.name = "--set",
                .target = &request.sets,
-               .type = "KEY=VALUE|A,B,...|FROM:TO:STEP|FROM:TO:log:COUNT",
+               .type = "KEY=VALUE|A,B,...|FROM:TO:STEP|FROM:TO:lin:COUNT|FROM:TO:log:COUNT",
                .help =
                    "values of a key of the scene file; may be repeated, the last varies fastest; drop.attitude takes "
                    "uniform (with --random), 26 or [Q0,Q1,Q2,Q3],[...] or @FILE",
@@ -781,6 +937,14 @@ Command sweep_command() {
             "--check", input.check,
             "only says what FILE lacks, status 1 if anything: the rows' order, numbers and keys are looked "
             "at, not their results");
+        command.add_list(
+            "--parts", input.parts, "FILE",
+            "with --check in place of --output: files of --scenes of this sweep; a line on each, then which "
+            "scenes none or several of them have");
+        command.add_flag(
+            "--dry-run", input.dry_run,
+            "only says how many bytes and how much time the sweep takes, by up to 1000 of its scenes or 5 s "
+            "of them; --threads N for that many processes");
         command.add_flag("--ascii", input.ascii, "plain ASCII in tables");
         command.add_flag("--bare", input.bare, "CSV without comments");
         command.add_flag("--no-errors", request.no_errors,
@@ -799,7 +963,8 @@ Command sweep_command() {
                                                     .part_at = {FragilePart{}},
                                                     .has_curve = true});
                             }},
-                           {"sweep-summary", Summary::columns}};
+                           {"sweep-summary", Summary::columns},
+                           {"sweep-dry-run", dry_run_columns}};
       });
 }
 

@@ -233,8 +233,8 @@ Body polyhedron(const std::vector<Vector3>& vertices, const MassProperties& prop
 
 double touch_height(const Body& body, const Quaternion& attitude) {
   const double length = attitude.norm();
-  require(std::isfinite(length) && length > 0, "length of the attitude's Euler parameters", length,
-          "above 0 and finite");
+  constexpr double rounding = 1e-6;
+  require(std::fabs(length - 1) <= rounding, "length of the attitude's Euler parameters", length, "1 to within 1e-6");
   const Vector3 up = attitude.normalized().conjugate() * Vector3::UnitZ();
   double lowest = std::numeric_limits<double>::infinity();
   for (const Vector3& vertex : body.vertices) lowest = std::fmin(lowest, up.dot(vertex));

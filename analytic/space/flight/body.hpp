@@ -96,8 +96,8 @@ struct State {
   Vector3 angular_velocity = Vector3::Zero();    ///< world frame [rad/s]
 };
 
-/// Height of the centre of mass above the lowest point [m].  @param attitude  body to world, of any length
-/// @throws std::domain_error for one of length 0, or that is not finite
+/// Height of the centre of mass above the lowest point [m].
+/// @throws std::domain_error unless the attitude's Euler parameters, body to world, have the length 1 to within 1e-6
 [[nodiscard]] double touch_height(const Body& body, const Quaternion& attitude);
 
 /// Velocity of the body's point at `place`, body frame from the centre of mass, in the world frame [m/s].

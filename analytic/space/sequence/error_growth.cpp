@@ -185,8 +185,10 @@ StrikeDerivatives ErrorGrowth::group_differences(const Strike& strike, const Imp
   const double turning = row.before.angular_velocity.norm() * reach;
   const double steps[3] = {relative_step * std::fmin(1, speed / std::fmax(turning, speed)), relative_step * speed,
                            relative_step * speed / reach};
-  StrikeDerivatives derivatives;
+  StrikeDerivatives derivatives = StrikeDerivatives::Zero();
   for (int k = 0; k < 9; ++k) {
+    // What neither errs nor is varied, as the spin of a drop without any, needs no impacts beside this one.
+    if (factor_.row(1 + k).isZero(0) && of_drop_.row(1 + k).isZero(0)) continue;
     const double step = steps[k / 3];
     const Impact plus = strike(shifted(row.before, k, step)), minus = strike(shifted(row.before, k, -step));
     derivatives.col(k) << plus.impulse - minus.impulse, plus.velocity_after - minus.velocity_after,

@@ -173,8 +173,7 @@ void SequenceUnits::to_si(Sequence& sequence) const {
 void Drop::validate() const {
   body.validate();
   law.validate();
-  require(std::isfinite(attitude.norm()) && attitude.norm() > 0, "length of the attitude's Euler parameters",
-          attitude.norm(), "above 0 and finite");
+  const double touch = touch_height(body, attitude);  // which refuses what is no attitude
   for (int i = 0; i < 3; ++i) {
     require(std::isfinite(velocity[i]), "velocity", velocity[i], "finite");
     require(std::isfinite(angular_velocity[i]), "angular velocity", angular_velocity[i], "finite");
@@ -182,8 +181,8 @@ void Drop::validate() const {
   require(gravity >= 0 && std::isfinite(gravity), "gravity", gravity, "at least 0 and finite");
   require(std::isfinite(gravity_along), "gravity along the ground", gravity_along, "finite");
   if (release_height) {
-    require(std::isfinite(*release_height) && *release_height > touch_height(body, attitude), "release height",
-            *release_height, "finite and above that at which the body touches");
+    require(std::isfinite(*release_height) && *release_height > touch, "release height", *release_height,
+            "finite and above that at which the body touches");
   }
 }
 

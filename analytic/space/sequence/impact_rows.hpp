@@ -20,7 +20,7 @@ namespace clatter::analytic::space {
 /// on x = y = 0.  With a release height, the body as it is let go to fly freely until then.
 struct Drop {
   Body body;
-  Quaternion attitude = Quaternion::Identity();  ///< body to world, of any length
+  Quaternion attitude = Quaternion::Identity();  ///< body to world, of length 1 to within 1e-6
   Vector3 velocity = Vector3::Zero();            ///< of the centre of mass, world frame, before the first impact [m/s]
   Vector3 angular_velocity = Vector3::Zero();    ///< world frame [rad/s]
   double gravity = 0;                            ///< towards the ground, >= 0 [m/s²]
@@ -147,7 +147,7 @@ struct StateAt {
   State state;                               ///< x, y from those of the first impact
   double energy = 0;                         ///< as mechanical_energy() [J]
   StateErrors error;                         ///< bounds, of the state at exactly that time
-  double position_error = detail::infinite;  ///< bound on the length of its error [m]
+  double position_error = detail::infinite;  ///< on the length; infinite if the order of impacts before is open [m]
   double tilt_error = detail::infinite;      ///< part of the attitude's across the vertical [rad]
   double energy_error = detail::infinite;    ///< [J]
   /// Impact whose time is so near that errors decide on which side this is; 0: none.  The errors bear both.

@@ -854,14 +854,21 @@ class Run : public SequenceLoop<Sequence, ErrorGrowth> {
   bool regained_ = false;         ///< errors were begun anew for the contact that follows
 };
 
+/// @throws std::domain_error naming the first time that is not finite, or earlier than the one before.
+void require_ascending(const std::vector<double>& times) {
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    const auto name = [i] { return "times[" + std::to_string(i) + "]"; };
+    if (!std::isfinite(times[i])) detail::refuse(name(), times[i], "finite");
+    if (i > 0 && times[i] < times[i - 1]) detail::refuse(name(), times[i], "no earlier than the time before it");
+  }
+}
+
 }  // namespace
 
 Sequence impact_sequence(const Drop& drop, const SequenceOptions& options, const std::vector<double>& times) {
   drop.validate();
   options.validate();
-  const bool ascend = std::is_sorted(times.begin(), times.end()) &&
-                      std::all_of(times.begin(), times.end(), [](double t) { return std::isfinite(t); });
-  detail::require(ascend, "number of times", static_cast<double>(times.size()), "of finite ones in ascending order");
+  require_ascending(times);
   const SequenceUnits units(drop);
   const Drop internal = units.to_internal(drop);
   try {

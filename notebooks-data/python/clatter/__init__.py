@@ -28,16 +28,16 @@ from clatter.errors import BadArgument, BadInput, ClatterWarning, Error, NotComp
 from clatter.evidence import (benchmark_list, benchmark_score, benchmark_show, benchmark_truth, extremes, figure, measured_fit,
                               measured_predict, measured_score, verify)
 from clatter.fields import Accuracy, Answer, Check, Choice, Cost, Equation, Impact, ImpactErrors, Rung, SimulatedImpact, Step, Tail
-from clatter.findings import Explanation, Gradient, Measured, Plan, Problem, Ranking, Rows, Scored, Summary, Table, Tradeoff
+from clatter.findings import Atlas, Explanation, Gradient, Measured, Plan, Problem, Ranking, Rows, Scored, Summary, Table, Tradeoff
 from clatter.records import History, Record
-from clatter.results import Comparison, ComparisonSweep, Result, Run, Sequence, Simulation, States, Sweep, Verification
+from clatter.results import Comparison, ComparisonSweep, Result, RowList, Run, Sequence, Simulation, States, Sweep, Verification
 from clatter.scenes import case, cases
 
 __version__ = _clatter.version
 __all__ = [
-    "Accuracy", "Angles", "Answer", "BadArgument", "BadInput", "Check", "Choice", "ClatterWarning", "Comparison",
+    "Accuracy", "Angles", "Answer", "Atlas", "BadArgument", "BadInput", "Check", "Choice", "ClatterWarning", "Comparison",
     "ComparisonSweep", "Cost", "Equation", "Error", "Explanation", "Gradient", "History", "Impact", "ImpactErrors",
-    "Measured", "NotComputed", "OutsideModel", "Plan", "Problem", "Ranking", "Record", "Result", "Rows", "Run",
+    "Measured", "NotComputed", "OutsideModel", "Plan", "Problem", "Ranking", "Record", "Result", "RowList", "Rows", "Run",
     "Rung", "Scored", "Sequence", "SimulatedImpact", "Simulation", "States", "Step", "Summary", "Sweep", "Table",
     "Tail", "Tradeoff", "Verification", "angles", "atlas", "benchmark_list", "benchmark_score", "benchmark_show",
     "benchmark_truth", "case", "cases", "compare", "compare_against", "explain", "extremes", "figure", "gradient",

@@ -13,7 +13,7 @@ from clatter.arrays import Array, frozen, numpy_for, same_arrays
 from clatter.errors import BadArgument
 from clatter.findings import Rows
 from clatter.records import Record, absent, as_array
-from clatter.results import Report, shown_html, shown_text
+from clatter.results import Report, RowList, shown_html, shown_text
 from clatter.scenes import called
 from clatter.words import shown
 
@@ -91,14 +91,14 @@ class Angles:
     @overload
     def __getitem__(self, name: int) -> Record: ...
     @overload
-    def __getitem__(self, name: slice) -> list[Record]: ...
+    def __getitem__(self, name: slice) -> RowList[Record]: ...
     @overload
     def __getitem__(self, name: str) -> Array: ...
-    def __getitem__(self, name: int | slice | str) -> Record | list[Record] | Array:
+    def __getitem__(self, name: int | slice | str) -> Record | RowList[Record] | Array:
         """An array by its name, the numbers of one angle, or those of some."""
         if not isinstance(name, str):
             rows = self._rows[name]
-            return [Record(row) for row in rows] if isinstance(rows, list) else Record(rows)
+            return RowList(Record(row) for row in rows) if isinstance(rows, list) else Record(rows)
         array: Array | None = getattr(self, name, None) if name in type(self).__annotations__ else None
         if array is None and self._rows and name in self._rows[0]:
             array = as_array([row[name] for row in self._rows])

@@ -44,6 +44,17 @@ def words(values: Iterable[Any]) -> Array:
     return array
 
 
+def lists(values: list[Any]) -> Array:
+    """An array of lists, each as long as it is; the list itself without NumPy."""
+    try:
+        numpy = numpy_for("an array")
+    except ImportError:
+        return values  # type: ignore[return-value]
+    array: Array = numpy.empty(len(values), dtype=object)
+    array[:] = values
+    return array
+
+
 def frozen(array: Array) -> Array:
     """Not to be changed by accident; without NumPy the list as it is."""
     if hasattr(array, "flags"):

@@ -181,7 +181,7 @@ def sweep(
     scene: a scene file, the name of one of cases(), or a dict like case(name).
     values: by the key of the scene file ("drop.angle_deg"), or as arguments by the names that sequence() takes (angle),
     a value, a list or array of values, or a grid "FROM:TO:STEP",
-    "FROM:TO:log:COUNT" or "A,B,..." ("LOW:HIGH" or "LOW:HIGH:log" with random).  The last key varies fastest, so that a column
+    "FROM:TO:lin:COUNT", "FROM:TO:log:COUNT" or "A,B,..." ("LOW:HIGH" or "LOW:HIGH:log" with random).  The last key varies fastest, so that a column
     of two keys is .reshape(len(first), len(second)).  Of keys that are lists drop.attitude alone can vary: a row of four for
     each scene, 26 for a box's faces, edges and corners, or with random "uniform".
     model: "discrete" or "continuous"; without it a scene with a ground takes the continuous one, which costs tens to hundreds of times

@@ -9,7 +9,7 @@ import tempfile
 import tomllib
 from collections.abc import Iterable, Mapping
 from pathlib import Path as FilePath
-from typing import Any
+from typing import Any, TypeVar
 
 from clatter import _clatter
 from clatter.arguments import (KEYS, AnyKey, Axis, Model, Over, Parts, Path, Probes, Scene, Scenes, ShockRows, Swept, SweptKey, checked,
@@ -17,10 +17,13 @@ from clatter.arguments import (KEYS, AnyKey, Axis, Model, Over, Parts, Path, Pro
                                text_of, texts_of)
 from clatter.arrays import Array, numpy_for
 from clatter.errors import BadArgument, BadInput, NotComputed
-from clatter.findings import Ranking, Table
+from clatter.findings import Atlas, Ranking, Table
 from clatter.results import Report
 from clatter.scenes import called, cases, scene_text, toml_lines, warn
 from clatter.words import shown
+
+
+OneTable = TypeVar("OneTable", bound=Table)
 
 
 def _file_of(scene: Scene, changes: Mapping[str, Any], folder: str) -> str:
@@ -107,9 +110,9 @@ def _at_points(probe: str | Iterable[str] | Probes | None, part: Parts | None) -
     return [*(f"--probe={text}" for text in probe_texts(probe)), *(f"--part={text}" for text in part_texts(part))]
 
 
-def _table(report: Report | None) -> Table:
+def _table(report: Report | None, kind: type[OneTable] = Table) -> OneTable:  # type: ignore[assignment]
     assert report is not None
-    return Table(report)
+    return kind(report)
 
 
 @checked
@@ -199,8 +202,8 @@ def report(
     rank_by: str | None = None,
     **changes: SweptKey,
 ) -> Ranking | Any:
-    """The worst of all attitudes of a drop, and what it does: as a Ranking, or, with output, as the page FILE.html (None is
-    returned then).
+    """The worst of all attitudes of a drop, and what it does: as a Ranking, or, with output, as the page FILE.html, whose path is
+    returned then.
 
     Arguments as for shock(); drops and scatter [°]: of the random attitudes; rank_by: a column of sweep()'s rows.
     scene: also a list of files and names of cases.  A number or name of the scene may be several, floor_restitution=[0.3, 0.5],
@@ -211,11 +214,11 @@ def report(
                "severity": severity, **_without_sensitivity(sensitivity), "drops": drops, "scatter": scatter,
                "rank_by": rank_by, "output": output and os.fspath(output), "format": None if output else "json"}
     made = _run("report", scene, changes, options, _at_points(probe, part), probe=probe, part=part)
-    return None if made is None else Ranking(made)
+    return Ranking(made) if made is not None else FilePath(os.fspath(output or ""))
 
 
 @checked
-def atlas(scene: Scene | None = None, *, plane: bool = False, **changes: AnyKey) -> Table:
+def atlas(scene: Scene | None = None, *, plane: bool = False, **changes: AnyKey) -> Atlas:
     """Clattering close to flat, in closed form.
 
     scene: "rod", "box", "cube", "square", "rectangle", "triangle", "phone", or a scene as for sequence().  plane: of a box
@@ -224,7 +227,7 @@ def atlas(scene: Scene | None = None, *, plane: bool = False, **changes: AnyKey)
     >>> clatter.atlas("rod")
     """
     name = scene if isinstance(scene, str) and scene not in cases() and not os.path.exists(scene) else None
-    return _table(_run("atlas", None if name else scene, changes, {"plane": plane}, [name] if name else []))
+    return _table(_run("atlas", None if name else scene, changes, {"plane": plane}, [name] if name else []), Atlas)
 
 
 @checked

@@ -75,6 +75,26 @@ class Table(Result[Record]):
     """Rows of CSV; `rows` holds a record for each."""
 
 
+class Atlas(Table):
+    """Clattering close to flat: a row for each range of tilts.  What is of each impact of a row, as order, approaches and impulses,
+    is a list."""
+
+    @functools.cached_property
+    def _columns(self) -> dict[str, list[Any]]:
+        lists = ("order", "approaches", "impulses")
+        return {name: [_listed(value) for value in values] if name in lists else values for name, values in super()._columns.items()}
+
+
+def _listed(text: Any) -> Any:
+    """The numbers, or words, of a text."""
+    if not isinstance(text, str):
+        return text
+    try:
+        return [int(one) if one.isdigit() else float(one) for one in text.split()]
+    except ValueError:
+        return text.split()
+
+
 class Gradient(Table):
     """Derivatives of the state after each impact: a row for each impact and each number of the drop, `parameter`, that has
     them.  Errors are in the column error_estimate."""

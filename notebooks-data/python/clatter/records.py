@@ -5,17 +5,19 @@ import difflib
 from collections.abc import ItemsView, Iterable, Iterator, Mapping, ValuesView
 from typing import TYPE_CHECKING, Any, overload
 
-from clatter.arrays import Array, frozen, numbers, same_arrays, words
+from clatter.arrays import Array, frozen, lists, numbers, same_arrays, words
 
 JsonObject = Mapping[str, Any]
 
 
 def as_array(values: list[Any]) -> Array:
-    """Numbers as an array with NaN for None; vectors as rows."""
+    """Numbers as an array with NaN for None; vectors as rows, lists of other lengths as they are."""
     nan = float("nan")
-    wide = next((len(value) for value in values if isinstance(value, list)), None)
-    if wide is not None:
-        return numbers([nan] * wide if value is None else value for value in values)
+    wide = {len(value) for value in values if isinstance(value, list)}
+    if len(wide) > 1:
+        return lists(values)
+    if wide:
+        return numbers([nan] * max(wide) if value is None else value for value in values)
     if any(isinstance(value, (str, bool)) for value in values):
         return words(values)
     return numbers(nan if value is None else value for value in values)

@@ -8,7 +8,7 @@ import copyreg
 import functools
 import re
 from collections.abc import Iterable, Iterator, Mapping
-from typing import TYPE_CHECKING, Any, Generic, Protocol, TypeVar, overload
+from typing import TYPE_CHECKING, Any, Generic, Protocol, SupportsIndex, TypeVar, overload
 
 from clatter import _clatter
 from clatter.arguments import checked
@@ -102,6 +102,44 @@ def _without_gaps(column: list[Any]) -> list[Any]:
     return [float("nan") if value is None else value for value in column] if type(None) in kinds and kinds <= {float, int, type(None)} else column
 
 
+class RowList(list[Row]):
+    """Some rows of a table: a list of records that gives its columns as the table does, rows["impulse_normal"], and shows itself."""
+
+    @property
+    def columns(self) -> list[str]:
+        """Their names."""
+        return list(dict.fromkeys(name for row in self for name in row))
+
+    def column(self, name: str) -> Array:
+        """One value of each row, vectors as rows; NaN where there is none."""
+        values = [row[name] for row in self]
+        return as_array([value.tolist() if getattr(value, "ndim", 0) == 1 else value for value in values])
+
+    @overload
+    def __getitem__(self, index: SupportsIndex) -> Row: ...
+    @overload
+    def __getitem__(self, index: slice) -> RowList[Row]: ...
+    @overload
+    def __getitem__(self, index: str) -> Array: ...
+    def __getitem__(self, index: SupportsIndex | slice | str) -> Row | RowList[Row] | Array:
+        """A row, some of them, or a column by its name."""
+        if isinstance(index, str):
+            return self.column(index)
+        return RowList(super().__getitem__(index)) if isinstance(index, slice) else super().__getitem__(index)
+
+    def __repr__(self) -> str:
+        return _first_rows([dict(row.items()) for row in self], "rows")
+
+
+def _first_rows(rows: list[dict[str, Any]], what: str) -> str:
+    """A line for each column, with the first rows."""
+    most, names = 5, dict.fromkeys(name for row in rows for name in row)
+    def text(value: Any) -> str:
+        return "?" if value is None else f"{value:.6g}" if isinstance(value, float) else str(value)
+    lines = [f"{name:<28}" + "".join(f"{text(row.get(name)):>13}" for row in rows[:most]) for name in names]
+    return "\n".join([*lines, *([f"… {len(rows)} {what}"] if len(rows) > most else [])])
+
+
 class Result(Generic[Row]):
     """A result is the program's table: it shows itself as that, len(x) are its rows, x[0], x[-1], x[1:3] and a loop give them,
     x["impulse_normal"] is a column as an array, and pandas.DataFrame(x) the whole.
@@ -130,11 +168,11 @@ class Result(Generic[Row]):
         return objects
 
     @functools.cached_property
-    def rows(self) -> list[Row]:
+    def rows(self) -> RowList[Row]:
         """A record for each, whose keys are the columns."""
         names, objects = list(self._columns), self._objects()
         rows = zip(objects, zip(*map(_without_gaps, self._columns.values())))
-        return [self._row_class(one, dict(zip(names, row))) for one, row in rows]  # type: ignore[misc]
+        return RowList(self._row_class(one, dict(zip(names, row))) for one, row in rows)  # type: ignore[misc]
 
     @property
     def columns(self) -> list[str]:
@@ -156,10 +194,10 @@ class Result(Generic[Row]):
     @overload
     def __getitem__(self, index: int) -> Row: ...
     @overload
-    def __getitem__(self, index: slice) -> list[Row]: ...
+    def __getitem__(self, index: slice) -> RowList[Row]: ...
     @overload
     def __getitem__(self, index: str) -> Array: ...
-    def __getitem__(self, index: int | slice | str) -> Row | list[Row] | Array:
+    def __getitem__(self, index: int | slice | str) -> Row | RowList[Row] | Array:
         """A row, some of them, or a column by its name."""
         return self.column(index) if isinstance(index, str) else self.rows[index]
 
@@ -249,7 +287,7 @@ class States:
     @property
     def rows(self) -> list[Record]:
         """A record for each time."""
-        return self[:]
+        return [Record(row, flat(row)) for row in self._rows]
 
     def to_dict(self) -> list[dict[str, Any]]:
         """The program's JSON of each time."""
@@ -257,11 +295,7 @@ class States:
 
     def __repr__(self) -> str:
         """A line for each column, with the first times."""
-        most, rows = 5, [flat(row) for row in self._rows]
-        def text(value: Any) -> str:
-            return "?" if value is None else f"{value:.6g}" if isinstance(value, float) else str(value)
-        lines = [f"{name:<28}" + "".join(f"{text(row.get(name)):>13}" for row in rows[:most]) for name in self.columns]
-        return "\n".join([*lines, *([f"… {len(rows)} times"] if len(rows) > most else [])])
+        return _first_rows([flat(row) for row in self._rows], "times")
 
     if not TYPE_CHECKING:
         def __getattr__(self, name: str) -> Any:
@@ -280,20 +314,19 @@ class States:
         return len(self._rows)
 
     def __iter__(self) -> Iterator[Record]:
-        return iter(self[:])
+        return iter(self.rows)
 
     @overload
     def __getitem__(self, index: int) -> Record: ...
     @overload
-    def __getitem__(self, index: slice) -> list[Record]: ...
+    def __getitem__(self, index: slice) -> States: ...
     @overload
     def __getitem__(self, index: str) -> Array: ...
-    def __getitem__(self, index: int | slice | str) -> Record | list[Record] | Array:
+    def __getitem__(self, index: int | slice | str) -> Record | States | Array:
         """The state at a time, some of them, or a column by its name."""
         if isinstance(index, str):
             return self.column(index)
-        rows = self._rows[index]
-        return [Record(row, flat(row)) for row in rows] if isinstance(rows, list) else Record(rows, flat(rows))
+        return States(self._rows[index]) if isinstance(index, slice) else Record(self._rows[index], flat(self._rows[index]))
 
 
 class Run(Result[OneImpact]):

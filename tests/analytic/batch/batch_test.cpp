@@ -238,6 +238,23 @@ BOOST_AUTO_TEST_CASE(a_drop_that_is_none_is_refused_and_the_others_go_on) {
   BOOST_TEST(outcomes[3].total == outcomes[0].total);
 }
 
+BOOST_AUTO_TEST_CASE(arrays_that_are_left_out_have_the_values_of_a_drop_but_angle_and_speed_must_be_there) {
+  const std::vector<double> angle{0.2, 0.4}, fall{-1};
+  const BatchDrops drops{.body = make_rod({}), .inclination = angle, .normal = fall};
+  const Drop without = drops.drop(1), plain;
+  BOOST_TEST((without.velocity.tangential == plain.velocity.tangential));
+  BOOST_TEST((without.velocity.angular == plain.velocity.angular && without.gravity == plain.gravity));
+  BOOST_TEST((without.law.restitution == plain.law.restitution && without.law.friction == plain.law.friction));
+  std::vector<BatchOutcome> outcomes(2);
+  run_batch(drops, {}, 0, outcomes);
+  for (std::size_t i = 0; i < 2; ++i)
+    BOOST_TEST(outcomes[i].impacts == static_cast<int>(impact_sequence(drops.drop(i)).rows.size()));
+  BOOST_CHECK_THROW(run_batch({.body = make_rod({}), .inclination = angle, .normal = {}}, {}, 0, outcomes),
+                    std::invalid_argument);
+  BOOST_CHECK_THROW(run_batch({.body = make_rod({}), .inclination = {}, .normal = fall}, {}, 0, outcomes),
+                    std::invalid_argument);
+}
+
 BOOST_AUTO_TEST_CASE(arrays_of_two_lengths_a_limit_below_one_and_a_body_that_is_none_are_refused) {
   const std::vector<double> three{0.1, 0.2, 0.3}, two{-1, -1}, none{0}, one{1};
   std::vector<BatchOutcome> outcomes(3);

@@ -124,6 +124,16 @@ BOOST_AUTO_TEST_CASE(a_logarithmic_grid_has_clean_decades_and_both_its_ends) {
   const SweepAxis decades = read_grid_axis("k", "1e-3:1e4:log:8", false);
   BOOST_TEST(decades.count == 8);
   for (int i = 0; i < 8; ++i) BOOST_TEST(decades.at(i) == std::stod("1e" + std::to_string(i - 3)));
+  const SweepAxis fine = read_grid_axis("k", "0:90:lin:10001", false);
+  BOOST_TEST(fine.count == 10001);
+  BOOST_TEST(fine.at(0) == 0.);
+  BOOST_TEST(fine.at(1) == 0.009);
+  BOOST_TEST(fine.at(5000) == 45.);
+  BOOST_TEST(fine.at(10000) == 90.);
+  const SweepAxis falling = read_grid_axis("k", "1:0:lin:4", false);
+  BOOST_TEST(falling.at(1) == 0.666666666666667);
+  BOOST_TEST(falling.at(3) == 0.);
+  BOOST_TEST(read_grid_axis("k", "1:9:lin:5", true).at(3) == 7.);
   const SweepAxis down = read_grid_axis("k", "-300:-7:log:5", false);
   BOOST_TEST(down.at(0) == -300);
   BOOST_TEST(down.at(4) == -7);
@@ -155,8 +165,8 @@ BOOST_AUTO_TEST_CASE(axes_that_make_no_sense_are_refused_by_name) {
   refused("STEP", {"1:2:"}, false, read_grid_axis);
   refused("more than 1000000000 scenes", {"0:1:1e-10", "1:2:log:2e9", "-1e308:1e308:1"}, false, read_grid_axis);
   refused("each value of a list", {"1,,2", "1,2:3"}, false, read_grid_axis);
-  refused("COUNT", {"1:2:log:1", "1:2:log:2.5"}, false, read_grid_axis);
-  refused("whole", {"1,2.5", "1:8:log:4", "1:2:0.5"}, true, read_grid_axis);
+  refused("COUNT", {"1:2:log:1", "1:2:log:2.5", "1:2:lin:1", "1:2:lin:x"}, false, read_grid_axis);
+  refused("whole", {"1,2.5", "1:8:log:4", "1:2:0.5", "1:4:lin:3"}, true, read_grid_axis);
   refused("LOW:HIGH", {"1:2:3"}, false, read_random_axis);
   refused("LOW", {"nan:1"}, false, read_random_axis);
   refused("greater", {"2:1", "0:1:log"}, false, read_random_axis);

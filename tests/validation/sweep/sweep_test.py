@@ -451,6 +451,48 @@ class Scenes(Folder):
             parts = [run(*command[:-3], "--scenes", "0:40", "--output", self.path("a.h5"), "--check") for _ in range(2)]
             self.assertEqual([(part.returncode, part.stderr) for part in parts], [(0, f"clatter: {self.path('a.h5')} is whole, with 41 scenes\n")] * 2)
 
+    def test_check_says_of_each_part_and_of_all_of_them_what_they_lack(self):
+        command = ["sweep", self.scene, "--set", "drop.angle_deg=1:40:1"]
+        for suffix in [".csv"] + [".h5"] * bool(HDF5):
+            names = [name + suffix for name in "abcd"]
+            for name, scenes in zip(names, ("0:9", "10:38:2", "11:39:2", "5:12"), strict=True):
+                self.run_program(*command, "--scenes", scenes, "--output", name)
+            self.run_program(*command, "--set", "drop.speed=2", "--scenes", "10:19", "--output", "e" + suffix)
+            for parts, status, *lines in (
+                ("abc", 0, "a: scenes 0 to 9, whole", "b: scenes 10 to 38 by 2, whole", "c: scenes 11 to 39 by 2, whole", "40 of 40 scenes are there"),
+                ("ac", 1, "a: scenes 0 to 9, whole", "25 of 40 scenes are there; missing: 10, 12, 14, "),
+                ("abcd", 1, "d: scenes 5 to 12, whole", "40 of 40 scenes are there; more than once: 5 to 12"),
+                ("abcf", 1, "f: is not there, or empty", "40 of 40 scenes are there"),
+                ("ae", 1, "e: of another sweep (drop.speed is 2 there, 1 here)", "10 of 40 scenes are there; missing: 10 to 39"),
+            ):
+                with self.subTest(parts=parts, suffix=suffix):
+                    done = self.run_program(*command, "--check", "--parts", *(part + suffix for part in parts))
+                    self.assertEqual((done.returncode, done.stdout), (status, ""))
+                    for line in lines:
+                        self.assertIn("clatter: " + line.replace(": ", suffix + ": ", 1) if line[1] == ":" else line, done.stderr)
+        text = self.read("a.csv").splitlines(keepends=True)
+        self.write("a.csv", "".join(text[:-2]))
+        done = self.run_program(*command, "--check", "--parts", "a.csv", "b.csv", "c.csv")
+        self.assertIn("a.csv: scenes 0 to 9, lacks 2: 8 to 9", done.stderr)
+        self.assertIn("30 of 40 scenes are there; missing: 0 to 9", done.stderr)
+        for bad in ([], ["--check", "--output", "a.csv"], ["--check", "--scenes", "0:9"]):
+            self.refused("--parts", *command, "--parts", "a.csv", *bad)
+
+    def test_a_dry_run_tells_the_size_and_the_time_of_a_sweep_and_writes_nothing(self):
+        command = ["sweep", self.scene, "--set", "drop.angle_deg=1:80:lin:3000", "--output", "all.csv"]
+        done = self.run_program(*command, "--dry-run", "--threads", "4", "--format", "json")
+        [told] = json.loads(done.stdout)["rows"]
+        self.assertEqual((done.returncode, told["scenes"], told["threads"], told["tried"]), (0, 3000, 4, 1000))
+        self.assertNotIn("all.csv", os.listdir(self.folder))
+        self.assertEqual(told["time"], told["cpu_time"] / 4)
+        self.run_program(*command)
+        size = os.path.getsize(self.path("all.csv"))
+        self.assertLess(abs(told["bytes"] - size), 0.02 * size)  # a third of the rows, spread evenly
+        few = json.loads(self.run_program(*command[:-2], "--scenes", "0:6", "--dry-run", "--format", "json").stdout)["rows"][0]
+        self.assertEqual((few["scenes"], few["tried"]), (7, 7))
+        for bad in ("--summary", "--check", "--restart"):
+            self.refused("--dry-run", *command, "--dry-run", bad)
+
     def test_every_so_many_scenes_are_those_of_the_whole(self):
         for arguments in (["--set", "drop.angle_deg=1:40:1", "--set", "drop.speed=1,2"], ["--set", "drop.angle_deg=1:60", "--random", "100", "--seed", "7"]):
             whole = [line for line in self.sweep(self.scene, *arguments).splitlines() if line[0].isdigit()]

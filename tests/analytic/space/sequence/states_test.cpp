@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 #include <random>
+#include <stdexcept>
+#include <string>
 #include <vector>
 
 #include "analytic/plane/sequence.hpp"
@@ -136,6 +138,29 @@ BOOST_AUTO_TEST_CASE(before_a_drop_nothing_is_known_and_rows_are_as_many_as_aske
   }
   const space::Sequence late = impact_sequence(drop, {.impacts = 1000, .until_rest = true}, {60});
   BOOST_TEST(late.states.front().energy_error >= 0);
+}
+
+BOOST_AUTO_TEST_CASE(a_time_or_an_attitude_that_is_none_is_named_with_its_value) {
+  space::Drop drop;
+  drop.body = space::box(1, {.size = {0.2, 0.1, 0.05}});
+  drop.velocity = {0, 0, -1};
+  const auto says = [](const std::string& words) {
+    return
+        [words](const std::domain_error& error) { return std::string(error.what()).find(words) != std::string::npos; };
+  };
+  const auto run = [&](const std::vector<double>& times) { static_cast<void>(impact_sequence(drop, {}, times)); };
+  BOOST_CHECK_EXCEPTION(run({0, 0.5, 0.25, 1}), std::domain_error, says("times[2] = 0.25: "));
+  BOOST_CHECK_EXCEPTION(run({0, infinite}), std::domain_error, says("times[1] = inf: "));
+  BOOST_CHECK_EXCEPTION(run({std::nan("")}), std::domain_error, says("times[0] = nan: "));
+  BOOST_CHECK_NO_THROW(run({0, 0.5, 0.5}));
+  constexpr double rounded = 1e-7, mistaken = 1e-5;  // either side of the 1e-6 that counts as rounding
+  for (const double off : {-1.0, -mistaken, mistaken, 1.0, infinite, std::nan("")}) {
+    drop.attitude = Quaternion(1 + off, 0, 0, 0);
+    BOOST_CHECK_EXCEPTION(run({}), std::domain_error, says("length of the attitude's Euler parameters = "));
+    BOOST_CHECK_THROW(static_cast<void>(touch_height(drop.body, drop.attitude)), std::domain_error);
+  }
+  drop.attitude = Quaternion(1 + rounded, 0, 0, 0);
+  BOOST_CHECK_NO_THROW(run({}));
 }
 
 BOOST_AUTO_TEST_CASE(elastic_drops_that_run_backwards_return_within_their_errors) {
