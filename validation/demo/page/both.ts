@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Whether the continuous model stands beside the discrete one: the tick, what a link hides, and a scene in which it has no ground.
+// Whether the continuous model stands beside the discrete one: the tick, a link that takes model and tick away, and a scene without ground.
 import { byId, say } from "./dom";
 import { WITHOUT_GROUND } from "./sharing";
 import { lacksGround, usualLayout, type State } from "./state";
@@ -10,8 +10,10 @@ export class Both {
   private lacksGround = false;
 
   constructor(private readonly state: State, onChange: () => void) {
-    this.tick.checked = !state.hide.includes("continuous");
-    if (lacksGround()) {
+    const isHidden = state.hide.includes("continuous");
+    this.tick.checked = !state.alone && !isHidden;
+    byId("of-continuous").hidden = isHidden;
+    if (lacksGround() && !isHidden) {
       this.takeScene(false);
       say("file-said", `Opened: ${WITHOUT_GROUND}`);
     }
@@ -39,6 +41,6 @@ export class Both {
     const { state } = this;
     this.tick.checked = both;
     if (both && !state.lock.includes("layout")) state.layout = usualLayout(state.parameters);
-    state.hide = [...state.hide.filter((name) => name !== "continuous"), ...(both ? [] : ["continuous"])];
+    state.alone = !both;
   }
 }
