@@ -189,6 +189,9 @@ test("the answers are the program's", () => onPage("#predict=0&hide=map,explain"
   const blows = (...flags) => sequence(...flags).impacts.map((impact) => impact.impulse_normal.toFixed(3));
   assert.ok(words.includes(`${blows("--angle", "58.4")[1]} N·s at 58.4° and ${blows("--angle", "58.48")[1]} N·s at 58.48°`));
   assert.equal(blows("--angle", "58.49").length, 1);
+  // Between these two the second blow has its largest; all three are the same as the answer writes them.
+  const [below, largest, beyond] = ["47.05", "47.15", "47.25"].map((angle) => sequence("--angle", angle).impacts[1].impulse_normal);
+  assert.ok(largest > below && largest > beyond && words.includes(`At 47.15°, with ${largest.toFixed(4)} N·s`));
   const [first, second] = blows("--angle", "10", "--restitution", "0.5");
   assert.ok(words.includes(`${(second / first).toFixed(2)}, from ${second} N·s after ${first} N·s`));
   const phone = (angle) => blows("phone-damped", "--angle", angle);

@@ -222,10 +222,18 @@ test("in a lecture the picture is large, a class votes by hands, and the most ar
   await page.waitForFunction(() => !document.body.classList.contains("lecture"));
 }));
 
-test("a pupils' page has the exercises, and no sheet or lecture that holds their answers", () => onPage("#hide=answers", async (page) => {
-  await page.waitForSelector("#prediction:not([hidden])");
-  const shown = await Promise.all(["exercises-print", "answers-print", "lesson-print", "lecture"].map((id) => page.isVisible(`#${id}`)));
-  assert.deepEqual(shown, [true, false, false, false]);
+test("a pupils' page has the exercises, and no sheet, lecture or print that holds their answers: its handout ends at the fold", () => onPage("#hide=answers", async (page) => {
+  await page.waitForSelector("#impact-table tbody tr", { state: "attached" });
+  const visible = (...parts) => Promise.all(parts.map((part) => page.isVisible(part)));
+  assert.deepEqual(await visible("#exercises-print", "#handout-print", "#answers-print", "#lesson-print", "#lecture", "#print"), [true, true, false, false, false, false]);
+  const telling = ["#story", "#panel-strip", "#panel-table", "#panel-profile", "#panel-numbers", "#panel-explain", "#handout .fold"];
+  for (const way of ["a browser's own print", "the handout"]) {
+    if (way === "the handout") await page.evaluate(() => { window.print = () => undefined; document.getElementById("handout-print").click(); });
+    await page.emulateMedia({ media: "print" });
+    assert.deepEqual([way, await visible(...telling)], [way, telling.map(() => false)]);
+    assert.equal(await page.isVisible("#handout-drop"), way === "the handout");
+    await page.emulateMedia({ media: "screen" });
+  }
 }));
 
 test("each other drop is asked about, until one is only shown", () => onPage("", async (page) => {

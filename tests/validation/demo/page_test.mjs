@@ -79,6 +79,20 @@ test("gravity, restitution, friction and body enter the discrete model", () => o
     await waitForCell(page, "Impulse", 0, impacts[0].impulse_normal);
     close(await column(page, "Impulse"), impacts.map((i) => i.impulse_normal), SHOWN);
     close((await column(page, "Time")).slice(1), impacts.map((i) => i.start).slice(1), SHOWN);
+    const heads = () => page.locator("#impact-table thead th").evaluateAll((all) => all.map(({ firstChild }) => firstChild.textContent));
+    const rubbing = ["Pₙ", "Pₜ", "mode"];
+    assert.deepEqual((await heads()).filter((head) => ["Impulse", ...rubbing].includes(head)), rubbing);
+    close(await column(page, "Pₜ"), impacts.map((i) => i.impulse_tangential), SHOWN);
+    const modes = page.locator('#impact-table tr[data-model="discrete"] td[data-column="mode"]');
+    assert.deepEqual(await modes.allTextContents(), impacts.map(({ mode }) => mode));
+    const [download] = await Promise.all([page.waitForEvent("download"), page.click("#csv")]);
+    const [head, ...lines] = readFileSync(await download.path(), "utf8").trim().split("\n").map((line) => line.split(","));
+    const inFile = (name) => lines.filter(([model]) => model === "discrete").map((line) => line[head.indexOf(name)]);
+    assert.deepEqual(inFile("mode"), impacts.map(({ mode }) => mode));
+    close(inFile("impulse_tangential_N_s").map(Number), impacts.map((i) => i.impulse_tangential), 1e-12);
+    await page.fill("#friction", "0");
+    await page.waitForFunction(() => !document.querySelector('[data-column="mode"]'));
+    assert.deepEqual((await heads()).filter((name) => ["Impulse", ...rubbing].includes(name)), ["Impulse"]);
   }));
 
 onOnePage("a rod that loses energy", "#predict=0&gravity=9.81&e=0.8", {
@@ -270,7 +284,7 @@ test("the equations stay with the impact that was chosen while another one is pl
   await page.waitForFunction(() => document.getElementById("explain-title").textContent === "How impact 1 came about");
 }));
 
-test("without the continuous model the discrete one is alone, in a link, too", () => onPage("#predict=0&hide=map,explain,continuous", async (page) => {
+test("without the continuous model the discrete one is alone, in a link, too: its reader's tick brings it back, one that is hidden does not", () => onPage("#predict=0&models=discrete&hide=map,explain", async (page) => {
   await page.waitForSelector('tr[data-model="discrete"]');
   const itsOwn = ["#motion .legend", '[data-layout="side"]', '#tabs [data-tab="force"]', "#panel-force", "#stiffness", ".ground-note"];
   const visible = () => Promise.all(itsOwn.map((part) => page.locator(part).first().isVisible()));
@@ -279,7 +293,24 @@ test("without the continuous model the discrete one is alone, in a link, too", (
   await page.waitForSelector('tr[data-model="continuous"]');
   assert.deepEqual(await visible(), itsOwn.map(() => true));
   await page.uncheck("#with-continuous");
-  await page.waitForFunction(() => !document.querySelector('tr[data-model="continuous"]') && location.hash.includes("continuous"));
+  await page.waitForFunction(() => !document.querySelector('tr[data-model="continuous"]') && location.hash.includes("models=discrete"));
+  await Promise.all([page.waitForEvent("load"), page.evaluate(() => { location.hash = "#predict=0&tab=all&hide=map,explain,continuous"; })]);
+  await page.waitForSelector('tr[data-model="discrete"]');
+  assert.deepEqual([await page.isVisible("#with-continuous"), await page.textContent("#spinner"), await visible()], [false, "", itsOwn.map(() => false)]);
+}));
+
+test("along the body no number is cut, however small it is", () => onPage("#predict=0&angle=0.1&hide=map,explain", async (page) => {
+  await page.waitForSelector("#impact-table tbody tr");
+  for (const n of [1, 2, 3]) {
+    await page.click(`button[data-choose="${n}"]`);
+    // Without loss the end that strikes comes back at 1 m/s.
+    if (n === 1) assert.deepEqual(await page.locator("#profile-picture text.after").allTextContents(), ["1.00", "−2.00"]);
+    assert.deepEqual(await page.locator("#profile-picture svg").evaluate((picture) => {
+      const { left, right } = picture.getBoundingClientRect();
+      return [...picture.querySelectorAll("text")].map((text) => [text.textContent, text.getBoundingClientRect()])
+        .filter(([, box]) => box.left < left || box.right > right).map(([text]) => text);
+    }), []);
+  }
 }));
 
 test("along the body the speeds are those of the corner that strikes, which comes back with e times its speed", () => onPage(

@@ -198,6 +198,8 @@ export interface Impact {
   energy_before: number;
   energy_after: number;
   energy_loss: number;
+  /** Whether it slipped or stuck, in turn. */
+  mode?: string;
   /** False if errors have grown so far that nothing can be said about this impact; by so many times. */
   predictable?: boolean;
   amplification?: number | null;
@@ -205,7 +207,7 @@ export interface Impact {
 }
 
 /** Error bars, by the names of the numbers. */
-export type Bars = Partial<Record<"start" | "contact_angle_deg" | "impulse_normal" | "duration" | "peak_force" | "energy_loss", number | null>
+export type Bars = Partial<Record<"start" | "contact_angle_deg" | "impulse_normal" | "impulse_tangential" | "duration" | "peak_force" | "energy_loss", number | null>
   & Record<"velocity_after" | "angular_velocity_after", Vector>>;
 
 /** Columns of the time history that the page reads. */

@@ -128,8 +128,8 @@ export class ForceChart {
 
 const WIDTH = 420;
 const HEIGHT = 220;
-const LEFT = 48;
-const RIGHT = 372;
+const LEFT = 72;  // beside a number such as −0.00123
+const RIGHT = WIDTH - LEFT;
 
 /** Upward velocity at the two ends, or at two opposite sides of a disc, in line with the place that touches in this attitude [m/s]. */
 function velocities(motion: Motion, time: number, touch: Rotation): [number, number] {

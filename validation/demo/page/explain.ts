@@ -1,16 +1,23 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // How the chosen impact came about: the program's equations, in its own TeX.
 import katex from "katex";
+import { Latest } from "./api";
 import { byId, make } from "./dom";
 
-export interface ExplainAnswer {
+/** After a change, until the equations are asked for [ms]. */
+const DELAY = 80;
+
+interface ExplainAnswer {
   /** Formulas in TeX are lines of an aligned environment. */
   steps: {
     title: string; text: string; laws: { symbolic: string; tex: string }[]; equations: { name: string; tex: string; words: string }[];
   }[];
 }
 
-export function showExplanation({ steps }: ExplainAnswer): void {
+export const explaining = new Latest<ExplainAnswer, null>(
+  DELAY, showExplanation, ({ message }) => byId("explain-steps").replaceChildren(make("p", { class: "quiet" }, message)));
+
+function showExplanation({ steps }: ExplainAnswer): void {
   byId("explain-steps").replaceChildren(...steps.map(({ title, text, laws, equations }) => make("section", { class: "step" },
     make("h3", {}, title), make("p", {}, ...withSubscripts(text)),
     ...laws.map(({ symbolic, tex }) => formulaElement(symbolic, tex)),

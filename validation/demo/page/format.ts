@@ -11,8 +11,10 @@ export function significant(value: number | null | undefined, digits = 4): strin
     const [mantissa = "", exponent = ""] = value.toExponential(Math.max(0, digits - 2)).split("e");
     return withMinus(`${Number(mantissa)}·10${superscript(Number(exponent))}`);
   }
-  const places = Math.min(20, Math.max(0, digits - 1 - Math.floor(Math.log10(size))));
-  return withMinus(Number(value.toPrecision(digits)).toFixed(places));
+  // 0.9999 rounds to 1.00, which has a digit less behind its point.
+  const rounded = Number(value.toPrecision(digits));
+  const places = Math.min(20, Math.max(0, digits - 1 - Math.floor(Math.log10(Math.abs(rounded)))));
+  return withMinus(rounded.toFixed(places));
 }
 
 /** With so many decimals; what rounds to zero is zero. */

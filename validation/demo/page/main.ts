@@ -1,40 +1,34 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The page: from a change of the situation to the requests, and from their answers to the panels.
-import { ApiError, Latest } from "./api";
+import { ApiError } from "./api";
+import { Both } from "./both";
 import { Capture } from "./capture";
-import { ForceChart, showProfile } from "./charts";
+import { showProfile } from "./charts";
 import { Controls } from "./controls";
-import { byId, make, say } from "./dom";
-import { showExplanation, type ExplainAnswer } from "./explain";
+import { byId } from "./dom";
+import { explaining } from "./explain";
 import { FanPanel } from "./fan";
-import { MODELS, frameAt, impactAt, scalesOf, type ModelName, type Scales } from "./frame";
-import { InHand, awaitedFrame } from "./grab";
+import { impactAt, type ModelName } from "./frame";
+import { InHand } from "./grab";
 import { AngleMap } from "./map";
 import { Models } from "./models";
-import { hasEnded } from "./motion";
-import { momentAt, showEnergies, showNumbers } from "./numbers";
-import { OrbitControl } from "./orbit";
 import { Tabs, Waiting, hidePanels, setUpLayout, setUpLecture, setUpOpening, setUpPrinting } from "./panels";
-import { firstSpeed, isInPlane, isThinRod, restitutionOf } from "./parameters";
-import { showPatch } from "./patch";
+import { isInPlane } from "./parameters";
+import { Picture } from "./picture";
 import { Player, TimeWarp, Transport } from "./playback";
 import { Prediction } from "./prediction";
-import { explainRequest, gravityNumber, keyOf, sequenceRequest } from "./requests";
-import { SceneFile, WITHOUT_GROUND, download, setUpSharing } from "./sharing";
+import { explainRequest, keyOf, sequenceRequest } from "./requests";
+import { SceneFile, download, setUpSharing } from "./sharing";
 import { Strip } from "./sketch";
 import { Sound } from "./sound";
-import { Stage } from "./stage";
-import { lacksGround, readAddress, usualLayout, wrongInAddress, writeAddress, type State } from "./state";
+import { readAddress, usualLayout, wrongInAddress, writeAddress, type State } from "./state";
 import { Story } from "./story";
 import { ImpactTable, csvOf } from "./table";
 import { setUpTracks } from "./tracks";
-import { impactInWords, outcomeInWords, showNotes } from "./words";
+import { outcomeInWords, showNotes } from "./words";
 
-/** After a change, until the equations are asked for, and until the drop is played [ms]. */
-const EXPLAIN_DELAY = 80;
+/** After a change, until the drop is played [ms]. */
 const PLAY_DELAY = 350;
-
-const isChecked = (id: string): boolean => byId<HTMLInputElement>(id).checked;
 
 /** What decides about the blows, however many of them are asked for. */
 function dropOf({ parameters }: State): string {
@@ -43,7 +37,6 @@ function dropOf({ parameters }: State): string {
 
 class Page {
   private readonly state: State = readAddress();
-  private scales: Scales = scalesOf({ discrete: null, continuous: null });
   private asked = 0;
   /** Until the first answer the time is that of the link. */
   private hasShown = false;
@@ -56,11 +49,11 @@ class Page {
   private askedOf = dropOf(this.state);
   private isBroken = false;
 
-  private readonly stage = new Stage();
-  private readonly orbit = new OrbitControl(byId("stage"), () => this.draw());
-  private readonly force = new ForceChart();
   private readonly table = new ImpactTable((model, n) => this.goToImpact(model, n));
   private readonly fan = new FanPanel(this.state, () => { this.draw(); this.remember(); });
+  private readonly models = new Models(
+    () => this.onAnswer(), (model, error) => this.onError(model, error), (busy) => this.waiting.show(busy));
+  private readonly picture = new Picture(this.state, this.models, this.fan, () => this.draw());
   private readonly strip = new Strip((model, n) => this.goToImpact(model, n));
   private readonly sound = new Sound(this.state.lock.includes("sound"));
   private readonly tabs = new Tabs(this.state, () => this.remember());
@@ -80,7 +73,7 @@ class Page {
     setSlow: (slow) => { this.state.slow = slow; this.rewarp(); this.remember(); },
   });
 
-  private readonly hand = new InHand(this.state, this.stage, this.orbit, {
+  private readonly hand = new InHand(this.state, this.picture.stage, this.picture.orbit, {
     motion: () => this.models.motions.discrete,
     time: () => (this.prediction.isOpen ? this.models.motions.discrete?.begin ?? 0 : this.player.time),
     onHold: () => {
@@ -96,12 +89,9 @@ class Page {
     },
   });
 
-  /** Whether the continuous model is computed, too. */
-  private lacksGround = false;  // and has no continuous model for that reason
-  private readonly both = byId<HTMLInputElement>("with-continuous");
-  private readonly waiting = new Waiting(() => this.both.click());
-
-  private readonly capture = new Capture(() => this.stage.redraw(), () => { if (!this.prediction.isOpen) this.playAnew(); });
+  private readonly both = new Both(this.state, () => this.update());
+  private readonly waiting = new Waiting(() => this.both.leave());
+  private readonly capture = new Capture(() => this.picture.stage.redraw(), () => { if (!this.prediction.isOpen) this.playAnew(); });
 
   private readonly story = new Story(this.state, {
     onEnter: () => {
@@ -117,11 +107,6 @@ class Page {
     onShow: () => this.showAnew(),
   });
 
-  private readonly models = new Models(
-    () => this.onAnswer(), (model, error) => this.onError(model, error), (busy) => this.waiting.show(busy));
-  private readonly explaining = new Latest<ExplainAnswer, null>(
-    EXPLAIN_DELAY, showExplanation, ({ message }) => byId("explain-steps").replaceChildren(make("p", { class: "quiet" }, message)));
-
   constructor() {
     const { state } = this;
     hidePanels(state);
@@ -129,10 +114,7 @@ class Page {
     this.player.rate = state.rate;
     this.showLayout = setUpLayout(state, () => this.onTime());
     new SceneFile(state, (hasGround) => {
-      if (hasGround ? this.lacksGround : this.both.checked) {
-        this.setBoth(hasGround);
-        this.lacksGround = !hasGround;
-      }
+      this.both.takeScene(hasGround);
       this.player.pause();
       this.controls.refresh();
       this.change();
@@ -140,19 +122,8 @@ class Page {
     setUpSharing(state, (asks) => { if (asks) this.prediction.open(); });
     byId("csv").addEventListener("click", () => download("impacts.csv", csvOf(this.models.impacts), "text/csv"));
     if (state.predict) this.prediction.open();
-    for (const id of ["traces", "speeds"]) byId(id).addEventListener("change", () => this.draw());
     setUpPrinting(() => [state.impact, this.player.time], (n, time) => this.put(n, time));
     setUpLecture((on) => this.prediction.setVoting(on), () => this.onTime());
-    this.both.checked = !state.hide.includes("continuous");
-    if (lacksGround()) {
-      this.lacksGround = this.both.checked;
-      this.setBoth(false);
-      say("file-said", `Opened: ${WITHOUT_GROUND}`);
-    }
-    this.both.addEventListener("change", () => {
-      this.setBoth(this.both.checked);
-      this.update();
-    });
     const wrong = wrongInAddress(state);
     if (wrong) this.controls.setError("address", new ApiError(wrong));
     // Another link to this page, opened where it stands.
@@ -160,12 +131,6 @@ class Page {
     this.controls.refresh();
     this.update();
     this.draw();
-  }
-
-  private setBoth(both: boolean): void {
-    this.both.checked = both;
-    if (both && !this.state.lock.includes("layout")) this.state.layout = usualLayout(this.state.parameters);
-    this.state.hide = [...this.state.hide.filter((name) => name !== "continuous"), ...(both ? [] : ["continuous"])];
   }
 
   /** Whoever guesses is asked again for each other drop, until "Just show me". */
@@ -194,18 +159,14 @@ class Page {
     this.showLayout();
     this.asked = performance.now();
     this.followsImpact = this.hasShown;
-    const both = this.both.checked;
+    const both = this.both.areShown;
     document.body.classList.toggle("discrete-only", !both);
     byId("of-ground").classList.toggle("serves-both", parameters.ofGround);
     this.tabs.setUsable("force", both);
     if (!both) this.state.layout = "overlay";
     this.models.ask(parameters, both);
     this.fan.update();
-    const speed = firstSpeed(parameters);
-    const hasMap = isThinRod(parameters) && speed > 0;
-    this.tabs.setUsable("map", hasMap);
-    if (hasMap) void this.map.show(gravityNumber(parameters, speed), restitutionOf(parameters));
-    this.map.setAngle(parameters.angle);
+    this.tabs.setUsable("map", this.map.show(parameters));
     showNotes(parameters);
     this.remember();
   }
@@ -226,7 +187,7 @@ class Page {
 
   private onAnswer(): void {
     const { models } = this;
-    this.scales = scalesOf(models.motions);
+    this.picture.rescale();
     this.rewarp();
     this.prediction.setImpacts(models.steps);
     this.story.setImpacts(models.steps);
@@ -275,40 +236,16 @@ class Page {
 
   /** What goes wrong in it is told, and the rest of the page goes on. */
   private draw(): void {
+    const { player } = this;
     try {
-      this.drawAll();
+      this.transport.show(player.time, player.progress, player.playing, player.slowness);
+      if (!this.hand.draw()) this.picture.draw(player.time, player.playing, this.prediction.isOpen);
       if (this.isBroken) this.controls.setError("picture", null);
       this.isBroken = false;
     } catch (error) {
       this.isBroken = true;
       this.controls.setError("picture", new ApiError(`this moment cannot be drawn: ${String(error)}`));
     }
-  }
-
-  private drawAll(): void {
-    const { player, state } = this;
-    const { time } = player;
-    this.transport.show(time, player.progress, player.playing, player.slowness);
-    if (this.hand.draw()) return;
-    const impact = impactAt(this.models.steps, time);
-    // Before the guess the picture shows the fall, not yet the blow.
-    const shown = this.prediction.isOpen ? (this.models.motions.discrete?.begin ?? 0) : time;
-    const frame = this.models.discrete ? frameAt(this.models.motions, shown, this.scales, state.layout === "side", isChecked("traces") && !this.prediction.isOpen) : awaitedFrame(state.parameters);
-    if (!isChecked("speeds")) frame.arrows = frame.arrows.filter(({ kind }) => kind !== "speed");
-    if (!this.prediction.isOpen) frame.ghosts.push(...this.fan.ghosts(time, player.playing));
-    this.stage.draw(frame, this.orbit.orbit);
-    const { motions } = this.models;
-    const moment = momentAt(motions, this.models.pairing, time);
-    showNumbers(motions, moment);
-    for (const model of MODELS) {
-      const [motion, own] = [motions[model], moment.times[model]];
-      showEnergies(model, motion && own !== null ? motion.energies(own) : null, motion !== null && hasEnded(motion, time));
-    }
-    this.force.setTime(time, motions.continuous?.end ?? Infinity);
-    showPatch(motions.continuous, time);
-    // A sheet and a question do not tell what they ask for.
-    const tells = !this.prediction.isOpen && !document.body.classList.contains("handout");
-    say("caption", impact && tells ? impactInWords(this.models.steps, impact.n) : "Falling");
   }
 
   private choose(n: number, explained = n): void {
@@ -414,11 +351,11 @@ class Page {
 
   private showChosen(): void {
     const { models: { continuous, motions }, state: { impact } } = this;
-    this.force.show(continuous, motions.discrete, impact);
+    this.picture.force.show(continuous, motions.discrete, impact);
     showProfile(motions.discrete, impact);
     if (this.state.hide.includes("explain") || !this.models.discrete) return;
     byId("explain-title").textContent = `How impact ${this.explained} came about`;
-    this.explaining.ask(explainRequest(this.state.parameters, this.explained), null);
+    explaining.ask(explainRequest(this.state.parameters, this.explained), null);
   }
 
   private remember(): void {

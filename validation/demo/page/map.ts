@@ -6,7 +6,8 @@ import { FONT, axis, chartSize, paint, upright } from "./charts";
 import { COLOURS } from "./colours";
 import { byId } from "./dom";
 import { fixed } from "./format";
-import { anglesRequest, keyOf } from "./requests";
+import { firstSpeed, isThinRod, restitutionOf, type Parameters } from "./parameters";
+import { anglesRequest, gravityNumber, keyOf } from "./requests";
 
 interface AngleRow {
   theta_deg: number;
@@ -42,8 +43,18 @@ export class AngleMap {
     new ResizeObserver(() => this.plot?.setSize(chartSize(this.box, HEIGHT))).observe(this.box);
   }
 
+  /** @return whether this situation has a map */
+  show(parameters: Parameters): boolean {
+    const speed = firstSpeed(parameters);
+    const has = isThinRod(parameters) && speed > 0;
+    if (has) void this.ask(gravityNumber(parameters, speed), restitutionOf(parameters));
+    this.theta = parameters.angle;
+    this.plot?.redraw(false);
+    return has;
+  }
+
   /** Asks for the map of another gravity number or coefficient of restitution, and then closer to its folds. */
-  async show(gravity: number, e: number): Promise<void> {
+  private async ask(gravity: number, e: number): Promise<void> {
     const request = anglesRequest(gravity, e, 0, 90, 91);
     const key = keyOf(request);
     if (key === this.shown || !Number.isFinite(gravity)) return;
@@ -68,11 +79,6 @@ export class AngleMap {
       // What is wrong with the situation is said next to the controls; the map keeps its last good state.
       if (isNewest()) this.shown = "";
     }
-  }
-
-  setAngle(theta: number): void {
-    this.theta = theta;
-    this.plot?.redraw(false);
   }
 
   private draw(rows: AngleRow[]): void {

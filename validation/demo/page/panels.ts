@@ -5,7 +5,10 @@ import { PANELS, type State } from "./state";
 
 export function hidePanels({ hide }: State): void {
   for (const panel of [...PANELS, "controls"]) byId(panel === "story" ? "story" : `panel-${panel}`).hidden = hide.includes(panel);
-  for (const id of ["answers-print", "lesson-print", "lecture"]) byId(id).hidden = hide.includes("answers");
+  const hidesAnswers = hide.includes("answers");
+  for (const id of ["answers-print", "lesson-print", "lecture", "print"]) byId(id).hidden = hidesAnswers;
+  // Nor does paper tell: a handout ends at its fold.
+  document.body.classList.toggle("no-answers", hidesAnswers);
   document.body.classList.toggle("no-controls", hide.includes("controls"));
 }
 

@@ -113,7 +113,7 @@ export class SceneFile {
       const hasGround = namesGround(Object.keys(answer.arguments));
       this.onOpen(hasGround);
       const locked = kept.length ? [`locked, and kept: ${kept.join(", ")}`] : [];
-      return [`Opened ${name}`, ...answer.notes, ...(hasGround ? [] : [WITHOUT_GROUND]), ...locked].join("; ");
+      return [`Opened ${name}`, ...answer.notes, ...(hasGround || this.state.hide.includes("continuous") ? [] : [WITHOUT_GROUND]), ...locked].join("; ");
     });
   }
 

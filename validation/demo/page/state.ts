@@ -19,7 +19,7 @@ const LOCKED: readonly string[] = ["scene", "file", "story", "sound", "layout", 
 /** Words that mean something in an address, and numbers. */
 const WORDS: Readonly<Record<string, readonly (string | number)[]>> = {
   body: Object.keys(BODIES), turn: TURNS, drop: DROPS, planar: [0, 1], law: ["ground"], layout: ["overlay", "side"], rate: RATES, slow: [0, 1],
-  predict: [0, 1], tremor: TREMORS, fan: [0, 1], tab: [...PANELS, "all"], given: [1],
+  predict: [0, 1], tremor: TREMORS, fan: [0, 1], tab: [...PANELS, "all"], models: ["discrete"], given: [1],
 };
 const NUMBERS: readonly string[] = [...QUANTITIES, "impact", "t"];
 
@@ -67,6 +67,8 @@ export interface State {
   /** How far a hand misses the tilt to either side [°], and whether the picture shows what comes of that. */
   tremor: number;
   fan: boolean;
+  /** Whether the reader has taken the continuous model away; a link that hides it takes its tick, too. */
+  alone: boolean;
   lock: string[];
   hide: string[];
   /** The panel below the picture, or "all". */
@@ -81,7 +83,7 @@ export function usualLayout(parameters: Parameters): State["layout"] {
 /** Of a scene's arguments without a control: their names in a link begin so. */
 const EXTRA = "with.";
 /** What a link says of the view, not of the situation. */
-const VIEW = ["impact", "t", "layout", "rate", "slow", "predict", "tremor", "fan", "lock", "hide", "tab", "given"];
+const VIEW = ["impact", "t", "layout", "rate", "slow", "predict", "tremor", "fan", "models", "lock", "hide", "tab", "given"];
 
 /** The choice without which a quantity would not be the one that counts. */
 function choiceOf(quantity: Quantity): keyof Choices | null {
@@ -123,6 +125,7 @@ function toQuery(state: State): URLSearchParams {
   if (!state.predict) query.set("predict", "0");
   if (state.tremor !== 0.5) query.set("tremor", String(state.tremor));
   if (state.fan) query.set("fan", "1");
+  if (state.alone) query.set("models", "discrete");
   if (state.lock.length) query.set("lock", state.lock.join(","));
   if (state.tab !== "strip") query.set("tab", state.tab);
   if (state.hide.length) query.set("hide", state.hide.join(","));
@@ -170,6 +173,7 @@ export function stateOf(text: string): State {
     predict: query.get("predict") !== "0",
     tremor: TREMORS.find((tremor) => tremor === number("tremor", 0.5)) ?? 0.5,
     fan: query.get("fan") === "1",
+    alone: query.get("models") === "discrete",
     lock: list("lock"),
     hide: list("hide"),
     tab: [...PANELS, "all"].find((tab) => tab === query.get("tab")) ?? "strip",

@@ -9,16 +9,23 @@ import { CONTINUOUS_DIGITS } from "./requests";
 
 interface Column {
   title: string;
+  /** The program's name of it, where only that tells it from its neighbour: with friction. */
+  rubbing?: string;
+  needsFriction?: true;
   unit: string;
   value: (impact: Impact) => number | null;
   /** Its error bar, in the same unit. */
   error: (bars: Bars) => number | null | undefined;
+  /** In place of a value. */
+  words?: (impact: Impact) => string;
 }
 
 const COLUMNS: readonly Column[] = [
   { title: "Time", unit: "s", value: (i) => i.start, error: (bars) => bars.start },
   { title: "Angle", unit: "°", value: (i) => i.contact_angle_deg, error: (bars) => bars.contact_angle_deg },
-  { title: "Impulse", unit: "N·s", value: (i) => i.impulse_normal, error: (bars) => bars.impulse_normal },
+  { title: "Impulse", rubbing: "Pₙ", unit: "N·s", value: (i) => i.impulse_normal, error: (bars) => bars.impulse_normal },
+  { title: "Pₜ", needsFriction: true, unit: "N·s", value: (i) => i.impulse_tangential, error: (bars) => bars.impulse_tangential },
+  { title: "mode", needsFriction: true, unit: "", value: () => null, error: () => null, words: ({ mode }) => mode ?? "–" },
   { title: "Velocity after", unit: "m/s", value: (i) => i.velocity_after[2], error: (bars) => bars.velocity_after?.[2] },
   {
     title: "Spin after", unit: "rad/s", value: (i) => i.angular_velocity_after[1],
@@ -41,18 +48,36 @@ export class ImpactTable {
   private readonly notes = byId("pairing");
   /** Of each column, whatever the model. */
   private largest: number[] = [];
+  private readonly head = make("tr");
+  private rubs = false;
 
   constructor(private readonly onChoose: (model: ModelName, n: number) => void) {
-    const heads = COLUMNS.map(({ title, unit }) => make("th", { scope: "col" }, title, make("span", { class: "unit" }, unit)));
+    this.showHead();
+    this.table.append(make("thead", {}, this.head), this.body);
+  }
+
+  private get columns(): readonly Column[] {
+    return this.rubs ? COLUMNS : COLUMNS.filter(({ needsFriction }) => !needsFriction);
+  }
+
+  private showHead(): void {
+    const heads = this.columns.map(({ title, rubbing, unit }) =>
+      make("th", { scope: "col" }, (this.rubs && rubbing) || title, make("span", { class: "unit" }, unit)));
     const first = ["Impact", "Model", "Where"].map((title) => make("th", { scope: "col" }, title));
-    this.table.append(make("thead", {}, make("tr", {}, ...first, ...heads)), this.body);
+    this.head.replaceChildren(...first, ...heads);
+    this.table.classList.toggle("rubs", this.rubs);
   }
 
   /** Rows of one impact stand together where it is the same in both models. */
   show(impacts: Impacts, pairing: Pairing | null, chosen: number): void {
     const paired = pairing?.count ?? 0;
     const all = MODELS.flatMap((model) => impacts[model] ?? []);
-    this.largest = COLUMNS.map(({ value }) => Math.max(0, ...all.map((impact) => Math.abs(value(impact) ?? 0))));
+    const rubs = all.some(({ mode = "frictionless" }) => mode !== "frictionless");
+    if (rubs !== this.rubs) {
+      this.rubs = rubs;
+      this.showHead();
+    }
+    this.largest = this.columns.map(({ value }) => Math.max(0, ...all.map((impact) => Math.abs(value(impact) ?? 0))));
     const groups = Array.from({ length: paired }, (_, i) => MODELS.map((model) => ({ model, impact: impacts[model]?.[i] })));
     for (const model of MODELS) for (const impact of impacts[model]?.slice(paired) ?? []) groups.push([{ model, impact }]);
     // Rows that are replaced while the focus is on one of their buttons would lose it.
@@ -79,16 +104,16 @@ export class ImpactTable {
       const isOther = model === "continuous" && group.length === 1;
       const marks = [n === chosen && !isOther ? "chosen" : "", impact.predictable === false ? "unpredictable" : ""].filter(Boolean);
       const row = make("tr", { "data-impact": isOther ? "" : n, "data-model": model, class: marks.join(" ") });
-      if (i === 0) row.append(this.head(n, n === chosen && !isOther, group.length, model));
+      if (i === 0) row.append(this.button(n, n === chosen && !isOther, group.length, model));
       const where = (impact.corners ?? impact.end).replace(/-(?=[xyz])/g, "−");
       row.append(make("td", {}, make("span", { class: `swatch ${model}` }), model), make("td", {}, where));
-      row.append(...COLUMNS.map((column, place) => cell(column, beyondRounding(column.value(impact), this.largest[place]), impact, model)));
+      row.append(...this.columns.map((column, place) => cell(column, beyondRounding(column.value(impact), this.largest[place]), impact, model)));
       row.addEventListener("click", () => this.onChoose(model, n));
       return [row];
     });
   }
 
-  private head(n: number, isChosen: boolean, rows: number, model: ModelName): HTMLElement {
+  private button(n: number, isChosen: boolean, rows: number, model: ModelName): HTMLElement {
     const alone = rows > 1 ? "" : ` of the ${model} model`;
     const choose = rows > 1 || model === "discrete" ? String(n) : `${model}-${n}`;
     const label = model === "continuous" ? `Show impact ${n}${alone}` : `Explain impact ${n}${alone}`;
@@ -113,8 +138,9 @@ function unpredictableInWords(impacts: readonly Impact[], model: ModelName): str
 }
 
 /** Digits that the error bar takes away fade. */
-function cell({ title, error }: Column, value: number | null, impact: Impact, model: ModelName): HTMLElement {
+function cell({ title, error, words }: Column, value: number | null, impact: Impact, model: ModelName): HTMLElement {
   if (impact.predictable === false) return make("td", { class: "number", "data-column": title, title: "Cannot be predicted" }, "?");
+  if (words) return make("td", { class: "number", "data-column": title }, words(impact));
   const bar = (impact.error_estimate && error(impact.error_estimate)) ?? 0;
   const left = digitsLeft(value ?? 0, bar);
   const told = left < DIGITS[model] ? { title: `± ${significant(bar, 2)}` } : {};
@@ -136,6 +162,7 @@ const CSV: readonly [string, (impact: Impact) => number | string | null][] = [
   ["velocity_z_m_s", (i) => i.velocity_after[2]], ["spin_rad_s", (i) => i.angular_velocity_after[1]],
   ["spin_x_rad_s", (i) => i.angular_velocity_after[0]], ["spin_z_rad_s", (i) => i.angular_velocity_after[2]],
   ["energy_before_J", (i) => i.energy_before], ["energy_after_J", (i) => i.energy_after], ["energy_loss_J", (i) => i.energy_loss],
+  ["mode", (i) => i.mode ?? ""],
 ];
 
 /** All digits that the program gave; a number that a model does not have is empty. */
