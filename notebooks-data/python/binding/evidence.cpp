@@ -108,7 +108,7 @@ py::tuple compare_against(const std::string& name, const std::optional<std::stri
     return judged(
         files, options, watch,
         [&](const std::string& file, const auto& names) { return judge_file(file, reference, names); },
-        [&](const Submissions& all) { return against_report(scene, reference, all); });
+        [&](const Submissions& all) { return against_report(scene, reference, all, true); });
   };
   return py::cast(run_interruptible(work, progress));
 }
