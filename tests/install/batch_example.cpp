@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Ten thousand rods at 0.5° to 29.5°: how many impacts each has, the hardest one, and what that gains per degree.
 #include <array>
 #include <clatter/analytic.hpp>

@@ -16,6 +16,7 @@
 #include "validation/output/numeric_table.hpp"
 #include "validation/output/text_rows.hpp"
 #include "validation/shock/damage_boundary.hpp"
+#include "validation/shock/required_spectrum.hpp"
 #include "validation/shock/shock_history.hpp"
 #include "validation/shock/shock_pulses.hpp"
 
@@ -26,20 +27,16 @@ namespace {
 constexpr std::size_t least_rows = 8;
 
 constexpr double g = standard_gravity;
-constexpr UnitName units_of_acceleration[]{
-    {"g", g},     {"gn", g},    {"g_n", g},        {"mg", 1e-3 * g}, {"m/s^2", 1},   {"m/s2", 1},
-    {"m/s²", 1},  {"m/s/s", 1}, {"m s^-2", 1},     {"m s-2", 1},     {"ms-2", 1},    {"ms^-2", 1},
-    {"m.s-2", 1}, {"m·s⁻²", 1}, {"meters/s^2", 1}, {"mm/s^2", 1e-3}, {"m/sec^2", 1}, {"m/s**2", 1}};
 constexpr UnitName time_units[]{{"s", 1},     {"sec", 1},   {"seconds", 1}, {"second", 1}, {"ms", 1e-3},
                                 {"us", 1e-6}, {"µs", 1e-6}, {"μs", 1e-6},   {"ns", 1e-9},  {"min", 60}};
 
-constexpr std::span<const UnitName> record_units[]{units_of_acceleration, time_units};
+constexpr std::span<const UnitName> record_units[]{acceleration_units, time_units};
 
 using RecordColumn = TextRows::Column;
 
 bool is_time(const RecordColumn& column) {
   const std::string name = lower(column.name);
-  if (factor_of(units_of_acceleration, column.unit)) return false;
+  if (factor_of(acceleration_units, column.unit)) return false;
   return name == "t" || name == "zeit" || name == "elapsed" || name == "seconds" || name == "timestamp" ||
          name.starts_with("time") || name.ends_with("time");
 }
@@ -119,7 +116,7 @@ class Reader {
       if (!is_time(column) && time_ != k && !is_by_the_way(column) && std::isfinite(rows_.at(0, k))) axes_.push_back(k);
     }
     const auto has_unit = [&](std::size_t k) {
-      return factor_of(units_of_acceleration, rows_.columns()[k].unit).has_value();
+      return factor_of(acceleration_units, rows_.columns()[k].unit).has_value();
     };
     if (request_.columns.empty() && std::any_of(axes_.begin(), axes_.end(), has_unit))
       std::erase_if(axes_, [&](std::size_t k) { return !has_unit(k); });
@@ -157,7 +154,7 @@ class Reader {
     std::array<double, 3> factors{};
     for (std::size_t a = 0; a < axes_.size(); ++a) {
       const RecordColumn& column = rows_.columns()[axes_[a]];
-      const std::optional<double> stated = factor_of(units_of_acceleration, column.unit);
+      const std::optional<double> stated = factor_of(acceleration_units, column.unit);
       if (!stated && !request_.unit)
         rows_.refuse(fmt::format("column {}: its unit is not stated: --unit g or --unit m/s2 says it", column.name));
       factors[a] = request_.unit ? (*request_.unit == AccelerationUnit::g ? g : 1) : *stated;
@@ -182,8 +179,6 @@ class Reader {
 };
 
 }  // namespace
-
-std::span<const UnitName> acceleration_units() { return units_of_acceleration; }
 
 double AccelerationRecord::step() const {
   std::vector<double> steps;

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <optional>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -20,9 +19,6 @@ namespace clatter::validation {
 //
 // A file is a text with a row of numbers for each instant, read by TextRows; a sampling rate is taken from the lines
 // above the rows.
-
-/// Units of acceleration as files write them, in m/s².
-[[nodiscard]] std::span<const UnitName> acceleration_units();
 
 enum class AccelerationUnit { g, metre_per_second_squared };
 

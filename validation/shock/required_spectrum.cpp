@@ -7,8 +7,6 @@
 #include <cmath>
 
 #include "validation/output/number.hpp"
-#include "validation/output/text_rows.hpp"
-#include "validation/shock/measured_shock.hpp"
 
 namespace clatter::validation {
 namespace {
@@ -38,12 +36,12 @@ std::optional<double> RequiredSpectrum::at(double frequency) const {
 }
 
 RequiredSpectrum read_required_spectrum(const std::string& path) {
-  const std::span<const UnitName> units[]{acceleration_units(), frequency_units};
+  const std::span<const UnitName> units[]{acceleration_units, frequency_units};
   const TextRows rows(path, units, "a frequency and an acceleration for each breakpoint are needed");
   if (rows.columns().size() != 2)
     rows.refuse(fmt::format("{} columns: must be two, a frequency and an acceleration", rows.columns().size()));
-  const std::size_t f = factor_of(acceleration_units(), rows.columns()[0].unit) ? 1 : 0;
-  const auto acceleration = factor_of(acceleration_units(), rows.columns()[1 - f].unit);
+  const std::size_t f = factor_of(acceleration_units, rows.columns()[0].unit) ? 1 : 0;
+  const auto acceleration = factor_of(acceleration_units, rows.columns()[1 - f].unit);
   if (!acceleration)
     rows.refuse(fmt::format("column {}: its unit must stand above the rows: {} (g), or m/s^2",
                             rows.columns()[1 - f].name, rows.columns()[1 - f].name));

@@ -7,9 +7,31 @@
 #include <utility>
 #include <vector>
 
+#include "validation/output/text_rows.hpp"
+#include "validation/shock/damage_boundary.hpp"
 #include "validation/shock/shock_run.hpp"
 
 namespace clatter::validation {
+
+/// Units of acceleration as files write them, in m/s².
+inline constexpr UnitName acceleration_units[]{{"g", standard_gravity},
+                                               {"gn", standard_gravity},
+                                               {"g_n", standard_gravity},
+                                               {"mg", 1e-3 * standard_gravity},
+                                               {"m/s^2", 1},
+                                               {"m/s2", 1},
+                                               {"m/s²", 1},
+                                               {"m/s/s", 1},
+                                               {"m s^-2", 1},
+                                               {"m s-2", 1},
+                                               {"ms-2", 1},
+                                               {"ms^-2", 1},
+                                               {"m.s-2", 1},
+                                               {"m·s⁻²", 1},
+                                               {"meters/s^2", 1},
+                                               {"mm/s^2", 1e-3},
+                                               {"m/sec^2", 1},
+                                               {"m/s**2", 1}};
 
 /// Maximax accelerations over natural frequency, straight lines between breakpoints in logarithmic scales.
 struct RequiredSpectrum {

@@ -45,7 +45,7 @@ struct ShockView {
                                    const ShockView& view);
 /// Pseudo-velocity and acceleration over natural frequency; models other than the first one's are dashed.
 [[nodiscard]] std::vector<PicturePanel> spectrum_panels(const std::vector<NamedSpectrum>& shown, const ShockView& view);
-/// Of each model the spectrum of most impacts, without flat drops.
+/// For each model the spectrum of most impacts, without flat drops.
 [[nodiscard]] std::vector<NamedSpectrum> wholes_of(const std::vector<NamedSpectrum>& spectra);
 /// How each spectrum stands to the required one, a sentence each; none: nothing is required.
 [[nodiscard]] std::vector<std::string> required_words(const std::vector<NamedSpectrum>& spectra, const ShockView& view,
