@@ -106,6 +106,24 @@ ContactScales contact_scales(ContactSystem& system, const MotionState& touch, co
   return scales;
 }
 
+/// An instant within a step, by its ends: the state by Hermite's cubic, rates and forces linearly, so that none exceeds
+/// those of the ends.
+ContactInstant between(const ContactInstant& a, const ContactInstant& b, double time) {
+  const double h = b.time - a.time, x = (time - a.time) / h, rest = 1 - x;
+  const auto along = [&](auto&& from, auto&& to) { return rest * from + x * to; };
+  ContactInstant at = a;
+  at.time = time;
+  at.state =
+      rest * rest * ((1 + 2 * x) * a.state + x * h * a.rate) + x * x * ((1 + 2 * rest) * b.state - rest * h * b.rate);
+  euler_parameters(at.state).normalize();
+  at.rate = along(a.rate, b.rate);
+  at.diagnosis.load.force = along(a.diagnosis.load.force, b.diagnosis.load.force);
+  at.diagnosis.load.energy = along(a.diagnosis.load.energy, b.diagnosis.load.energy);
+  at.diagnosis.friction.east = along(a.diagnosis.friction.east, b.diagnosis.friction.east);
+  at.diagnosis.friction.north = along(a.diagnosis.friction.north, b.diagnosis.friction.north);
+  return at;
+}
+
 /// How many times the tolerance the errors of steps keep up, so that a rough run ends too.
 constexpr double noise_per_tolerance = 300;
 
@@ -169,6 +187,8 @@ class StepControl {
     }
   }
 
+  /// Whether the step that was taken last, found or not, is accurate.
+  [[nodiscard]] bool is_accurate() const { return step_.error_order() == 0 || error() <= 1; }
   /// Length of the step found last [s].
   [[nodiscard]] double taken() const { return taken_; }
   /// Length of a fixed step [s]; 0: the method is adaptive.
@@ -489,6 +509,14 @@ class ContactRun::Contact {
     friction_.follow(now_);
   }
 
+  /// An instant `h` [s] into an accepted step: the end of a shorter step, where that is accurate.  An implicit step
+  /// over an unstable slip may not be, however accurate the whole one is: at one length it has a pole.
+  [[nodiscard]] bool take_inside(const ContactInstant& next, double h, ContactInstant& at) {
+    if (!step_.take(now_, h, at)) return false;
+    if (!steps_.is_accurate()) at = between(now_, next, now_.time + h);
+    return true;
+  }
+
   /// A step of no length, to an event where the step before it ended, is not shown, nor one of which an instant is no
   /// number.
   void show_step(const ContactInstant& next) {
@@ -498,7 +526,7 @@ class ContactRun::Contact {
     inside_.front() = now_;
     inside_.back() = next;
     for (std::size_t i = 1; i + 1 < inside_.size(); ++i) {
-      if (!step_.take(now_, shown_->parts[i] * h, inside_[i])) return;
+      if (!take_inside(next, shown_->parts[i] * h, inside_[i])) return;
     }
     shown_->show(inside_);
   }
@@ -507,7 +535,7 @@ class ContactRun::Contact {
     const long evaluations = system_.evaluations();
     for (; next_time_ < shown_->times.size() && shown_->times[next_time_] < next.time; ++next_time_) {
       const double h = shown_->times[next_time_] - now_.time;
-      const bool is_number = !(h > 0) || step_.take(now_, h, aside_);
+      const bool is_number = !(h > 0) || take_inside(next, h, aside_);
       shown_->at_time(next_time_, !is_number ? nullptr : h > 0 ? &aside_ : &now_);
     }
     system_.set_aside(system_.evaluations() - evaluations);
