@@ -145,6 +145,14 @@ class SequenceLoop {
                                 : "the body is at rest");
   }
 
+  /// The motion after all that is known to be none.
+  void lies_still() {
+    const std::string slides = "the body slides on";
+    const std::size_t at = result_.message.find(slides);
+    if (at != std::string::npos) result_.message.replace(at, slides.size(), "the body is at rest");
+    result_.moves_on = false;
+  }
+
   /// Infinitely many impacts have ended in `tail`.
   /// @param then  ", then the body ..."; empty: nothing comes before what rest() says
   void end_in(AnyTail tail, bool turns, bool slides, const std::string& stays, const std::string& then = "") {

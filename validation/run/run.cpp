@@ -357,10 +357,7 @@ void settle_outcome(bool followed, bool stops, Run& run) {
   if (motion.kind == "rolls") run.outcome = "rolls-on";
   if (motion.kind == "rests" || (motion.kind != "rolls" && followed && motion.ends())) run.outcome = "at-rest";
   const std::string words = words_of(motion);
-  if (words.empty()) {
-    say_instead(run.message, "the body slides on", "the body is at rest");
-    return;
-  }
+  if (words.empty()) return;
   say_instead(run.message, "; the body slides and turns on its round surface, which impacts do not describe", "");
   run.message += "; " + words;
 }

@@ -427,7 +427,10 @@ class Run : public SequenceLoop<Sequence, ErrorGrowth> {
     }
     const GroundedMotion motion(drop_, state_, lying_);
     result_.last_motion = motion.summary();
-    if (result_.last_motion) result_.last_motion->begin = time_, result_.last_motion->begin_error = end_errors_.time;
+    if (result_.last_motion) {
+      result_.last_motion->begin = time_, result_.last_motion->begin_error = end_errors_.time;
+      if (result_.last_motion->kind == LastMotion::Kind::rests) lies_still();
+    }
     const StateErrors& error = end_errors_;
     while (awaits(infinite)) {
       // Before time_ a sum stands for hops that are rounding of the heights.

@@ -286,6 +286,20 @@ BOOST_AUTO_TEST_CASE(slide_and_spin_end_together_and_late_states_are_at_rest) {
   BOOST_TEST(at[1].state.angular_velocity.norm() == 0);
 }
 
+BOOST_AUTO_TEST_CASE(a_phone_that_rests_in_the_end_does_not_move_on) {
+  Drop phone;
+  phone.body = make_box({.mass = 0.2, .length = 0.15, .thickness = 0.01});
+  phone.inclination = Angle::from_degrees(25);
+  phone.velocity.normal = -4;
+  phone.gravity = g;
+  phone.law = {.restitution = 0.5, .friction = FrictionKind::coulomb, .friction_value = 0.3};
+  const space::Sequence s = impact_sequence(space::in_space(phone), {.impacts = 2000, .until_rest = true});
+  BOOST_REQUIRE(s.last_motion);
+  BOOST_CHECK(s.last_motion->kind == space::LastMotion::Kind::rests);
+  BOOST_TEST(!s.moves_on);
+  BOOST_TEST(s.message.ends_with("the body is at rest"));
+}
+
 BOOST_AUTO_TEST_CASE(a_ball_slips_until_five_sevenths_of_its_speed_are_left_and_rolls_on) {
   space::Drop drop;
   const double r = 0.1, mu = 0.2, v = 6;
