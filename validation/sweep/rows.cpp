@@ -32,7 +32,9 @@ constexpr SceneNumber scene_numbers[]{
     {"largest_peak_force", "N", "largest peak force", &Totals::largest_peak, true},
     {"largest_indentation", "m", "greatest depth of a point of the body below the ground", &Totals::largest_depth,
      true},
-    {"energy_loss", "J", "energy lost in all impacts listed", &Totals::energy_loss},
+    {"energy_loss", "J",
+     "energy lost in all impacts; where these are infinitely many, or contacts last, what is lost to their end",
+     &Totals::energy_loss},
     {"last_start", "s", "touch-down of the last impact, after that of the first", &Totals::last_start}};
 
 /// A number of a probe, which has a column for its error.
@@ -398,7 +400,8 @@ void append_rest(const RowForm& form) {
 /// The one row of a scene with its sums.
 void append_scene_row(const RowForm& form, const Run& run) {
   const Model model = form.layout.model;
-  const Totals sums = totals(run);
+  Totals sums = totals(run);
+  if (form.energy_loss) sums.energy_loss = *form.energy_loss;
   form.out.copy(form.prefix);
   form.out.whole(sums.impacts);
   form.out.word(run.outcome);

@@ -133,6 +133,7 @@ struct RowForm {
   std::string reason;
   std::string warning{};                   ///< what the law does that no contact does
   std::vector<LargestShock> shocks{};      ///< of the layout's probes
+  std::optional<Estimated> energy_loss{};  ///< where impacts and contacts that are not listed take some, too [J]
   std::optional<RestFace> rest{};          ///< where the layout asks for it
   std::optional<Estimated> curve_depth{};  ///< of a pad: depth in the first landing over that of its last point
 };

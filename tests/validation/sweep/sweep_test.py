@@ -187,6 +187,25 @@ class SameAsTheOtherCommands(Folder):
         self.check(swept, rows_of("simulate", PHONE, "--size", "0.10566x0.04394x0.02", *QUICK_FLAGS), "body.size.thickness", 0.02)
 
 
+class EnergyToRest(Folder):
+    def test_a_drop_to_rest_loses_all_that_its_fall_gave_it(self):
+        """m g (h - height of the centre of mass at rest): upright, flat and tipped over in the plane, on faces in space."""
+        box = "[drop]\nheight = 1\n[body]\nshape = 'box'\nsize = [0.3, 0.2, 0.1]\nmass = 1.2\n[impact]\nrestitution = 0.4\nfriction = 0.3\n"
+        rod = "[drop]\nheight = 1\n[body]\nradius = 0\n[impact]\nrestitution = 0.5\n"
+        for scene, mass, drops in ((rod, 1, {"drop.angle_deg=90": 0.5, "drop.angle_deg=0": 0}), (box, 1.2, {"drop.angle_deg=0": 0.05, "drop.angle_deg=90": 0.15, "drop.angle_deg=30": None,
+                                   "drop.attitude=[1,0,0,0]": 0.05, "drop.orientation=1": 0.15, "drop.orientation=4": 0.1})):
+            for drop, height in drops.items():
+                with self.subTest(drop, mass=mass):
+                    arguments = [self.write("fall.toml", scene), *(word for key in (drop, "run.until_rest=true", "impact.restitution=0.5") for word in ("--set", key)), "--columns", "rest_face"]
+                    row, = records(run("sweep", *arguments).stdout)
+                    self.assertEqual(row["outcome"], "at-rest")
+                    lies = height if height is not None else {"x": 0.15, "y": 0.1, "z": 0.05}[row["rest_face"][1]]
+                    lost, error = float(row["energy_loss"]), float(row["energy_loss_error"] or "inf")
+                    self.assertLessEqual(abs(lost - mass * 9.81 * (1 - lies)), min(error, 1e-9))
+                    if height is not None:
+                        self.assertLess(error, 1e-9)
+
+
 class Scenes(Folder):
     def test_the_last_set_varies_fastest_and_one_value_is_no_column(self):
         text = self.sweep(self.scene, "--set", "drop.angle_deg=10:20:10", "--set", "drop.speed=2",
