@@ -10,6 +10,7 @@
 
 #include "validation/output/cells.hpp"
 #include "validation/output/report.hpp"
+#include "validation/sweep/scenes_told.hpp"
 
 namespace clatter::validation {
 
@@ -19,7 +20,7 @@ struct ColumnFileHead {
   std::vector<std::string> truths{};                            ///< names of those that say true or false
   std::vector<std::pair<std::string, std::string>> attributes;  ///< of the whole file: title, scene, ...
   long long rows = 0;                                           ///< how many are to come, for the size of its chunks
-  std::string fell_short{};                                     ///< of its scenes, in words; empty: none
+  ScenesTold told{};                                            ///< of its scenes
 };
 
 /// A file that takes rows and holds columns.
@@ -42,7 +43,7 @@ void require_hdf5();
 /// is nothing.  Each has its unit and its meaning as attributes.
 /// @throws BadInput where the program was built without HDF5, std::runtime_error if the file cannot be written
 [[nodiscard]] std::unique_ptr<ColumnFile> open_hdf5(const std::string& path, const ColumnFileHead& head);
-/// What stands in an HDF5 file of the attributes that such a head has, what fell short, and as `rows` the scene of its
+/// What stands in an HDF5 file of the attributes that such a head has, what is told, and as `rows` the scene of its
 /// last row; none: there is no such file.
 [[nodiscard]] std::optional<ColumnFileHead> read_hdf5_head(const std::string& path, ColumnFileHead head);
 

@@ -170,7 +170,8 @@ class Hdf5File final : public ColumnFile {
   Hdf5File(const std::string& path, const ColumnFileHead& head)
       : file_(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), H5Fclose) {
     for (const auto& [name, text] : head.attributes) write_attribute(file_, name, text);
-    write_attribute(file_, "fell_short", head.fell_short);
+    write_attribute(file_, "fell_short", head.told.fell_short);
+    write_attribute(file_, "set_aside", head.told.set_aside);
     const Handle options(H5Pcreate(H5P_GROUP_CREATE), H5Pclose);
     require(H5Pset_obj_track_times(options, false));
     const Handle words(H5Gcreate2(file_, "words", H5P_DEFAULT, options, H5P_DEFAULT), H5Gclose);
@@ -209,7 +210,7 @@ extern "C" bool clatter_read_hdf5_head(const std::string& path, clatter::validat
   try {
     const Handle file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
     for (auto& [name, text] : head.attributes) text = attribute_of(file, name);
-    head.fell_short = attribute_of(file, "fell_short");
+    head.told = {attribute_of(file, "fell_short"), attribute_of(file, "set_aside")};
     head.rows = static_cast<long long>(last_of(file, "index"));
     return true;
   } catch (const std::runtime_error&) {

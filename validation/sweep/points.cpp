@@ -209,6 +209,11 @@ SweepAxis read_grid_axis(const std::string& key, const std::string& text, bool w
   const std::size_t parts = given.parts().size();
   if (parts == 4 && given.parts()[2] == "log") return read_ratio_axis(given, key, whole);
   if (parts == 4 && given.parts()[2] == "lin") return read_even_axis(given, key, whole);
+  if (parts == 3 && (given.parts()[2] == "log" || given.parts()[2] == "lin")) {
+    const std::string& kind = given.parts()[2];
+    given.refuse(fmt::format("{} needs a COUNT, FROM:TO:{}:COUNT{}", kind, kind,
+                             kind == "log" ? "; LOW:HIGH:log is drawn with --random N" : ""));
+  }
   if (parts != 3) given.refuse("must be VALUE, A,B,..., FROM:TO:STEP, FROM:TO:lin:COUNT or FROM:TO:log:COUNT");
   SweepAxis axis{
       .key = key, .first = given.number(0, "FROM"), .last = 0, .step = given.number(2, "STEP"), .whole = whole};

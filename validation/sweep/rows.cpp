@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <optional>
+#include <sstream>
+#include <stdexcept>
 #include <string_view>
 
 #include "validation/output/bad_input.hpp"
@@ -30,7 +32,9 @@ constexpr SceneNumber scene_numbers[]{
     {"largest_peak_force", "N", "largest peak force", &Totals::largest_peak, true},
     {"largest_indentation", "m", "greatest depth of a point of the body below the ground", &Totals::largest_depth,
      true},
-    {"energy_loss", "J", "energy lost in all impacts listed", &Totals::energy_loss},
+    {"energy_loss", "J",
+     "energy lost in all impacts; where these are infinitely many, or contacts last, what is lost to their end",
+     &Totals::energy_loss},
     {"last_start", "s", "touch-down of the last impact, after that of the first", &Totals::last_start}};
 
 /// A number of a probe, which has a column for its error.
@@ -164,7 +168,11 @@ std::vector<Column> scene_columns(const RowLayout& layout) {
 std::vector<Column> result_columns(const RowLayout& layout) {
   const bool of_impacts = layout.rows == RowKind::impact;
   std::vector<Column> columns = of_impacts ? columns_of_impacts(layout) : scene_columns(layout);
-  if (of_impacts) columns.push_back(outcome_column());
+  if (of_impacts) {
+    columns.push_back(outcome_column());
+    columns.push_back({scene_rows_column, scene_rows_column, "",
+                       "rows of the scene: one for each impact, and one for the tail of infinitely many"});
+  }
   if (layout.warns) {
     columns.push_back(word_column("warning", "warning",
                                   "what the law does that no contact does: it creates energy, or an impulse ratio "
@@ -345,8 +353,9 @@ void append_ending(const RowForm& form) {
 }
 
 /// Ends a row of an impact.
-void append_ending(const RowForm& form, const char* outcome) {
+void append_ending(const RowForm& form, const char* outcome, std::size_t scene_rows) {
   form.out.word(outcome);
+  form.out.whole(static_cast<long long>(scene_rows));
   append_ending(form);
 }
 
@@ -354,8 +363,8 @@ void append_empty_row(const RowForm& form, std::optional<int> impacts, const cha
   const std::size_t columns = result_columns(form.layout).size() - (form.layout.warns ? 1 : 0);
   form.out.copy(form.prefix);
   if (form.layout.rows == RowKind::impact) {
-    form.out.nothing(columns - 2);
-    return append_ending(form, outcome);
+    form.out.nothing(columns - 3);
+    return append_ending(form, outcome, 1);
   }
   if (impacts) form.out.whole(*impacts);
   else form.out.nothing();
@@ -391,7 +400,8 @@ void append_rest(const RowForm& form) {
 /// The one row of a scene with its sums.
 void append_scene_row(const RowForm& form, const Run& run) {
   const Model model = form.layout.model;
-  const Totals sums = totals(run);
+  Totals sums = totals(run);
+  if (form.energy_loss) sums.energy_loss = *form.energy_loss;
   form.out.copy(form.prefix);
   form.out.whole(sums.impacts);
   form.out.word(run.outcome);
@@ -510,6 +520,25 @@ std::vector<std::string> truth_columns(const RowLayout& layout) {
   return names;
 }
 
+std::size_t column_place(const RowLayout& layout, std::string_view column) {
+  const std::vector<Column> columns = sweep_columns(layout);
+  const auto found = std::ranges::find(columns, column, &Column::name);
+  if (found == columns.end()) throw std::invalid_argument(std::string(column) + ": no column of these rows");
+  return static_cast<std::size_t>(found - columns.begin());
+}
+
+std::string_view csv_cell(std::string_view row, std::size_t place) {
+  bool is_quoted = false;
+  std::size_t begin = 0;
+  for (std::size_t i = 0; i <= row.size(); ++i) {
+    if (i < row.size() && row[i] == '"') is_quoted = !is_quoted;
+    if (i < row.size() && (row[i] != ',' || is_quoted)) continue;
+    if (place-- == 0) return row.substr(begin, i - begin);
+    begin = i + 1;
+  }
+  return {};
+}
+
 std::string row_prefix(long long index, const std::vector<double>& values, bool packed) {
   std::string prefix;
   CellWriter out(prefix, packed);
@@ -529,7 +558,7 @@ void append_rows(const RowForm& form, const Run& run) {
                    .columns = columns_model(form.layout),
                    .errors = form.errors,
                    .predictions = form.predictions});
-    append_ending(form, run.outcome);
+    append_ending(form, run.outcome, run.impacts.size() + (run.tail ? 1 : 0));
   };
   for (const Impact& impact : run.impacts) append(impact);
   if (run.tail) append(run.tail->sum);
@@ -568,17 +597,31 @@ void ShortfallCount::count(std::string_view index, const Words& row) {
     last_cut_ = index;
     ++cut_;
   }
-  if (reason.empty() || outcome == "refused" || outcome == "outside-model" || index == last_) return;
+  if (reason.empty() || index == last_) return;
   last_ = index;
-  if (found_.count() > 0) found_.add("", "falls short");
-  else found_.add(last_, std::string(reason));
+  Shortfalls& kind = outcome == "refused" ? refused_ : outcome == "outside-model" ? outside_ : found_;
+  kind.add(last_, std::string(kind.count() > 0 ? "as another" : reason));
+}
+
+ScenesTold ShortfallCount::told(long long all, const char* what) const {
+  const auto words = [&](const Shortfalls& some, const char* are) {
+    return some.count() == 0 ? "" : fmt::format("{} of {} {} are {}; {}", some.count(), all, what, are, some.first());
+  };
+  const std::string refused = words(refused_, "refused"), outside = words(outside_, "outside the model");
+  return {.fell_short = found_.words(all, what),
+          .set_aside = refused + (refused.empty() || outside.empty() ? "" : "\n") + outside};
+}
+
+void ScenesTold::say() const {
+  for (const std::string& lines : {set_aside, fell_short}) {
+    std::istringstream parts(lines);
+    for (std::string line; std::getline(parts, line);) validation::say(line);
+  }
 }
 
 void ShortfallCount::add_row(std::string_view row) {
   const std::string_view index = row.substr(0, row.find(','));
-  std::string_view outcome = row;
-  for (std::size_t i = 0; i < outcome_; ++i) outcome.remove_prefix(outcome.find(',') + 1);
-  outcome = outcome.substr(0, outcome.find(','));
+  const std::string_view outcome = csv_cell(row, outcome_);
   const std::string_view reason = take_last_cell(row), warning = warns_ ? take_last_cell(row) : std::string_view();
   count(index, {.outcome = outcome, .warning = warning, .reason = reason});
 }

@@ -16,6 +16,7 @@
 #include "validation/scene/scene.hpp"
 #include "validation/shock/damage_boundary.hpp"
 #include "validation/shock/shock_rows.hpp"
+#include "validation/sweep/scenes_told.hpp"
 
 namespace clatter::validation {
 
@@ -71,13 +72,20 @@ void read_impact_columns(const std::string& names, int impacts, RowLayout& layou
 ///     [s], in both the largest change of its velocity over an impact [m/s] and which impact that is, both once more of
 ///     the first landing, and with a part its least margin and that of the first landing with their impacts, the error
 ///     of each of these numbers, in the discrete model warning, reason;
-/// or per impact what `clatter sequence` and `clatter simulate` write as CSV, the scene's outcome and reason; where
-/// scenes may leave their plane, what `clatter sequence` writes in space.
-/// The reason says why a scene has no numbers, fewer impacts than asked for or fewer digits than required; else it is
-/// empty.  Errors and predictable are empty where no errors were asked for, an error alone where it is not known.
+/// or per impact what `clatter sequence` and `clatter simulate` write as CSV, the scene's outcome, how many rows it
+/// has, and reason; where scenes may leave their plane, what `clatter sequence` writes in space. The reason says why a
+/// scene has no numbers, fewer impacts than asked for or fewer digits than required; else it is empty.  Errors and
+/// predictable are empty where no errors were asked for, an error alone where it is not known.
 [[nodiscard]] std::vector<Column> sweep_columns(const RowLayout& layout);
 /// Names of columns that say true or false, where rows have them.
 [[nodiscard]] std::vector<std::string> truth_columns(const RowLayout& layout);
+
+/// The column of rows of impacts that tells how many rows their scene has.
+inline constexpr const char* scene_rows_column = "scene_rows";
+/// @throws std::invalid_argument if rows have no such column
+[[nodiscard]] std::size_t column_place(const RowLayout& layout, std::string_view column);
+/// A cell of a row of CSV, quotes and all; empty: there are not so many.
+[[nodiscard]] std::string_view csv_cell(std::string_view row, std::size_t place);
 
 /// What all rows of a scene begin with.
 [[nodiscard]] std::string row_prefix(long long index, const std::vector<double>& values, bool packed);
@@ -125,6 +133,7 @@ struct RowForm {
   std::string reason;
   std::string warning{};                   ///< what the law does that no contact does
   std::vector<LargestShock> shocks{};      ///< of the layout's probes
+  std::optional<Estimated> energy_loss{};  ///< where impacts and contacts that are not listed take some, too [J]
   std::optional<RestFace> rest{};          ///< where the layout asks for it
   std::optional<Estimated> curve_depth{};  ///< of a pad: depth in the first landing over that of its last point
 };
@@ -134,7 +143,7 @@ void append_rows(const RowForm& form, const Run& run);
 void append_failure(const RowForm& form, const char* outcome);
 
 /// Counts the scenes that fall short of what was asked, those with a reason that were neither refused nor outside the
-/// model, those that end at run.impacts, and those that warn.
+/// model; these; those that end at run.impacts, and those that warn.
 class ShortfallCount {
  public:
   ShortfallCount(const RowLayout& layout, bool packed);
@@ -143,6 +152,8 @@ class ShortfallCount {
   void add(std::string_view rows);
 
   [[nodiscard]] const Shortfalls& found() const { return found_; }
+  /// "50 of 300 scenes are refused; 2: WHY".
+  [[nodiscard]] ScenesTold told(long long all, const char* what = "scenes") const;
   /// Scenes that end at run.impacts, where more impacts may follow.
   [[nodiscard]] long long cut() const { return cut_; }
   /// Scenes whose rows have a warning.
@@ -159,7 +170,7 @@ class ShortfallCount {
   bool packed_, warns_;
   std::size_t outcome_ = 0;  ///< place of that column
   std::vector<PackedCell> cells_;
-  Shortfalls found_;
+  Shortfalls found_, refused_, outside_;
   std::string last_;  ///< index of the last of them
   long long cut_ = 0;
   std::string last_cut_;

@@ -18,6 +18,8 @@
 #include <span>
 #include <sstream>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "numeric/base/linear_algebra.hpp"
@@ -422,7 +424,7 @@ std::string lines_of(const ColumnFileHead& head) {
 /// What FILE has of a sweep.
 struct FileThere {
   FoundRows rows;
-  std::string fell_short;  ///< of its scenes, in words; empty: none
+  ScenesTold told{};  ///< of its scenes
 };
 
 /// None: there is no such file, or an empty one.  @throws BadInput if it is there and not of this sweep
@@ -439,8 +441,9 @@ std::optional<FileThere> file_there(const SweepInput& input, const SweepPlan& pl
     if (!is_own_file(input.output, lines, lines_of(own))) return there;
     const auto is_there = head->rows == plan.range.last();
     there.rows = {.scenes = is_there ? plan.range.count : 0, .last = head->rows};
+    if (is_there) there.rows.there = {{0, plan.range.count}};
     if (!is_there) there.rows.amiss = fmt::format("its last row is of scene {}", head->rows);
-    there.fell_short = head->fell_short;
+    there.told = head->told;
     return there;
   }
   if (input.bare) {
@@ -455,14 +458,18 @@ std::optional<FileThere> file_there(const SweepInput& input, const SweepPlan& pl
     return there;
   }
   std::vector<double> values;
-  const ExpectedRows expected{
-      .scenes = plan.range, .has_one_each = plan.layout.rows == RowKind::scene, .begins = [&](long long scene) {
-        plan.points.at(scene, values);
-        return row_prefix(scene, values, false);
-      }};
+  const ExpectedRows expected{.scenes = plan.range,
+                              .begins =
+                                  [&](long long scene) {
+                                    plan.points.at(scene, values);
+                                    return row_prefix(scene, values, false);
+                                  },
+                              .scene_rows = plan.layout.rows == RowKind::impact
+                                                ? std::optional(column_place(plan.layout, scene_rows_column))
+                                                : std::nullopt};
   ShortfallCount found(plan.layout, false);
   there.rows = find_rows(file, expected, [&](std::string_view row) { found.add(row); });
-  there.fell_short = found.found().words(plan.range.count, "scenes");
+  there.told = found.told(plan.range.count);
   return there;
 }
 
@@ -491,10 +498,7 @@ class SweepOutput {
   [[nodiscard]] long long first() const { return file_ ? file_->scenes() : 0; }
   [[nodiscard]] long long cut() const { return shortfalls_.cut(); }
   [[nodiscard]] long long warned() const { return shortfalls_.warned(); }
-  /// "4 of 1000 scenes fall short; 17: WHY"; empty: none does.
-  [[nodiscard]] std::string fell_short() const {
-    return fell_short_ ? *fell_short_ : shortfalls_.found().words(plan_.range.count, "scenes");
-  }
+  [[nodiscard]] ScenesTold told() const { return told_ ? *told_ : shortfalls_.told(plan_.range.count); }
   /// Whether the file is there already, of this very sweep and with all of its scenes, and none is being made anew.
   /// @throws BadInput if another file is there
   [[nodiscard]] bool is_done(const SweepInput& input) {
@@ -506,7 +510,7 @@ class SweepOutput {
           "computes it anew",
           file_->path(), there->rows.last);
     }
-    fell_short_ = there->fell_short;
+    told_ = there->told;
     return true;
   }
   void write(const RangeRows& rows) {
@@ -564,7 +568,7 @@ class SweepOutput {
 
   void write_hdf5(const std::string& path) {
     ColumnFileHead head = column_head(plan_, report_);
-    head.fell_short = fell_short();
+    head.told = told();
     std::vector<PackedCell> row(head.columns.size());
     if (plan_.layout.rows == RowKind::scene) head.rows = plan_.range.count;
     else {
@@ -610,8 +614,21 @@ class SweepOutput {
   std::optional<SweepFile> file_;
   std::optional<Summary> summary_;
   ShortfallCount shortfalls_;
-  std::optional<std::string> fell_short_;  ///< of a file that is there already
+  std::optional<ScenesTold> told_;  ///< of a file that is there already
 };
+
+/// An ending that promises a form which is not written would be believed.
+void require_own_ending(const SweepInput& input) {
+  constexpr const char* others[] = {".gz", ".xz", ".zst", ".bz2", ".zip", ".parquet", ".feather", ".xlsx", ".json"};
+  const auto is_own = [&](std::string_view ending) {
+    return ending == ".json" && style_of(input).format == Format::json;
+  };
+  for (const std::string_view ending : others) {
+    if (input.output.ends_with(ending) && !is_own(ending))
+      throw BadInput(fmt::format("--output {}: must not end in {}, rows are written as CSV or, to FILE.h5, HDF5",
+                                 input.output, ending));
+  }
+}
 
 void check_output(const SweepInput& input) {
   if (is_hdf5(input)) {
@@ -660,9 +677,9 @@ int run_sweep(const SweepInput& input, const SweepPlan& plan, const SweepBody& b
       for (const std::string& remark : plan.remarks(input.request.summary ? 0 : output.cut(), output.warned()))
         say(remark);
     }
-    const std::string short_of = output.fell_short();
-    if (!short_of.empty()) say(short_of);
-    return short_of.empty() ? 0 : exit_status(FailureKind::not_computed);
+    const ScenesTold told = output.told();
+    told.say();
+    return told.fell_short.empty() ? 0 : exit_status(FailureKind::not_computed);
   }
   const std::string words = fmt::format("interrupted after {} of {} scenes", queue.taken(), scenes);
   output.leave(words);
@@ -670,48 +687,85 @@ int run_sweep(const SweepInput& input, const SweepPlan& plan, const SweepBody& b
   return interrupted_status;
 }
 
+/// "7, 200 to 399", of many the first.
+std::string listed(const std::vector<std::string>& runs) {
+  constexpr std::size_t most = 20;
+  const std::size_t shown = std::min(runs.size(), most);
+  return fmt::format("{}{}", fmt::join(runs.begin(), runs.begin() + static_cast<std::ptrdiff_t>(shown), ", "),
+                     shown < runs.size() ? fmt::format(" and {} more", runs.size() - shown) : "");
+}
+
+/// "11 of 79 scenes: 30 to 39, 70; impacts of 2 scenes: 7, 9"; empty: nothing.
+std::string lacking_words(const FoundRows& rows, long long count) {
+  std::vector<std::string> words;
+  if (!rows.missing.empty())
+    words.push_back(fmt::format("{} of {} scenes: {}", count - rows.scenes, count, listed(rows.missing)));
+  if (!rows.cut.empty()) words.push_back(fmt::format("impacts of {} scenes: {}", rows.cut.size(), listed(rows.cut)));
+  return fmt::format("{}", fmt::join(words, "; "));
+}
+
+/// The scenes that a head says it is of, "FROM:TO:STEP"; empty: it does not say.
+std::string scenes_of_head(const std::string& lines) {
+  static const std::regex own("# here: scenes ([0-9]+) to ([0-9]+)( by ([0-9]+))?\n");
+  std::smatch found;
+  if (!std::regex_search(lines, found, own)) return "";
+  return fmt::format("{}:{}:{}", found.str(1), found.str(2), found[4].matched ? found.str(4) : "1");
+}
+
+std::string comments_of(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::string lines;
+  for (std::string line; std::getline(file, line) && line.starts_with("# ");) lines += line + "\n";
+  return lines;
+}
+
+/// Likewise of a part of a sweep.
+std::string scenes_of_part(const SweepInput& part, const SweepPlan& plan) {
+  if (!is_hdf5(part)) return scenes_of_head(comments_of(part.output));
+  const auto head = read_hdf5_head(part.output, column_head(plan, plan.report()));
+  return head ? scenes_of_head(lines_of(*head)) : "";
+}
+
+/// What an interrupted run has left of FILE: "FILE.part has 242 of 2500 scenes"; empty: nothing.
+std::string begun_words(const SweepInput& input) {
+  const std::string part = destination_of({"--output", input.output}).path + ".part";
+  const std::optional<long long> scenes = SweepFile::begun_scenes(part);
+  if (!scenes) return "";
+  SweepInput begun = input;
+  if (begun.request.scenes.empty()) begun.request.scenes = scenes_of_head(comments_of(part));
+  return fmt::format("{}.part has {} of {} scenes", input.output, *scenes, read_sweep_plan(begun.request).range.count);
+}
+
 /// Says what FILE lacks of the sweep, and computes nothing.
 int check_file(const SweepInput& input, const SweepPlan& plan) {
   if (!writes_file(input) || input.bare)
     throw BadInput("--check: needs --output with a file of CSV or HDF5, comments and all");
   if (input.restart) throw BadInput("--restart: must be left out with --check, which computes nothing");
-  const std::optional<FileThere> there = file_there(input, plan);
   constexpr int failed = 1;  // a check
+  if (input.request.scenes.empty() && !scenes_of_part(input, plan).empty()) {
+    say(
+        fmt::format("{} has the line '# here' of a part: leave it out of what is joined, and the other heads; --parts "
+                    "checks parts themselves",
+                    input.output));
+    return failed;
+  }
+  const std::optional<FileThere> there = file_there(input, plan);
   if (!there) {
-    say(fmt::format("{} is not there: all of {} scenes are missing", input.output, plan.range.count));
+    const std::string begun = begun_words(input);
+    say(begun.empty() ? fmt::format("{} is not there: all of {} scenes are missing", input.output, plan.range.count)
+                      : fmt::format("{} is not there; {}; the same command goes on", input.output, begun));
     return failed;
   }
   const FoundRows& rows = there->rows;
   if (rows.is_whole()) {
     say(fmt::format("{} is whole, with {} scenes", input.output, rows.scenes));
-    if (!there->fell_short.empty()) say(there->fell_short);
+    there->told.say();
     return 0;
   }
-  if (!rows.missing.empty()) {
-    constexpr std::size_t most = 20;
-    const std::size_t shown = std::min(rows.missing.size(), most);
-    say(fmt::format("{} lacks {} of {} scenes: {}{}", input.output, plan.range.count - rows.scenes, plan.range.count,
-                    fmt::join(rows.missing.begin(), rows.missing.begin() + static_cast<std::ptrdiff_t>(shown), ", "),
-                    shown < rows.missing.size() ? fmt::format(" and {} more gaps", rows.missing.size() - shown) : ""));
-  }
+  const std::string lacks = lacking_words(rows, plan.range.count);
+  if (!lacks.empty()) say(fmt::format("{} lacks {}", input.output, lacks));
   if (!rows.amiss.empty()) say(fmt::format("{} is not in order: {}", input.output, rows.amiss));
   return failed;
-}
-
-/// The scenes that a part of a sweep says it is of, "FROM:TO:STEP"; empty: it does not say.
-std::string scenes_of_part(const SweepInput& part, const SweepPlan& plan) {
-  std::string lines;
-  if (is_hdf5(part)) {
-    const auto head = read_hdf5_head(part.output, column_head(plan, plan.report()));
-    if (head) lines = lines_of(*head);
-  } else {
-    std::ifstream file(part.output, std::ios::binary);
-    for (std::string line; std::getline(file, line) && line.starts_with("# ");) lines += line + "\n";
-  }
-  static const std::regex own("# here: scenes ([0-9]+) to ([0-9]+)( by ([0-9]+))?\n");
-  std::smatch found;
-  if (!std::regex_search(lines, found, own)) return "";
-  return fmt::format("{}:{}:{}", found.str(1), found.str(2), found[4].matched ? found.str(4) : "1");
 }
 
 /// Places of a sweep's scenes that are marked, in words: "7, 200 to 399", of the first gaps.
@@ -734,31 +788,40 @@ std::string runs_of(const std::vector<char>& marks, char mark) {
 struct PartsFound {
   enum Mark : char { absent, once, again };
   std::vector<char> marks;
-  std::size_t amiss = 0;  ///< files that are not whole parts of it
+  bool is_amiss = false;  ///< a file is not a whole part of it
 
-  void add(const PickedScenes& scenes) {
-    for (long long k = 0; k < scenes.count; ++k) {
-      char& mark = marks[static_cast<std::size_t>(scenes.at(k))];
-      mark = mark == absent ? once : again;
+  void add(const PickedScenes& scenes, const std::vector<SceneRange>& there) {
+    for (const SceneRange& run : there) {
+      for (long long k = run.first; k < run.first + run.count; ++k) {
+        char& mark = marks[static_cast<std::size_t>(scenes.at(k))];
+        mark = mark == absent ? once : again;
+      }
     }
   }
 };
 
-/// What a file has of its scenes, in words; those of a whole one are added to what was found.
+/// What a file has of its scenes, in words; they are added to what was found.
 std::string part_words(const SweepInput& input, const SweepPlan& whole, PartsFound& found) try {
   SweepInput part = input;
+  const bool was_amiss = std::exchange(found.is_amiss, true);
   part.request.scenes = scenes_of_part(input, whole);
   const SweepPlan plan = read_sweep_plan(part.request);
   const std::optional<FileThere> there = file_there(part, plan);
-  if (!there) return "is not there, or empty";
+  if (!there) {
+    const std::string begun = begun_words(part);
+    return begun.empty() ? "is not there, or empty" : begun + "; its command goes on";
+  }
   const std::string of = fmt::format("scenes {} to {}{}", plan.range.first, plan.range.last(),
                                      plan.range.step > 1 ? fmt::format(" by {}", plan.range.step) : "");
   const FoundRows& rows = there->rows;
+  found.add(plan.range, rows.there);
   if (!rows.amiss.empty()) return fmt::format("{}, not in order: {}", of, rows.amiss);
-  if (!rows.is_whole())
-    return fmt::format("{}, lacks {}: {}", of, plan.range.count - rows.scenes, rows.missing.front());
-  found.add(plan.range);
-  return fmt::format("{}, whole{}", of, there->fell_short.empty() ? "" : "; " + there->fell_short);
+  if (!rows.is_whole()) return fmt::format("{}, lacks {}", of, lacking_words(rows, plan.range.count));
+  found.is_amiss = was_amiss;
+  std::string words = of + ", whole";
+  for (const std::string& told : {there->told.set_aside, there->told.fell_short})
+    if (!told.empty()) words += "; " + std::regex_replace(told, std::regex("\n"), "; ");
+  return words;
 } catch (const BadInput& error) {
   const std::string words = error.what(), begin = fmt::format("--output {}: is there already, ", input.output);
   return words.starts_with(begin) ? words.substr(begin.size(), words.find("; --restart") - begin.size()) : words;
@@ -772,17 +835,14 @@ int check_parts(const SweepInput& input, const SweepPlan& plan) {
   for (const std::string& path : input.parts) {
     SweepInput part = input;
     part.output = path;
-    const auto before = std::ranges::count(found.marks, PartsFound::absent);
-    const std::string words = part_words(part, plan, found);
-    if (std::ranges::count(found.marks, PartsFound::absent) == before) ++found.amiss;
-    say(fmt::format("{}: {}", path, words));
+    say(fmt::format("{}: {}", path, part_words(part, plan, found)));
   }
   const auto count_of = [&](PartsFound::Mark mark) { return std::ranges::count(found.marks, mark); };
   const auto lacking = count_of(PartsFound::absent), twice = count_of(PartsFound::again);
   say(fmt::format("{} of {} scenes are there{}{}", plan.points.count() - lacking, plan.points.count(),
                   lacking == 0 ? "" : fmt::format("; missing: {}", runs_of(found.marks, PartsFound::absent)),
                   twice == 0 ? "" : fmt::format("; more than once: {}", runs_of(found.marks, PartsFound::again))));
-  return lacking == 0 && twice == 0 && found.amiss == 0 ? 0 : 1;
+  return lacking == 0 && twice == 0 && !found.is_amiss ? 0 : 1;
 }
 
 std::vector<Column> dry_run_columns() {
@@ -814,6 +874,7 @@ int run_dry(const SweepInput& input, SweepPlan plan, const SweepBody& body, int 
   const auto count = static_cast<double>(plan.range.count);
   const long long most = std::min(plan.range.count, most_scenes_tried);
   double sum = 0, squares = 0, bytes = 0, rows = 0;
+  ShortfallCount shortfalls(plan.layout, plan.packed);
   long long tried = 0;
   for (; tried < most && sum < most_seconds && !interrupt.requested(); ++tried) {
     const double part = std::fmod((static_cast<double>(tried) + 0.5) * golden, 1);
@@ -822,10 +883,12 @@ int run_dry(const SweepInput& input, SweepPlan plan, const SweepBody& body, int 
     const RangeRows there = runner({place, 1});
     const double took = thread_seconds() - begin;
     sum += took, squares += took * took;
+    shortfalls.add(there.text);
     bytes += static_cast<double>(there.text.size());
     rows += static_cast<double>(std::ranges::count(there.text, '\n'));
   }
   if (interrupt.requested()) return interrupted_status;
+  shortfalls.told(tried, "scenes tried").say();
   const auto n = static_cast<double>(tried);
   const double scatter = n > 1 ? std::sqrt(std::fmax(squares - sum * sum / n, 0) / (n - 1)) : no_number;
   Report report = plan.report();
@@ -854,6 +917,7 @@ int run_command(const SweepInput& input, Ranks& ranks) {
   if (request.file.empty() && request.sets.empty())
     throw BadInput("SCENE, or keys by --set: required, clatter help keys has them");
   SweepPlan plan = read_sweep_plan(request);
+  require_own_ending(input);
   if (!input.parts.empty()) return ranks.writes() ? check_parts(input, plan) : 0;
   plan.packed = input.request.summary || is_hdf5(input);
   const int threads = thread_count(input.threads, ranks);
@@ -884,7 +948,7 @@ constexpr const char* sweep_footer =
     "Continuous scenes are planned for run.digits. Each number has a column with its error, empty where that is not "
     "known.\n"
     "A scene that is refused or fails is a row with its outcome, refused, outside-model or not-computed, and "
-    "reason.\n"
+    "reason;\na line says how many are.\n"
     "Exit status 3 if a number could not be computed, a limit left fewer impacts than asked for, or required digits\n"
     "are not known, in any scene; its row says why. run.impacts is how many are asked for: a scene that ends\n"
     "there has outcome impact-limit, and falls short with run.until_rest alone.";

@@ -19,6 +19,7 @@
 #include <sstream>
 
 #include "validation/output/bad_input.hpp"
+#include "validation/sweep/rows.hpp"
 
 namespace clatter::validation {
 
@@ -192,6 +193,13 @@ HeadThere read_head(std::istream& file, const std::string& head) {
   return found;
 }
 
+/// A whole number; 0: it is none.
+long long whole_of(std::string_view cell) {
+  long long number = 0;
+  std::from_chars(cell.data(), cell.data() + cell.size(), number);
+  return number;
+}
+
 bool truncate_to(int file, long long bytes) {
   return ftruncate(file, bytes) == 0 && lseek(file, bytes, SEEK_SET) == bytes;
 }
@@ -220,6 +228,15 @@ FoundRows find_rows(std::istream& rows, const ExpectedRows& expected,
                                           : fmt::format("{} to {}", scenes.at(first), scenes.at(last)));
   };
   std::string begins;
+  long long of_scene = 0, told = 0;  // rows that the scene has, and how many it should have
+  bool is_cut = false;
+  const auto end_scene = [&] {
+    if (before < 0) return;
+    if (is_cut || of_scene != told) found.cut.push_back(std::to_string(found.last));
+    else if (!found.there.empty() && found.there.back().first + found.there.back().count == before)
+      ++found.there.back().count;
+    else found.there.push_back({before, 1});
+  };
   for (std::string row; std::getline(rows, row);) {
     long long scene = -1;
     std::from_chars(row.data(), row.data() + std::min(row.find(','), row.size()), scene);
@@ -228,16 +245,30 @@ FoundRows find_rows(std::istream& rows, const ExpectedRows& expected,
     if (is_one && place > before) begins = expected.begins(scene) + ",";
     if (rows.eof()) found.amiss = "its last row is cut";
     else if (!is_one) found.amiss = fmt::format("'{}' is no row of it", row.substr(0, 40));
-    else if (place < before || (place == before && expected.has_one_each))
+    else if (place < before || (place == before && !expected.scene_rows))
       found.amiss = fmt::format("a row of scene {} follows one of scene {}", scene, found.last);
     else if (!row.starts_with(begins)) found.amiss = fmt::format("scene {} has other values of its keys", scene);
-    if (!found.amiss.empty()) return found;
+    if (!found.amiss.empty()) {
+      end_scene();
+      return found;
+    }
     lack(before + 1, place - 1);
-    if (place > before) ++found.scenes;
+    if (place > before) {
+      end_scene();
+      ++found.scenes;
+      of_scene = told = 0, is_cut = false;
+    }
+    ++of_scene;
+    const long long n = expected.scene_rows ? whole_of(csv_cell(row.substr(begins.size()), 0)) : 1;
+    told = expected.scene_rows ? whole_of(csv_cell(row, *expected.scene_rows)) : 1;
+    if (n > 0 && n < of_scene) found.amiss = fmt::format("impact {} of scene {} is there again, or late", n, scene);
+    if (!found.amiss.empty()) return found;
+    is_cut = is_cut || (n > 0 ? n : told) != of_scene;
     before = place;
     found.last = scene;
     take(row);
   }
+  end_scene();
   lack(before + 1, scenes.count - 1);
   return found;
 }
@@ -245,6 +276,15 @@ FoundRows find_rows(std::istream& rows, const ExpectedRows& expected,
 std::vector<RunFile> SweepFile::files_beside(const std::string& path) {
   const std::string part = destination_of({"--output", path}).path + ".part";
   return {{"--output's part", part}, {"--output's digests", part + ".digests"}, {"--output's columns", part + ".made"}};
+}
+
+std::optional<long long> SweepFile::begun_scenes(const std::string& part) {
+  struct stat status {};
+  std::optional<long long> scenes;
+  if (stat(part.c_str(), &status) != 0) return scenes;
+  for (const Record& record : read_records(part + ".digests"))
+    if (record.bytes <= status.st_size) scenes = record.scenes;
+  return scenes;
 }
 
 SweepFile::SweepFile(const std::string& path, const SweepFileForm& form, bool restart)

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <functional>
 #include <iosfwd>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -44,16 +45,20 @@ struct FoundRows {
   long long scenes = 0;                ///< that have rows
   long long last = -1;                 ///< the scene of the last row before whatever is amiss; -1: none
   std::vector<std::string> missing{};  ///< scenes without rows: "7", "200 to 399"
+  std::vector<std::string> cut{};      ///< scenes that have some of their rows
+  std::vector<SceneRange> there{};     ///< places of those that have all, in runs
   std::string amiss{};                 ///< what else is wrong, in words; the rows from there on are not looked at
 
-  [[nodiscard]] bool is_whole() const { return missing.empty() && amiss.empty(); }
+  [[nodiscard]] bool is_whole() const { return missing.empty() && cut.empty() && amiss.empty(); }
 };
 
 /// The rows that it should have.
 struct ExpectedRows {
   PickedScenes scenes;
-  bool has_one_each = true;                              ///< a row of a scene, not of each of its impacts
   std::function<std::string(long long scene)> begins{};  ///< what a scene's rows begin with: its number and its keys
+  /// Place of the column that tells how many rows a scene has, numbered from 1 behind what they begin with, but for a
+  /// last one without a number; none: it has one.
+  std::optional<std::size_t> scene_rows{};
 };
 
 /// Reads rows up to the end of the file, and calls take(row) with each that is in its place.
@@ -81,6 +86,9 @@ class SweepFile {
 
   /// The files beside FILE, for note_written.
   [[nodiscard]] static std::vector<RunFile> files_beside(const std::string& path);
+
+  /// How many scenes a part has by its digests; none: there is no such part, or none of them.
+  [[nodiscard]] static std::optional<long long> begun_scenes(const std::string& part);
 
   /// Scenes that the part held already: the next row is that of scene number scenes().
   [[nodiscard]] long long scenes() const { return scenes_; }

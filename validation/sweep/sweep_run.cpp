@@ -16,6 +16,7 @@
 #include "validation/run/shortfall.hpp"
 #include "validation/scene/failure.hpp"
 #include "validation/shock/shock_rows.hpp"
+#include "validation/sweep/energy_to_rest.hpp"
 
 namespace clatter::validation {
 namespace {
@@ -210,6 +211,7 @@ bool SceneRunner::append_result(long long index, RowForm& form) {
       const auto places = places_from(body_->discrete->centre(), plan_.layout.probes);
       form.shocks = LargestShock::of(discrete_shock(drop, found, places), terms_of(run, false));
     }
+    form.energy_loss = energy_lost_with_tail(drop, found);
     form.reason = shortfall(scene_, run);
     if (plan_.layout.rests && scene_.until_rest) form.rest = rest_face(scene_, drop, found);
     else if (plan_.layout.rests) add_face_alone(form);

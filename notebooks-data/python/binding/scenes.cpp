@@ -247,6 +247,8 @@ py::tuple sweep(const std::string& name, const std::optional<std::string>& text,
     validation::Report report = swept(plan, request.summary, is_named, watch, shortfalls);
     std::vector<std::string> said = doubts_of(plan.scene, plan.layout.model, plan.layout.probes);
     for (std::string& remark : plan.remarks(request.summary ? 0 : shortfalls.cut())) said.push_back(std::move(remark));
+    const std::string aside = shortfalls.told(plan.points.count()).set_aside;
+    if (!aside.empty()) said.push_back(aside);
     return std::tuple(kept(std::move(report)), shortfalls.found().first(), said);
   };
   return py::cast(run_interruptible(work, progress));

@@ -195,7 +195,7 @@ def sweep(
     to_dict()["worst"].
     progress(done, of): of the scenes.
     Raises BadInput; NotComputed if require_digits and a scene has fewer; warns of scenes that fall short.  A scene that is
-    refused or outside the model is a row with its outcome and reason.
+    refused or outside the model is a row with its outcome and reason; a warning counts them.
 
     >>> clatter.sweep("phone-corner", orientation=range(19, 27), model="discrete")["impacts"]
     array([3., 3., 3., 3., 3., 3., 3., 3.])

@@ -52,7 +52,11 @@ REFUSED = {
     "--probe tip:0,0,0 --columns delta_v_top": "did you mean delta_v_tip?", "--probe tip:0,0": "--probe",
     "--probe tip:0,0,0 --probe tip_impact:0,0,0": "delta_v_tip_impact would be there twice", "--probe tip:0,0,0 --probe tip:1,0,0": "--probe",
     "--rows impacts": "did you mean impact?", "--rows scene --rows scene": "twice", "--threads 0": "--threads", "--threads nan": "--threads",
-    "--restart": "--output", "--restart --output /dev/null": "--output", "--output /no/such/folder/x": "/no/such/folder/x",
+    **{f"--set drop.angle_deg=1,2 --output x{ending}": f"must not end in {'.gz' if 'gz' in ending else ending}, rows are written as CSV or, to FILE.h5, HDF5"
+       for ending in (".gz", ".csv.gz", ".xz", ".zst", ".bz2", ".zip", ".parquet", ".feather", ".xlsx", ".json")}
+    | {"--set drop.angle_deg=1,2 --format json --output x.json.gz": "must not end in .gz", "--set drop.angle_deg=1,2 --output x.parquet --check": ".parquet"},
+    "--set drop.angle_deg=1:2:log": "log needs a COUNT, FROM:TO:log:COUNT; LOW:HIGH:log is drawn with --random N",
+    "--set drop.angle_deg=1:2:lin": "lin needs a COUNT, FROM:TO:lin:COUNT", "--restart": "--output", "--restart --output /dev/null": "--output", "--output /no/such/folder/x": "/no/such/folder/x",
     "--output rod.toml": "which is read", "--model continuous --set body.radius=0.01": "ground.stiffness: required",
     "--set drop.angle_deg=10:30:5 --summary --output rows.h5": "no rows", "--set drop.angle_deg=10:30:5 --format csv --output rows.h5": "left out",
     "--set drop.angle_deg=10:30:5 --summary --output a.txt --restart": "--restart", "--set drop.angle_deg=10:30:5 --scatter 3": "--random",
@@ -183,6 +187,25 @@ class SameAsTheOtherCommands(Folder):
         self.check(swept, rows_of("simulate", PHONE, "--size", "0.10566x0.04394x0.02", *QUICK_FLAGS), "body.size.thickness", 0.02)
 
 
+class EnergyToRest(Folder):
+    def test_a_drop_to_rest_loses_all_that_its_fall_gave_it(self):
+        """m g (h - height of the centre of mass at rest): upright, flat and tipped over in the plane, on faces in space."""
+        box = "[drop]\nheight = 1\n[body]\nshape = 'box'\nsize = [0.3, 0.2, 0.1]\nmass = 1.2\n[impact]\nrestitution = 0.4\nfriction = 0.3\n"
+        rod = "[drop]\nheight = 1\n[body]\nradius = 0\n[impact]\nrestitution = 0.5\n"
+        for scene, mass, drops in ((rod, 1, {"drop.angle_deg=90": 0.5, "drop.angle_deg=0": 0}), (box, 1.2, {"drop.angle_deg=0": 0.05, "drop.angle_deg=90": 0.15, "drop.angle_deg=30": None,
+                                   "drop.attitude=[1,0,0,0]": 0.05, "drop.orientation=1": 0.15, "drop.orientation=4": 0.1})):
+            for drop, height in drops.items():
+                with self.subTest(drop, mass=mass):
+                    arguments = [self.write("fall.toml", scene), *(word for key in (drop, "run.until_rest=true", "impact.restitution=0.5") for word in ("--set", key)), "--columns", "rest_face"]
+                    row, = records(run("sweep", *arguments).stdout)
+                    self.assertEqual(row["outcome"], "at-rest")
+                    lies = height if height is not None else {"x": 0.15, "y": 0.1, "z": 0.05}[row["rest_face"][1]]
+                    lost, error = float(row["energy_loss"]), float(row["energy_loss_error"] or "inf")
+                    self.assertLessEqual(abs(lost - mass * 9.81 * (1 - lies)), min(error, 1e-9))
+                    if height is not None:
+                        self.assertLess(error, 1e-9)
+
+
 class Scenes(Folder):
     def test_the_last_set_varies_fastest_and_one_value_is_no_column(self):
         text = self.sweep(self.scene, "--set", "drop.angle_deg=10:20:10", "--set", "drop.speed=2",
@@ -205,16 +228,31 @@ class Scenes(Folder):
 
     def test_scenes_without_numbers_are_rows_with_their_outcome(self):
         # Spin lifts end a; an impulse ratio jams.
-        spun = records(self.sweep(self.scene, "--set", "drop.spin=0:20:10", "--set", "drop.angle_deg=30"))
+        spun = records(self.sweep(self.scene, "--set", "drop.spin=0:20:10", "--set", "drop.angle_deg=30", said=r"clatter: 2 of 3 scenes are refused; 1: .*\n"))
         self.assertEqual([(row["outcome"], row["impacts"]) for row in spun][1:], [("refused", "")] * 2)
         self.assertEqual(spun[1]["total_normal_impulse"], "")
-        jammed = records(self.sweep(self.scene, "--set", "impact.impulse_ratio=0:1.5:1.5", "--set", "drop.angle_deg=63.4"))
+        outside = r"clatter: 1 of 2 scenes are outside the model; 1: .*\n"
+        jammed = records(self.sweep(self.scene, "--set", "impact.impulse_ratio=0:1.5:1.5", "--set", "drop.angle_deg=63.4", said=outside))
         self.assertEqual([row["outcome"] for row in jammed], ["impact-limit", "outside-model"])
-        rows = records(self.sweep(self.scene, "--set", "impact.impulse_ratio=0:1.5:1.5", "--set", "drop.angle_deg=63.4", "--rows", "impact"))
+        rows = records(self.sweep(self.scene, "--set", "impact.impulse_ratio=0:1.5:1.5", "--set", "drop.angle_deg=63.4", "--rows", "impact", said=outside))
         self.assertEqual((rows[-1]["outcome"], rows[-1]["n"], rows[-1]["energy_loss"]), ("outside-model", "", ""))
-        low = records(self.sweep(PHONE, "--set", "drop.height=0.001:1.001:1", *QUICK))
+        low = records(self.sweep(PHONE, "--set", "drop.height=0.001:1.001:1", *QUICK, said="clatter: 1 of 2 scenes are refused; 0: .*\n"))
         self.assertEqual([row["outcome"] for row in low], ["refused", "impact-limit"])
         self.assertEqual(low[0]["first_peak_force"], "")
+
+    def test_a_line_counts_the_scenes_that_are_refused_wherever_rows_go(self):
+        """Spin of 10 rad/s lifts end a; that leaves the status, as no number is missing that the model has."""
+        for spins, count, first in (("0,10,20,0", 2, 1), ("10,20", 2, 0)):
+            keys = ("--set", "drop.angle_deg=30", "--set", f"drop.spin={spins}")
+            line = rf"clatter: {count} of {spins.count(',') + 1} scenes are refused; {first}: [^\n]*does not approach[^\n]*\n"
+            for more in ((), ("--summary",), ("--rows", "impact"), ("--format", "json")):
+                self.sweep(self.scene, *keys, *more, said=line)
+            self.sweep(self.scene, *keys, "--dry-run", said=line.replace("scenes are", "scenes tried are"))
+            for name in ["x.csv"] + ["x.h5"] * bool(HDF5):
+                self.sweep(self.scene, *keys, "--output", self.path(name), said=line)
+                self.sweep(self.scene, *keys, "--output", self.path(name), said=".* is complete, .*\n" + line)
+                self.sweep(self.scene, *keys, "--output", self.path(name), "--check", said=".* is whole, .*\n" + line)
+                os.remove(self.path(name))
 
     def test_what_settings_and_options_cannot_be_is_one_line(self):
         self.each_refused(REFUSED, "sweep", "rod.toml")
@@ -451,6 +489,45 @@ class Scenes(Folder):
             parts = [run(*command[:-3], "--scenes", "0:40", "--output", self.path("a.h5"), "--check") for _ in range(2)]
             self.assertEqual([(part.returncode, part.stderr) for part in parts], [(0, f"clatter: {self.path('a.h5')} is whole, with 41 scenes\n")] * 2)
 
+    def test_check_finds_impacts_that_are_missing_within_a_scene(self):
+        """A rod that comes to rest has a tail, which no number of an impact vouches for."""
+        command = ["sweep", self.scene, "--set", "drop.angle_deg=10:40:5", "--set", "impact.restitution=0.5", "--set", "run.impacts=50",
+                   "--rows", "impact", "--output", "all.csv", "--check"]
+        lines = self.sweep(*command[1:-3]).splitlines(keepends=True)
+        head, rows = [line for line in lines if not line[0].isdigit()], [line for line in lines if line[0].isdigit()]
+        self.assertIn(",tail,", rows[-1])
+        places = {name: [k for k, row in enumerate(rows) if row.split(",")[0] == name] for name in "013"}
+        for gone, words in ((places["3"][1:4], "lacks impacts of 1 scenes: 3"), (places["0"][:1], "lacks impacts of 1 scenes: 0"),
+                            ([len(rows) - 1], "lacks impacts of 1 scenes: 6"), (places["1"][-2:-1] + places["3"][-1:], "lacks impacts of 2 scenes: 1, 3"),
+                            (places["0"] + places["1"][1:], "lacks 1 of 7 scenes: 0; impacts of 1 scenes: 1")):
+            with self.subTest(words):
+                self.write("all.csv", "".join(head + [row for k, row in enumerate(rows) if k not in gone]))
+                done = self.run_program(*command)
+                self.assertEqual((done.returncode, done.stderr), (1, f"clatter: all.csv {words}\n"))
+                self.assertIn("is of this sweep, but not whole", self.run_program(*command[:-1]).stderr)
+        first = places["3"][1]
+        for twice in ([*rows[:first], rows[first], *rows[first:]], [*rows[:first], rows[first + 1], rows[first], *rows[first + 2:]]):
+            self.write("all.csv", "".join(head + twice))
+            self.assertIn("impact 2 of scene 3 is there again, or late", self.run_program(*command).stderr)
+        self.write("all.csv", "".join(head + rows))
+        self.assertEqual(self.run_program(*command).returncode, 0)
+
+    def test_check_knows_the_part_of_a_run_that_was_interrupted(self):
+        command = ["sweep", self.scene, "--set", "drop.angle_deg=1:40:0.5"]
+        part = ("--scenes", "20:69")
+        whole = self.sweep(*command[1:], *part).splitlines(keepends=True)
+        for suffix in [".csv"] + [".h5"] * bool(HDF5):
+            self.sweep(*command[1:], "--scenes", "0:19", "--output", self.path("a" + suffix))
+            text = "".join(whole[:-40])  # ten scenes
+            self.write(f"b{suffix}.part", text)
+            self.write(f"b{suffix}.part.digests", f"{len(text.encode())} 10 0123456789abcdef\n{len(text.encode()) + 1} 11 0123456789abcdef\n")
+            done = self.run_program(*command, "--check", "--parts", "a" + suffix, "b" + suffix)
+            self.assertEqual(done.returncode, 1)
+            self.assertIn(f"b{suffix}: b{suffix}.part has 10 of 50 scenes; its command goes on\n", done.stderr)
+            self.assertIn("20 of 79 scenes are there; missing: 20 to 78\n", done.stderr)
+            done = self.run_program(*command, *part, "--output", "b" + suffix, "--check")
+            self.assertEqual((done.returncode, done.stderr), (1, f"clatter: b{suffix} is not there; b{suffix}.part has 10 of 50 scenes; the same command goes on\n"))
+
     def test_check_says_of_each_part_and_of_all_of_them_what_they_lack(self):
         command = ["sweep", self.scene, "--set", "drop.angle_deg=1:40:1"]
         for suffix in [".csv"] + [".h5"] * bool(HDF5):
@@ -471,10 +548,16 @@ class Scenes(Folder):
                     for line in lines:
                         self.assertIn("clatter: " + line.replace(": ", suffix + ": ", 1) if line[1] == ":" else line, done.stderr)
         text = self.read("a.csv").splitlines(keepends=True)
-        self.write("a.csv", "".join(text[:-2]))
-        done = self.run_program(*command, "--check", "--parts", "a.csv", "b.csv", "c.csv")
-        self.assertIn("a.csv: scenes 0 to 9, lacks 2: 8 to 9", done.stderr)
-        self.assertIn("30 of 40 scenes are there; missing: 0 to 9", done.stderr)
+        self.write("a.csv", "".join(text[:-9] + text[-8:-6] + text[-4:-2]))  # without 1, 4, 5, 8 and 9
+        done = self.run_program(*command, "--check", "--parts", "a.csv", "b.csv", "c.csv", "d.csv")
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("a.csv: scenes 0 to 9, lacks 5 of 10 scenes: 1, 4 to 5, 8 to 9\n", done.stderr)
+        self.assertIn("38 of 40 scenes are there; missing: 1, 4; more than once: 6 to 7, 10 to 12\n", done.stderr)
+        self.write("all.csv", "".join(text) + self.read("b.csv") + self.read("c.csv"))
+        for joined in (self.read("all.csv"), "".join(text)):
+            self.write("all.csv", joined)
+            done = self.run_program(*command, "--output", "all.csv", "--check")
+            self.assertEqual((done.returncode, "line '# here' of a part: leave it out" in done.stderr, "--restart" in done.stderr), (1, True, False))
         for bad in ([], ["--check", "--output", "a.csv"], ["--check", "--scenes", "0:9"]):
             self.refused("--parts", *command, "--parts", "a.csv", *bad)
 
