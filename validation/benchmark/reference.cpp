@@ -166,6 +166,20 @@ std::string place_of(const Reference& reference, const space::ImpactRow& row) {
   return reference.place_name(group);
 }
 
+/// The laws beside a scene's, where friction tells them apart.
+std::vector<DeclaredLaw> laws_beside(const analytic::ImpactLaw& own) {
+  if (!own.has_cone() || own.friction_value == 0 || own.law == analytic::RestitutionLaw::viscoelastic) return {};
+  analytic::ImpactLaw base = own;
+  base.friction = analytic::FrictionKind::coulomb;
+  std::vector<DeclaredLaw> laws;
+  for (const char* name : {"newton routh", "newton moreau", "poisson routh", "stronge routh"}) {
+    const DeclaredLaw law = declared(name, base);
+    const bool is_moreau = own.friction == analytic::FrictionKind::moreau;
+    if (law.law.law != own.law || law.is_moreau != is_moreau) laws.push_back(law);
+  }
+  return laws;
+}
+
 /// What the discrete model says of the first impacts; rows from the first that cannot be predicted on are no truth.
 std::vector<TruthRow> discrete_truth(const Reference& reference, const auto& drop, int impacts) {
   const auto sequence = impact_sequence(drop, {.impacts = impacts});
@@ -484,6 +498,7 @@ Reference reference_of(const Problem& problem) {
     ReferenceSequence sequence{
         .law = declared(law, discrete_law(problem.scene).law), .truth = truth_of(problem, law), .after = {}};
     add_states(reference, sequence);
+    reference.laws.push_back(sequence.law);
     reference.sequences.push_back(std::move(sequence));
   }
   return reference;
@@ -496,7 +511,10 @@ Reference reference_of(const Scene& scene) {
   reference.drop = discrete_drop(scene);
   if (const auto* drop = std::get_if<analytic::Drop>(&reference.drop)) set_planar(reference, *drop);
   else set_space(reference, scene, std::get<space::Drop>(reference.drop));
-  ReferenceSequence sequence{.law = {.name = "any", .law = law_of(reference.drop)}, .truth = {}, .after = {}};
+  const analytic::ImpactLaw law = law_of(reference.drop);
+  const bool is_moreau = law.friction == analytic::FrictionKind::moreau;
+  ReferenceSequence sequence{.law = {.name = "any", .law = law, .is_moreau = is_moreau}, .truth = {}, .after = {}};
+  reference.laws = laws_beside(law);
   std::visit([&](const auto& drop) { sequence.truth = discrete_truth(reference, drop, impacts); }, reference.drop);
   const std::size_t known = sequence.truth.size();
   if (known > 0 && known < static_cast<std::size_t>(impacts)) {
@@ -512,14 +530,15 @@ Reference reference_of(const Scene& scene) {
 
 State exact_map(const Reference& reference, const DeclaredLaw& law, const State& before,
                 const std::vector<int>& points) {
-  if (law.is_moreau && points.size() == 1) return moreau_map(reference, law, before, points.front());
+  const bool is_level_rim = reference.corner(before.attitude, points.front()).radius > 0;
+  const bool goes_as_group = is_level_rim && law.law.friction == analytic::FrictionKind::moreau;
+  if (law.is_moreau && points.size() == 1 && !goes_as_group) return moreau_map(reference, law, before, points.front());
   if (reference.is_planar && points.size() == 2) {
     const auto arm = [&](int point) { return reference.arm(before.attitude, point); };
     if (const auto flat = flat_map(reference, law.law, before, arm(points[0]), arm(points[1]))) return *flat;
   }
   std::vector<space::Corner> corners;
   for (const int point : points) corners.push_back(reference.corner(before.attitude, point));
-  const bool is_level_rim = corners.front().radius > 0;
   if (points.size() == 1 && !is_level_rim) {
     const space::Impact impact = strike(reference.body, before, corners.front().place, law.law);
     return with_velocities(before, impact.velocity_after, impact.angular_velocity_after);

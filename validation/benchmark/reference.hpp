@@ -84,7 +84,7 @@ enum class Solver {
 
 /// A law of impact that a run may declare.
 struct DeclaredLaw {
-  std::string name;  ///< "newton routh", …; "any" where the laws agree
+  std::string name;  ///< "newton routh", …; "any" where the laws agree, and of a scene, whose law is asked for
   analytic::ImpactLaw law;
   bool is_moreau = false;  ///< Newton's e and Coulomb's cone at the end of the impact, instead of along it
   Solver solver = Solver::right;
@@ -113,6 +113,7 @@ struct Reference : Terms {
   double gravity = 0;                 ///< towards the ground [m/s²]
   double gravity_along = 0;           ///< along x [m/s²]
   std::vector<ReferenceSequence> sequences{};
+  std::vector<DeclaredLaw> laws{};  ///< that a run may follow, asked for or not
   std::string remark{};  ///< on the truth, for readers; empty: none
 
   [[nodiscard]] double reach() const { return body.reach(); }

@@ -11,7 +11,8 @@ import unittest
 
 from exact_motion import Motion, printed, scored
 from planar_code import Code, StepCode
-from run_folder import EmptyFolder
+from rigid_code import RigidCode
+from run_folder import EmptyFolder, json_of
 
 
 def judged(text):
@@ -203,6 +204,37 @@ class Words(EmptyFolder):
         findings = judged(code.text(code.rows(1 / 500)))["findings"]
         self.assertIn("impact 1 (lines 53 to 54) is at no point of the body, must be at a", findings)
         self.assertIn("impact 1 (lines 53 to 54) does not follow the law: no point of the body explains its jump; of the lowest one e = ", " ".join(findings))
+
+
+class Scenes(EmptyFolder):
+    """Codes of Moreau's law, whose files name none, against scenes with friction."""
+
+    def against(self, problem, *options, **factors):
+        code = RigidCode(problem, 1)
+        for name, factor in factors.items():
+            setattr(code, name, getattr(code, name) * factor)
+        text = code.text(code.rows(1 / 500)).replace("# law: newton moreau\n", "")
+        scene = self.write("scene.toml", code.statement["scene_toml"])
+        return json_of("compare", scene, *options, "--against", self.write("run.csv", text))["files"][0]
+
+    def test_another_law_than_the_scenes_is_named_and_no_fault(self):
+        for problem in ("friction-reversal", "corner-friction"):
+            with self.subTest(problem):
+                found = self.against(problem)
+                cause, = found["causes"]
+                self.assertEqual((found["verdict"], cause["cause"]), ("fails", "law"))
+                for words in ("newton moreau explains", "# law: newton moreau", "--impact-friction-law moreau"):
+                    self.assertIn(words, cause["words"])
+                self.assertEqual(self.against(problem, "--impact-friction-law", "moreau")["verdict"], "exact")
+
+    def test_friction_is_known_where_the_scene_asks_for_moreaus_law(self):
+        for problem in ("friction-reversal", "friction-slip", "corner-friction"):
+            friction = RigidCode(problem, 1).friction
+            with self.subTest(problem):
+                cause, = self.against(problem, "--impact-friction-law", "moreau", friction=0.7)["causes"]
+                self.assertEqual(cause["cause"], "friction")
+                self.assertAlmostEqual(cause["value"], 0.7 * friction, delta=1e-3)
+                self.assertIn(f"({friction} is asked)", cause["words"])
 
 
 class Documents(EmptyFolder):
