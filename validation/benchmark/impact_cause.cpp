@@ -298,8 +298,9 @@ class ImpactCauses {
   /// The right one, and the wrong ones that differ from it.
   [[nodiscard]] std::vector<Solver> solvers() const {
     if (!has_friction() || law_.law.friction_value == 0) return {Solver::right};
-    std::vector<Solver> some{Solver::right, Solver::reversed, Solver::normal_first, Solver::normal_first_reversed};
-    if (!reference_.is_planar) some.insert(some.end(), {Solver::pyramid, Solver::unequal});
+    std::vector<Solver> some{Solver::right, Solver::reversed, Solver::normal_first, Solver::normal_first_reversed,
+                             Solver::pushing};
+    if (!reference_.is_planar) some.insert(some.end(), {Solver::pushing_on, Solver::pyramid, Solver::unequal});
     return some;
   }
 
@@ -325,7 +326,7 @@ class ImpactCauses {
 
   /// The wrong solver that leaves least, with the friction that is asked for or that of the first impact's impulse.
   void add_solver() {
-    if (impacts_.front().points.size() > 1 || takes_steps()) return;
+    if (takes_steps()) return;
     double left = Score::unknown, friction = 0;
     Solver best = Solver::right;
     const double asked = law_.law.friction_value, ratio = std::fabs(impulse_ratio_of(broken_.front()));

@@ -209,6 +209,14 @@ Vector3 normal_first_impulse(const space::Contact& contact, const analytic::Impa
   return impulse;
 }
 
+/// μ times the normal impulse along the slip before, by Newton's restitution.
+Vector3 pushing_on_impulse(const space::Contact& contact, const analytic::ImpactLaw& law) {
+  Vector3 way(contact.velocity.x(), contact.velocity.y(), 0);
+  if (way.norm() > 0) way *= law.friction_value / way.norm();
+  way.z() = 1;
+  return -(1 + law.restitution) * contact.velocity.z() / (contact.inverse_inertia * way).z() * way;
+}
+
 /// An impulse of Newton's restitution and one of the cones that are not round, by projected Gauss-Seidel.
 /// @throws std::domain_error where that does not converge
 Vector3 cut_impulse(const space::Contact& contact, const DeclaredLaw& law) {
@@ -242,6 +250,9 @@ Vector3 solved_impulse(const space::Contact& contact, const DeclaredLaw& declare
   switch (declared.solver) {
     case Solver::right: return right();
     case Solver::reversed: return mirror.cwiseProduct(right());
+    case Solver::pushing:
+      return space::moreau_impulse(contact, -declared.law.friction_value, declared.law.restitution).impulse;
+    case Solver::pushing_on: return pushing_on_impulse(contact, declared.law);
     case Solver::normal_first: return normal_first_impulse(contact, declared.law);
     case Solver::normal_first_reversed: return mirror.cwiseProduct(normal_first_impulse(contact, declared.law));
     default: return cut_impulse(contact, declared);
@@ -283,6 +294,33 @@ std::optional<State> flat_map(const Reference& reference, const analytic::Impact
                                   {.tangential = second.x(), .normal = second.z()}, law);
   if (!impact) return {};
   return with_velocities(before, {impact->after.tangential, 0, impact->after.normal}, {0, impact->after.angular, 0});
+}
+
+/// Points that strike together with friction of the other sign, from what the law gives them.
+State pushed_group(const Reference& reference, const DeclaredLaw& declared, const State& before, const State& right,
+                   const Vector3& arm) {
+  const Vector3 change = right.velocity - before.velocity;
+  Vector3 along(-change.x(), -change.y(), 0);
+  if (declared.solver == Solver::pushing) {
+    const Vector3 velocity = before.velocity + before.angular_velocity.cross(arm);
+    const Vector3 slip(velocity.x(), velocity.y(), 0);
+    if (!(slip.norm() > 0)) return right;
+    along = declared.law.friction_value * change.z() * slip.normalized();
+  }
+  State after = right;
+  after.velocity.head<2>() = (before.velocity + along).head<2>();
+  if (declared.solver != Solver::reversed) return after;
+  const space::Matrix3 turned = before.attitude.toRotationMatrix();
+  const space::Matrix3 inertia = turned * reference.body.inertia * turned.transpose();
+  Vector3 moment = inertia * (right.angular_velocity - before.angular_velocity);
+  moment += reference.body.mass * Vector3(0, 0, arm.z()).cross(2 * along);
+  moment.z() *= -1;
+  after.angular_velocity = before.angular_velocity + inertia.inverse() * moment;
+  return after;
+}
+
+bool is_of_other_sign(Solver solver) {
+  return solver == Solver::reversed || solver == Solver::pushing || solver == Solver::normal_first_reversed;
 }
 
 }  // namespace
@@ -533,6 +571,13 @@ State exact_map(const Reference& reference, const DeclaredLaw& law, const State&
   const bool is_level_rim = reference.corner(before.attitude, points.front()).radius > 0;
   const bool goes_as_group = is_level_rim && law.law.friction == analytic::FrictionKind::moreau;
   if (law.is_moreau && points.size() == 1 && !goes_as_group) return moreau_map(reference, law, before, points.front());
+  if (is_of_other_sign(law.solver)) {
+    DeclaredLaw own = law;
+    own.solver = Solver::right;
+    Vector3 arm = Vector3::Zero();
+    for (const int point : points) arm += reference.arm(before.attitude, point) / static_cast<double>(points.size());
+    return pushed_group(reference, law, before, exact_map(reference, own, before, points), arm);
+  }
   if (reference.is_planar && points.size() == 2) {
     const auto arm = [&](int point) { return reference.arm(before.attitude, point); };
     if (const auto flat = flat_map(reference, law.law, before, arm(points[0]), arm(points[1]))) return *flat;

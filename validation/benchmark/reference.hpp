@@ -72,12 +72,15 @@ struct Problem : Terms {
 /// What gave the truth, in words.
 [[nodiscard]] std::string oracle_of(const Problem& problem);
 
-/// How a code finds friction by Moreau's law: as that says, or wrongly.
+/// How a code finds friction by Moreau's law: as that says, or wrongly.  Of points that strike together the impulse as a
+/// whole is wrong: with the turn that it gives, reversed, or without, so that each point rebounds by the law.
 enum class Solver {
   right,
   pyramid,       ///< in place of the cone, with sides along x and y
   unequal,       ///< back to the cone after steps 1/W_xx and 1/W_yy of projected Gauss-Seidel, along x and y
   reversed,      ///< the right impulse, its tangential part with the other sign
+  pushing,       ///< μ times the normal impulse along the slip after the impact, and a normal impulse by that
+  pushing_on,    ///< the same along the slip before it
   normal_first,  ///< the normal impulse without friction, then what stops the slip or is at the bound
   normal_first_reversed
 };
