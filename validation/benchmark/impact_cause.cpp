@@ -103,6 +103,7 @@ class ImpactCauses {
   std::vector<Cause> of_solver() {
     if (broken_.empty() || !(worst_ > reference_.tolerances[1]) || reference_.is_compliant) return {};
     add_law(explained * explained);
+    if (causes_.empty()) add_centre_restitution();
     if (causes_.empty()) add_solver();
     return std::move(causes_);
   }
@@ -364,6 +365,25 @@ class ImpactCauses {
     const Booking& booking = impacts_[i].bookings.front();
     const Vector3 change = booking.after.velocity - booking.before.velocity;
     return (reference_.is_planar ? change.x() : change.head<2>().norm()) / change.z();
+  }
+
+  /// e times the velocity of the centre of mass in place of the contact's.  Moreau's map takes any number for e, as a
+  /// code does.
+  void add_centre_restitution() {
+    if (law_.law.law != analytic::RestitutionLaw::newton || takes_steps()) return;
+    const Change by_centre = [](Reference&, DeclaredLaw& law, double) {
+      law.is_moreau |= law.law.friction == analytic::FrictionKind::none || law.law.friction_value == 0;
+      law.aims_by_centre = true;
+    };
+    const double left = misfit(by_centre, 0, all());
+    if (!(left <= explained * explained * worst_) || (by_step_ && !(left <= reference_.tolerances[1]))) return;
+    causes_.push_back({"centre-restitution",
+                       {},
+                       left,
+                       fmt::format("the contact rebounds by e times the velocity of the centre of mass, not by its "
+                                   "own: that explains {} {}",
+                                   impacts_words(impacts_.size(), total_, 0), misfit_words(left))});
+    causes_.back().law = changed(by_centre, 0);
   }
 
   /// Another of the laws that a run may follow: the one that leaves least.

@@ -568,6 +568,14 @@ Reference reference_of(const Scene& scene) {
 
 State exact_map(const Reference& reference, const DeclaredLaw& law, const State& before,
                 const std::vector<int>& points) {
+  if (law.aims_by_centre) {
+    double lowest = 0;  // velocity of the fastest point
+    for (const int point : points) lowest = std::fmin(lowest, reference.velocity(before, point).z());
+    DeclaredLaw aimed = law;
+    aimed.aims_by_centre = false;
+    if (lowest < 0) aimed.law.restitution *= before.velocity.z() / lowest;
+    return exact_map(reference, aimed, before, points);
+  }
   const bool is_level_rim = reference.corner(before.attitude, points.front()).radius > 0;
   const bool goes_as_group = is_level_rim && law.law.friction == analytic::FrictionKind::moreau;
   if (law.is_moreau && points.size() == 1 && !goes_as_group) return moreau_map(reference, law, before, points.front());

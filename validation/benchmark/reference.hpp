@@ -91,6 +91,7 @@ struct DeclaredLaw {
   analytic::ImpactLaw law;
   bool is_moreau = false;  ///< Newton's e and Coulomb's cone at the end of the impact, instead of along it
   Solver solver = Solver::right;
+  bool aims_by_centre = false;  ///< e times the velocity of the centre of mass is what the contact gets, wrongly
 
   [[nodiscard]] bool is_named(const std::string& other) const { return name == other || name == "any"; }
 };

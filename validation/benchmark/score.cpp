@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "analytic/base/angle.hpp"
 #include "validation/output/number.hpp"
@@ -217,18 +218,24 @@ void explain(Score& score, double tolerance, double time) {
   };
   add(score.start_error,
       "the run does not start as the problem says" + (score.start_words.empty() ? "" : ": " + score.start_words));
+  const auto tell_law_of = [&](std::size_t i) {
+    const ImpactScore& one = score.impacts[i];
+    const char* otherwise =
+        one.place == "?" ? ": no point of the body explains its jump" : ", which has no answer there";
+    const bool is_measured = std::isfinite(one.law_error) || !one.measured.empty();
+    add(one.law_error,
+        fmt::format("{} does not follow the law{}", impact_words(score, i), is_measured ? one.measured : otherwise));
+    return score.findings.back();
+  };
   const auto tell_law = [&] {
-    for (std::size_t i = 0; i < std::min(score.impacts.size(), score.expected); ++i) {
-      const ImpactScore& one = score.impacts[i];
-      if (one.law_error <= tolerance) continue;
-      const char* otherwise =
-          one.place == "?" ? ": no point of the body explains its jump" : ", which has no answer there";
-      const bool is_measured = std::isfinite(one.law_error) || !one.measured.empty();
-      add(one.law_error,
-          fmt::format("{} does not follow the law{}", impact_words(score, i), is_measured ? one.measured : otherwise));
-      score.law_words = score.findings.back();
-      break;
-    }
+    const std::span asked = std::span(score.impacts).first(std::min(score.impacts.size(), score.expected));
+    const auto first = std::ranges::find_if(asked, [&](const auto& one) { return !(one.law_error <= tolerance); });
+    if (first == asked.end()) return;
+    const auto worst = std::ranges::max_element(asked, {}, &ImpactScore::law_error);
+    score.law_words = tell_law_of(static_cast<std::size_t>(worst - asked.begin()));
+    if (first == worst) return;
+    score.findings.pop_back();
+    tell_law_of(static_cast<std::size_t>(first - asked.begin()));
   };
   if (score.is_law_first()) tell_law();
   for (std::size_t i = 0; i + 1 < score.impacts.size(); ++i) {
