@@ -98,10 +98,13 @@ class ImpactCauses {
     return std::move(causes_);
   }
 
-  /// Friction that is solved wrongly.  No number is free, so that this goes first: where the normal impulse is the one
-  /// without friction, another restitution fits, too.
+  /// Another law, or friction that is solved wrongly.  No number is free, so that this goes first: where the normal
+  /// impulse is the one without friction, another restitution fits, too.
   std::vector<Cause> of_solver() {
-    if (!broken_.empty() && worst_ > reference_.tolerances[1] && !reference_.is_compliant) add_solver();
+    if (broken_.empty() || !(worst_ > reference_.tolerances[1]) || reference_.is_compliant) return {};
+    add_law(explained * explained);
+    if (causes_.empty()) add_centre_restitution();
+    if (causes_.empty()) add_solver();
     return std::move(causes_);
   }
 
@@ -112,7 +115,7 @@ class ImpactCauses {
     if (broken_.empty() || !(worst_ > reference_.tolerances[1])) return {};
     add_threshold();
     if (!causes_.empty()) return std::move(causes_);
-    add_law();
+    add_law(explained);
     add_restitution();
     add_friction();
     add_body();
@@ -168,7 +171,7 @@ class ImpactCauses {
                        [&](std::size_t i) { return impacts_[i].last_row > impacts_[i].first_row + 1; });
   }
 
-  [[nodiscard]] bool has_friction() const { return law_.law.friction == analytic::FrictionKind::coulomb; }
+  [[nodiscard]] bool has_friction() const { return law_.law.has_cone(); }
 
   [[nodiscard]] std::string which() const { return impacts_words(broken_.size(), total_, places_[broken_.front()]); }
 
@@ -296,8 +299,9 @@ class ImpactCauses {
   /// The right one, and the wrong ones that differ from it.
   [[nodiscard]] std::vector<Solver> solvers() const {
     if (!has_friction() || law_.law.friction_value == 0) return {Solver::right};
-    std::vector<Solver> some{Solver::right, Solver::reversed, Solver::normal_first, Solver::normal_first_reversed};
-    if (!reference_.is_planar) some.insert(some.end(), {Solver::pyramid, Solver::unequal});
+    std::vector<Solver> some{Solver::right, Solver::reversed, Solver::normal_first, Solver::normal_first_reversed,
+                             Solver::pushing};
+    if (!reference_.is_planar) some.insert(some.end(), {Solver::pushing_on, Solver::pyramid, Solver::unequal});
     return some;
   }
 
@@ -323,7 +327,7 @@ class ImpactCauses {
 
   /// The wrong solver that leaves least, with the friction that is asked for or that of the first impact's impulse.
   void add_solver() {
-    if (impacts_.front().points.size() > 1 || takes_steps()) return;
+    if (takes_steps()) return;
     double left = Score::unknown, friction = 0;
     Solver best = Solver::right;
     const double asked = law_.law.friction_value, ratio = std::fabs(impulse_ratio_of(broken_.front()));
@@ -363,21 +367,53 @@ class ImpactCauses {
     return (reference_.is_planar ? change.x() : change.head<2>().norm()) / change.z();
   }
 
-  /// Another of the laws that the problem has a truth for.
-  void add_law() {
-    for (const ReferenceSequence& other : reference_.sequences) {
-      if (other.law.name == law_.name) continue;
-      const Change change = [&](Reference&, DeclaredLaw& law, double) { law = other.law; };
-      const double left = misfit(change, 0, all());
-      if (!(left <= explained * worst_) || is_of_the_step(left)) continue;
-      causes_.push_back({"law",
-                         {},
-                         left,
-                         fmt::format("the law {} (judged by {}) explains {} {}", other.law.name, law_.name,
-                                     impacts_words(impacts_.size(), total_, 0), misfit_words(left))});
-      causes_.back().law = other.law;
-      return;
+  /// e times the velocity of the centre of mass in place of the contact's.  Moreau's map takes any number for e, as a
+  /// code does.
+  void add_centre_restitution() {
+    if (law_.law.law != analytic::RestitutionLaw::newton || takes_steps()) return;
+    const Change by_centre = [](Reference&, DeclaredLaw& law, double) {
+      law.is_moreau |= law.law.friction == analytic::FrictionKind::none || law.law.friction_value == 0;
+      law.aims_by_centre = true;
+    };
+    const double left = misfit(by_centre, 0, all());
+    if (!(left <= explained * explained * worst_) || (by_step_ && !(left <= reference_.tolerances[1]))) return;
+    causes_.push_back({"centre-restitution",
+                       {},
+                       left,
+                       fmt::format("the contact rebounds by e times the velocity of the centre of mass, not by its "
+                                   "own: that explains {} {}",
+                                   impacts_words(impacts_.size(), total_, 0), misfit_words(left))});
+    causes_.back().law = changed(by_centre, 0);
+  }
+
+  /// Another of the laws that a run may follow: the one that leaves least.
+  /// @param most  share of the error that it may leave
+  void add_law(double most) {
+    const DeclaredLaw* best = nullptr;
+    double left = most * worst_;
+    for (const DeclaredLaw& other : reference_.laws) {
+      if (other.name == law_.name) continue;
+      const double one = misfit([&](Reference&, DeclaredLaw& law, double) { law = other; }, 0, all());
+      if (one <= left && !is_of_the_step(one)) best = &other, left = one;
     }
+    if (best == nullptr) return;
+    const std::string explains =
+        fmt::format("explains {} {}", impacts_words(impacts_.size(), total_, 0), misfit_words(left));
+    const std::string words = law_.name == "any"
+                                  ? fmt::format("{} {}: declare it (# law: {}), and {} in the scene", best->name,
+                                                explains, best->name, options_of(*best))
+                                  : fmt::format("the law {} (judged by {}) {}", best->name, law_.name, explains);
+    causes_.push_back({"law", {}, left, words});
+    causes_.back().law = *best;
+  }
+
+  /// What makes a law the scene's.
+  [[nodiscard]] std::string options_of(const DeclaredLaw& law) const {
+    std::string options;
+    if (law.law.law != law_.law.law)
+      options = fmt::format("--restitution-law {}", law.name.substr(0, law.name.find(' ')));
+    if (law.is_moreau == law_.is_moreau) return options;
+    return (options.empty() ? "" : options + " ") + "--impact-friction-law " + (law.is_moreau ? "moreau" : "coulomb");
   }
 
   void add_restitution() {

@@ -166,6 +166,20 @@ std::string place_of(const Reference& reference, const space::ImpactRow& row) {
   return reference.place_name(group);
 }
 
+/// The laws beside a scene's, where friction tells them apart.
+std::vector<DeclaredLaw> laws_beside(const analytic::ImpactLaw& own) {
+  if (!own.has_cone() || own.friction_value == 0 || own.law == analytic::RestitutionLaw::viscoelastic) return {};
+  analytic::ImpactLaw base = own;
+  base.friction = analytic::FrictionKind::coulomb;
+  std::vector<DeclaredLaw> laws;
+  for (const char* name : {"newton routh", "newton moreau", "poisson routh", "stronge routh"}) {
+    const DeclaredLaw law = declared(name, base);
+    const bool is_moreau = own.friction == analytic::FrictionKind::moreau;
+    if (law.law.law != own.law || law.is_moreau != is_moreau) laws.push_back(law);
+  }
+  return laws;
+}
+
 /// What the discrete model says of the first impacts; rows from the first that cannot be predicted on are no truth.
 std::vector<TruthRow> discrete_truth(const Reference& reference, const auto& drop, int impacts) {
   const auto sequence = impact_sequence(drop, {.impacts = impacts});
@@ -193,6 +207,14 @@ Vector3 normal_first_impulse(const space::Contact& contact, const analytic::Impa
   const double bound = law.friction_value * impulse.z();
   impulse.head<2>() = stop * std::fmin(1, bound / std::fmax(stop.norm(), 1e-300));
   return impulse;
+}
+
+/// μ times the normal impulse along the slip before, by Newton's restitution.
+Vector3 pushing_on_impulse(const space::Contact& contact, const analytic::ImpactLaw& law) {
+  Vector3 way(contact.velocity.x(), contact.velocity.y(), 0);
+  if (way.norm() > 0) way *= law.friction_value / way.norm();
+  way.z() = 1;
+  return -(1 + law.restitution) * contact.velocity.z() / (contact.inverse_inertia * way).z() * way;
 }
 
 /// An impulse of Newton's restitution and one of the cones that are not round, by projected Gauss-Seidel.
@@ -228,6 +250,9 @@ Vector3 solved_impulse(const space::Contact& contact, const DeclaredLaw& declare
   switch (declared.solver) {
     case Solver::right: return right();
     case Solver::reversed: return mirror.cwiseProduct(right());
+    case Solver::pushing:
+      return space::moreau_impulse(contact, -declared.law.friction_value, declared.law.restitution).impulse;
+    case Solver::pushing_on: return pushing_on_impulse(contact, declared.law);
     case Solver::normal_first: return normal_first_impulse(contact, declared.law);
     case Solver::normal_first_reversed: return mirror.cwiseProduct(normal_first_impulse(contact, declared.law));
     default: return cut_impulse(contact, declared);
@@ -269,6 +294,33 @@ std::optional<State> flat_map(const Reference& reference, const analytic::Impact
                                   {.tangential = second.x(), .normal = second.z()}, law);
   if (!impact) return {};
   return with_velocities(before, {impact->after.tangential, 0, impact->after.normal}, {0, impact->after.angular, 0});
+}
+
+/// Points that strike together with friction of the other sign, from what the law gives them.
+State pushed_group(const Reference& reference, const DeclaredLaw& declared, const State& before, const State& right,
+                   const Vector3& arm) {
+  const Vector3 change = right.velocity - before.velocity;
+  Vector3 along(-change.x(), -change.y(), 0);
+  if (declared.solver == Solver::pushing) {
+    const Vector3 velocity = before.velocity + before.angular_velocity.cross(arm);
+    const Vector3 slip(velocity.x(), velocity.y(), 0);
+    if (!(slip.norm() > 0)) return right;
+    along = declared.law.friction_value * change.z() * slip.normalized();
+  }
+  State after = right;
+  after.velocity.head<2>() = (before.velocity + along).head<2>();
+  if (declared.solver != Solver::reversed) return after;
+  const space::Matrix3 turned = before.attitude.toRotationMatrix();
+  const space::Matrix3 inertia = turned * reference.body.inertia * turned.transpose();
+  Vector3 moment = inertia * (right.angular_velocity - before.angular_velocity);
+  moment += reference.body.mass * Vector3(0, 0, arm.z()).cross(2 * along);
+  moment.z() *= -1;
+  after.angular_velocity = before.angular_velocity + inertia.inverse() * moment;
+  return after;
+}
+
+bool is_of_other_sign(Solver solver) {
+  return solver == Solver::reversed || solver == Solver::pushing || solver == Solver::normal_first_reversed;
 }
 
 }  // namespace
@@ -484,6 +536,7 @@ Reference reference_of(const Problem& problem) {
     ReferenceSequence sequence{
         .law = declared(law, discrete_law(problem.scene).law), .truth = truth_of(problem, law), .after = {}};
     add_states(reference, sequence);
+    reference.laws.push_back(sequence.law);
     reference.sequences.push_back(std::move(sequence));
   }
   return reference;
@@ -496,7 +549,10 @@ Reference reference_of(const Scene& scene) {
   reference.drop = discrete_drop(scene);
   if (const auto* drop = std::get_if<analytic::Drop>(&reference.drop)) set_planar(reference, *drop);
   else set_space(reference, scene, std::get<space::Drop>(reference.drop));
-  ReferenceSequence sequence{.law = {.name = "any", .law = law_of(reference.drop)}, .truth = {}, .after = {}};
+  const analytic::ImpactLaw law = law_of(reference.drop);
+  const bool is_moreau = law.friction == analytic::FrictionKind::moreau;
+  ReferenceSequence sequence{.law = {.name = "any", .law = law, .is_moreau = is_moreau}, .truth = {}, .after = {}};
+  reference.laws = laws_beside(law);
   std::visit([&](const auto& drop) { sequence.truth = discrete_truth(reference, drop, impacts); }, reference.drop);
   const std::size_t known = sequence.truth.size();
   if (known > 0 && known < static_cast<std::size_t>(impacts)) {
@@ -512,14 +568,30 @@ Reference reference_of(const Scene& scene) {
 
 State exact_map(const Reference& reference, const DeclaredLaw& law, const State& before,
                 const std::vector<int>& points) {
-  if (law.is_moreau && points.size() == 1) return moreau_map(reference, law, before, points.front());
+  if (law.aims_by_centre) {
+    double lowest = 0;  // velocity of the fastest point
+    for (const int point : points) lowest = std::fmin(lowest, reference.velocity(before, point).z());
+    DeclaredLaw aimed = law;
+    aimed.aims_by_centre = false;
+    if (lowest < 0) aimed.law.restitution *= before.velocity.z() / lowest;
+    return exact_map(reference, aimed, before, points);
+  }
+  const bool is_level_rim = reference.corner(before.attitude, points.front()).radius > 0;
+  const bool goes_as_group = is_level_rim && law.law.friction == analytic::FrictionKind::moreau;
+  if (law.is_moreau && points.size() == 1 && !goes_as_group) return moreau_map(reference, law, before, points.front());
+  if (is_of_other_sign(law.solver)) {
+    DeclaredLaw own = law;
+    own.solver = Solver::right;
+    Vector3 arm = Vector3::Zero();
+    for (const int point : points) arm += reference.arm(before.attitude, point) / static_cast<double>(points.size());
+    return pushed_group(reference, law, before, exact_map(reference, own, before, points), arm);
+  }
   if (reference.is_planar && points.size() == 2) {
     const auto arm = [&](int point) { return reference.arm(before.attitude, point); };
     if (const auto flat = flat_map(reference, law.law, before, arm(points[0]), arm(points[1]))) return *flat;
   }
   std::vector<space::Corner> corners;
   for (const int point : points) corners.push_back(reference.corner(before.attitude, point));
-  const bool is_level_rim = corners.front().radius > 0;
   if (points.size() == 1 && !is_level_rim) {
     const space::Impact impact = strike(reference.body, before, corners.front().place, law.law);
     return with_velocities(before, impact.velocity_after, impact.angular_velocity_after);

@@ -72,22 +72,26 @@ struct Problem : Terms {
 /// What gave the truth, in words.
 [[nodiscard]] std::string oracle_of(const Problem& problem);
 
-/// How a code finds friction by Moreau's law: as that says, or wrongly.
+/// How a code finds friction by Moreau's law: as that says, or wrongly.  Of points that strike together the impulse as a
+/// whole is wrong: with the turn that it gives, reversed, or without, so that each point rebounds by the law.
 enum class Solver {
   right,
   pyramid,       ///< in place of the cone, with sides along x and y
   unequal,       ///< back to the cone after steps 1/W_xx and 1/W_yy of projected Gauss-Seidel, along x and y
   reversed,      ///< the right impulse, its tangential part with the other sign
+  pushing,       ///< μ times the normal impulse along the slip after the impact, and a normal impulse by that
+  pushing_on,    ///< the same along the slip before it
   normal_first,  ///< the normal impulse without friction, then what stops the slip or is at the bound
   normal_first_reversed
 };
 
 /// A law of impact that a run may declare.
 struct DeclaredLaw {
-  std::string name;  ///< "newton routh", …; "any" where the laws agree
+  std::string name;  ///< "newton routh", …; "any" where the laws agree, and of a scene, whose law is asked for
   analytic::ImpactLaw law;
   bool is_moreau = false;  ///< Newton's e and Coulomb's cone at the end of the impact, instead of along it
   Solver solver = Solver::right;
+  bool aims_by_centre = false;  ///< e times the velocity of the centre of mass is what the contact gets, wrongly
 
   [[nodiscard]] bool is_named(const std::string& other) const { return name == other || name == "any"; }
 };
@@ -113,6 +117,7 @@ struct Reference : Terms {
   double gravity = 0;                 ///< towards the ground [m/s²]
   double gravity_along = 0;           ///< along x [m/s²]
   std::vector<ReferenceSequence> sequences{};
+  std::vector<DeclaredLaw> laws{};  ///< that a run may follow, asked for or not
   std::string remark{};  ///< on the truth, for readers; empty: none
 
   [[nodiscard]] double reach() const { return body.reach(); }

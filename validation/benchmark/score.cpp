@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
+#include "analytic/base/angle.hpp"
 #include "validation/output/number.hpp"
 
 namespace clatter::validation {
@@ -33,14 +35,29 @@ Sizes sizes_of(const Reference& reference, const ReferenceSequence& sequence) {
   return sizes;
 }
 
-/// "P_t/P_n = 0.300 and not -0.300, e = 0.500": restitution and friction of an impact at one point, and the law's; of
-/// a jump that has both of the law's how much the spin changes beside r × P.  Where no point explains it, those of the
-/// lowest.
+/// Which way friction points, where the law has it point otherwise; empty: as there.
+std::string direction_words(const Vector3& slip, const Vector3& found, const Vector3& asked, bool has_sign) {
+  const double cosine = found.head<2>().normalized().dot(asked.head<2>().normalized());
+  constexpr double same = 1e-3, aligned = 0.98;
+  const bool is_there = found.head<2>().norm() > same * found.z() && asked.head<2>().norm() > same * asked.z();
+  if (!is_there || !(cosine < 1 - same)) return "";
+  const bool slips = slip.head<2>().norm() > 0;
+  if (slips && slip.head<2>().normalized().dot(found.head<2>().normalized()) > aligned) return ", P_t along the slip";
+  if (has_sign) return "";  // P_t/P_n tells
+  const double angle = std::acos(std::clamp(cosine, -1.0, 1.0)) * analytic::degrees_per_radian;
+  return fmt::format(", P_t turned by {}° from the law's", significant(angle, 3));
+}
+
+/// "P_t/P_n = 0.300 and not -0.300, P_t along the slip, e = 0.500": restitution and friction of an impact, and the
+/// law's; of a jump at one point that has all of the law's how much the spin changes beside r × P.  Where no point
+/// explains it, those of the lowest; of several e is that of the fastest.
 std::string measured_words(const Reference& reference, const DeclaredLaw& law, const FoundImpact& impact) {
   const auto& [before, after] = impact.bookings.front();
-  if (impact.points.size() > 1) return "";
-  const int point = impact.points.empty() ? reference.lowest(before.attitude) : impact.points.front();
-  const auto exact = answer_of(reference, law, before, {point});
+  std::vector<int> points = impact.points;
+  if (points.empty()) points = {reference.lowest(before.attitude)};
+  const auto approach = [&](int one) { return -reference.velocity(before, one).z(); };
+  const int point = *std::ranges::max_element(points, {}, approach);
+  const auto exact = answer_of(reference, law, before, points);
   if (!exact) return "";
   const auto ratio = [&](const State& state) {
     const Vector3 change = state.velocity - before.velocity;
@@ -58,7 +75,13 @@ std::string measured_words(const Reference& reference, const DeclaredLaw& law, c
     return fmt::format("{} = {}{}", name, one, one == other ? "" : " and not " + other);
   };
   std::string all = words("e", restitution(after), restitution(*exact));
-  if (law.law.has_cone()) all = words("P_t/P_n", ratio(after), ratio(*exact)) + ", " + all;
+  if (law.law.has_cone()) {
+    const std::string direction = direction_words(reference.velocity(before, point), after.velocity - before.velocity,
+                                                  exact->velocity - before.velocity, reference.is_planar);
+    differs |= !direction.empty();
+    all = words("P_t/P_n", ratio(after), ratio(*exact)) + direction + ", " + all;
+  }
+  if (points.size() > 1) return differs ? ": " + all : "";
   const Vector3 impulse = reference.body.mass * (after.velocity - before.velocity);
   const Vector3 turn = reference.struck(before, point, impulse).angular_velocity - before.angular_velocity;
   const double along = (after.angular_velocity - before.angular_velocity).dot(turn) / turn.squaredNorm();
@@ -195,18 +218,24 @@ void explain(Score& score, double tolerance, double time) {
   };
   add(score.start_error,
       "the run does not start as the problem says" + (score.start_words.empty() ? "" : ": " + score.start_words));
+  const auto tell_law_of = [&](std::size_t i) {
+    const ImpactScore& one = score.impacts[i];
+    const char* otherwise =
+        one.place == "?" ? ": no point of the body explains its jump" : ", which has no answer there";
+    const bool is_measured = std::isfinite(one.law_error) || !one.measured.empty();
+    add(one.law_error,
+        fmt::format("{} does not follow the law{}", impact_words(score, i), is_measured ? one.measured : otherwise));
+    return score.findings.back();
+  };
   const auto tell_law = [&] {
-    for (std::size_t i = 0; i < std::min(score.impacts.size(), score.expected); ++i) {
-      const ImpactScore& one = score.impacts[i];
-      if (one.law_error <= tolerance) continue;
-      const char* otherwise =
-          one.place == "?" ? ": no point of the body explains its jump" : ", which has no answer there";
-      const bool is_measured = std::isfinite(one.law_error) || !one.measured.empty();
-      add(one.law_error,
-          fmt::format("{} does not follow the law{}", impact_words(score, i), is_measured ? one.measured : otherwise));
-      score.law_words = score.findings.back();
-      break;
-    }
+    const std::span asked = std::span(score.impacts).first(std::min(score.impacts.size(), score.expected));
+    const auto first = std::ranges::find_if(asked, [&](const auto& one) { return !(one.law_error <= tolerance); });
+    if (first == asked.end()) return;
+    const auto worst = std::ranges::max_element(asked, {}, &ImpactScore::law_error);
+    score.law_words = tell_law_of(static_cast<std::size_t>(worst - asked.begin()));
+    if (first == worst) return;
+    score.findings.pop_back();
+    tell_law_of(static_cast<std::size_t>(first - asked.begin()));
   };
   if (score.is_law_first()) tell_law();
   for (std::size_t i = 0; i + 1 < score.impacts.size(); ++i) {

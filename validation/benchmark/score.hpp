@@ -81,7 +81,7 @@ struct Score {
   /// Whether the impacts that are missing can still come after the last row: errors are those of what there is.
   bool ends_early = false;
   std::vector<std::string> findings{};  ///< what is wrong, in words, the first first
-  std::string law_words{};              ///< the one of them that an impact does not follow the law; empty: none
+  std::string law_words{};              ///< of the impact that follows the law least, as a finding; empty: all do
 
   /// V, Ω and t.
   [[nodiscard]] double motion_error() const;

@@ -166,7 +166,8 @@ void score_gradients(const Answer& answer, const std::vector<GradientColumn>& co
                      Score& score) {
   if (columns.empty()) return;
   const ReferenceSequence& sequence = sequence_of(reference, score.law);
-  if (reference.is_compliant || sequence.law.is_moreau || reference.ground_end) {
+  const bool is_of_problem = sequence.law.name != "any";  // the discrete model has derivatives of a scene's law
+  if (reference.is_compliant || (sequence.law.is_moreau && is_of_problem) || reference.ground_end) {
     score.findings.emplace_back(
         fmt::format("derivatives are not judged: none are known of this {}", reference.ground_end ? "ground" : "law"));
     return;

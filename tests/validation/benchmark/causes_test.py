@@ -9,9 +9,12 @@ import subprocess
 import sys
 import unittest
 
+import numpy as np
+
 from exact_motion import Motion, printed, scored
 from planar_code import Code, StepCode
-from run_folder import EmptyFolder
+from rigid_code import RigidCode, moreau, struck
+from run_folder import EmptyFolder, json_of
 
 
 def judged(text):
@@ -203,6 +206,78 @@ class Words(EmptyFolder):
         findings = judged(code.text(code.rows(1 / 500)))["findings"]
         self.assertIn("impact 1 (lines 53 to 54) is at no point of the body, must be at a", findings)
         self.assertIn("impact 1 (lines 53 to 54) does not follow the law: no point of the body explains its jump; of the lowest one e = ", " ".join(findings))
+
+
+class Scenes(EmptyFolder):
+    """Codes of Moreau's law, whose files name none, against scenes with friction."""
+
+    def against(self, problem, *options, **factors):
+        code = RigidCode(problem, 1)
+        for name, factor in factors.items():
+            setattr(code, name, getattr(code, name) * factor)
+        text = code.text(code.rows(1 / 500)).replace("# law: newton moreau\n", "")
+        scene = self.write("scene.toml", code.statement["scene_toml"])
+        return json_of("compare", scene, *options, "--against", self.write("run.csv", text))["files"][0]
+
+    def test_another_law_than_the_scenes_is_named_and_no_fault(self):
+        for problem in ("friction-reversal", "corner-friction"):
+            with self.subTest(problem):
+                found = self.against(problem)
+                cause, = found["causes"]
+                self.assertEqual((found["verdict"], cause["cause"]), ("fails", "law"))
+                for words in ("newton moreau explains", "# law: newton moreau", "--impact-friction-law moreau"):
+                    self.assertIn(words, cause["words"])
+                self.assertEqual(self.against(problem, "--impact-friction-law", "moreau")["verdict"], "exact")
+
+    def test_friction_is_known_where_the_scene_asks_for_moreaus_law(self):
+        for problem in ("friction-reversal", "friction-slip", "corner-friction"):
+            friction = RigidCode(problem, 1).friction
+            with self.subTest(problem):
+                found = {factor: self.against(problem, "--impact-friction-law", "moreau", friction=factor)["causes"] for factor in (0.7, -1)}
+                self.assertEqual([cause["cause"] for cause in found[0.7]], ["friction"])
+                self.assertAlmostEqual(found[0.7][0]["value"], 0.7 * friction, delta=1e-3)
+                self.assertIn(f"({friction} is asked)", found[0.7][0]["words"])
+                self.assertEqual([cause["cause"] for cause in found[-1]], ["friction-direction"])
+
+
+class Directions(unittest.TestCase):
+    """Friction of the other sign: it pushes along the slip after the impact or before it, or all that is solved is turned round."""
+
+    @staticmethod
+    def turned(w, v, e, friction):
+        return moreau(w, v, e, friction) * (-1, -1, 1)
+
+    @staticmethod
+    def pushing_on(w, v, e, friction):
+        way = np.array([0, 0, 1]) + friction / math.hypot(v[0], v[1]) * np.array([v[0], v[1], 0])
+        return -(1 + e) * v[2] / (w @ way)[2] * way
+
+    @staticmethod
+    def turned_face(code, state):
+        right = RigidCode.land(code, state)
+        slip = [2 * before - after for before, after in zip(state.velocity[:2], right.velocity)]
+        return struck(right, [*slip, right.velocity[2]], right.omega)
+
+    def test_friction_along_the_slip_is_named_in_space_and_of_points_that_strike_together(self):
+        for problem, changes in (("corner-friction", {"friction": -0.3}), ("corner-friction", {"solved": self.turned}),
+                                 ("corner-friction", {"solved": self.pushing_on}), ("incline-slide", {"friction": -0.35}),
+                                 ("incline-stick", {"friction": -0.4}), ("incline-slide", {"land": self.turned_face}),
+                                 ("incline-stick", {"land": self.turned_face}), ("face-grip", {"land": self.turned_face})):
+            with self.subTest(problem=problem, changes=changes):
+                code = RigidCode(problem, 1)
+                for name, change in changes.items():
+                    setattr(code, name, change.__get__(code) if name == "land" else change)
+                found = judged(code.text(code.rows(1 / 500)))
+                self.assertEqual([cause["cause"] for cause in found["causes"]], ["friction-direction"])
+                law, = (words for words in found["findings"] if "does not follow the law" in words)
+                self.assertRegex(law, r"P_t along the slip|P_t turned by 1[678]\d° from the law's")
+
+    def test_which_way_friction_points_is_told_of_two_corners(self):
+        code = RigidCode("incline-slide", 1)
+        code.friction *= -1
+        stick = 0.1 / (1.5 * 0.7)  # stops 0.1 m/s of slip beside a normal jump of (1 + e) 0.7 m/s
+        self.assertIn(f"does not follow the law: P_t/P_n = 0.350 and not {-stick:.3g}, P_t along the slip, e = 0.500",
+                      " ".join(judged(code.text(code.rows(1 / 500)))["findings"]))
 
 
 class Documents(EmptyFolder):

@@ -44,6 +44,15 @@ def centre_alone(code, state, points):
     return struck(state, [*state.velocity[:2], -code.e * state.velocity[2]], state.omega)
 
 
+def aimed_by_centre(code, state, arm):
+    """The contact gets e times the velocity of the centre of mass."""
+    e = code.e
+    code.e = e * state.velocity[2] / code.approach(state, arm)
+    after = RigidCode.strike_at(code, state, arm)
+    code.e = e
+    return after
+
+
 def restitution_of(factor):
     """Another one at each impact."""
     def strike(code, state, points):
@@ -221,6 +230,7 @@ FAULTS = {
     "no restitution at the slowest impact": ("restitution-threshold", slow_stick, None),
     "friction pushes on": ("friction-direction", numbers(friction=-1), None),
     "restitution of the centre alone": ("centre-alone", method(strike=centre_alone), None),
+    "e by the velocity of the centre": ("centre-restitution", method(strike_at=aimed_by_centre), None),
     "gravity upwards": ("gravity", numbers(gravity=-1), None),
     "no slope": ("slope", sloped(lambda along, down: (0.0, down)), None),
     "gravity straight to the ground": ("slope", sloped(lambda along, down: (0.0, math.hypot(along, down))), None),
