@@ -26,7 +26,7 @@ from typing import Any, Literal, overload
 from clatter.arguments import (Axis, MapQuantity, Model, Over, Part, Parts, Path, Probes, Progress, Scene, Scenes, ShockRows, Swept,
                                SweepRows)
 from clatter.arrays import Array
-from clatter.findings import (Explanation, Gradient, Measured, Plan, Problem, Ranking, Rows, Scored, Summary, Table,
+from clatter.findings import (Atlas, Explanation, Gradient, Measured, Plan, Problem, Ranking, Rows, Scored, Summary, Table,
                               Tradeoff)
 from clatter.results import Comparison, Sequence, Simulation, Verification
 

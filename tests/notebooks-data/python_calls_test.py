@@ -344,6 +344,23 @@ class SweepsAsTheProgram(unittest.TestCase):
         self.assertEqual((worst.answer.margin, clatter.report("phone-damped", impacts=1, drops=0).answer.peak_g), (None, None))
         self.assertRegex(" ".join(worst.answer.notes), r"\(drops=\)")
 
+    def test_a_command_with_a_flag_that_its_function_does_not_have_is_the_command_lines(self):
+        for function in (clatter.simulate, clatter.compare):
+            with self.assertRaisesRegex(clatter.BadInput, r"clatter\.ground\(\) finds.* whose cost the command line's clatter sweep tells$"):
+                function(angle=10)
+
+    def test_a_ground_that_is_found_can_be_pasted(self):
+        body = {"body": "box", "size": (0.15, 0.075, 0.008), "mass": 0.18, "orientation": 19, "clearance": 1}
+        for given, names in (({"floor": "concrete"}, {"floor"}), ({"measured_e": 0.4, "contact_time": 1e-3}, {"stiffness", "damping", "area"})):
+            found = re.search("or as arguments: (.*)", repr(clatter.ground(**body, **given)))[1]
+            ground = eval(f"dict({found})")  # of what is printed, as a user would
+            self.assertLessEqual(names, ground.keys())
+            self.assertEqual(clatter.simulate(**body, **ground, impacts=1)[0].n, 1)
+
+    def test_further_contacts_are_where_python_has_them(self):
+        for said, name in (("3 further contacts like these are in JSON", ".contacts"), ("3 further landings like these\n  are in JSON", ".outcomes")):
+            self.assertEqual(in_python(said), said.replace("JSON", name))
+
     def test_a_command_that_can_be_typed_stays_as_it_is(self):
         for text in ("clatter shock phone-damped --impacts 2 --probe a:0,0,0", "again: clatter sweep --scenes 0:9", "clatter simulate phone-damped --rate 100"):
             self.assertEqual(in_python(text), text)
@@ -484,8 +501,26 @@ class SweepsAsTheProgram(unittest.TestCase):
                                               (clatter.verify, "qick", True, "quick"), (clatter.sweep, "modle", "discrete", "model")):
             self.refused(f"{wrong}: unknown argument of {function.__name__}(); did you mean {right}?", function, **{wrong: value})
 
+    def test_an_unknown_argument_that_is_near_to_none_gets_the_functions_that_have_it_or_help(self):
+        for function, wrong, said in ((clatter.sequence, "history", "it belongs to simulate()"), (clatter.simulate, "output", "it belongs to report()"),
+                                      (clatter.sequence, "tolerance", r"it belongs to \w+\(\), \w+\(\), \w+\(\) and others"),
+                                      (clatter.gradient, "wrt", "help(clatter.gradient) lists them")):
+            with self.subTest(wrong), self.assertRaises(clatter.BadArgument) as refused:
+                function(**{wrong: True})
+            self.assertRegex(str(refused.exception), said if "\\" in said else re.escape(said))
+            self.assertNotIn("did you mean", str(refused.exception))
+        for wrong, right in (("fricton", "friction"), ("restituton", "restitution")):
+            for call in (lambda: clatter.map(over={wrong: (0, 1), "angle": (1, 60)}), lambda: clatter.sweep("rod-10", values={wrong: [0.1, 0.2]}),
+                         lambda: clatter.sequence(10, **{wrong: 0.1})):
+                with self.assertRaisesRegex(clatter.BadInput, f"^{wrong}: unknown .*; did you mean {right}\\?$"):
+                    call()
+        for call in (lambda: clatter.sequence("nope.stl"), lambda: clatter.sequence("nope"), lambda: clatter.sequence(10, body="ball")):
+            with self.assertRaises(clatter.BadInput) as refused:
+                call()
+            self.assertNotIn("did you mean", str(refused.exception))
+
     def test_a_wrong_type_is_told_with_the_key_the_value_and_what_is_allowed(self):
-        self.refused("angle [1, 2]: must be a number, from 0 to 90 degrees", clatter.sequence, angle=[1, 2])
+        self.refused("angle [1, 2]: must be a number, from 0 to 90 degrees; sweep() takes several", clatter.sequence, angle=[1, 2])
         self.refused("damping True: must be a number, at least 0", clatter.simulate, "rod-45", damping=True)
         self.refused("planar 2: must be True or False", clatter.simulate, "rod-45", planar=2)
         self.refused("body 3: must be one of rod, box, mesh, sphere, ellipsoid, capsule", clatter.sequence, 10, body=3)

@@ -291,6 +291,45 @@ class ArraysOfAngles(unittest.TestCase):
         self.assertEqual((html.count("<tr>"), "0.511569" in html), (1 + len(run), True))
         self.assertTrue(run.to_text(ascii=True).isascii())
 
+    def test_some_rows_show_themselves_as_the_table_does(self):
+        run = clatter.sequence(angle=10, gravity=9.81, impacts=4)
+        rows = [line for line in repr(run).split("\n") if re.match(r" +\d ", line)]
+        blocks = len(rows) // len(run)
+        self.assertEqual(len(rows), blocks * len(run))
+        for some in (slice(1, None), slice(None, None, -2), slice(2, 3)):
+            expected = [line for i in range(blocks) for line in rows[i * len(run):(i + 1) * len(run)][some]]
+            for shown in (run[some], run.rows[some], run[:][some]):
+                self.assertEqual([line for line in repr(shown).split("\n") if re.match(r" +\d ", line)], expected)
+                self.assertEqual([line for line in repr(run).split("\n") if "──" in line], [line for line in repr(shown).split("\n") if "──" in line])
+        self.assertEqual(pickle.loads(pickle.dumps(run[1:])), run[1:])
+
+    def test_a_length_a_column_and_a_row_cost_no_more_than_themselves(self):
+        class Costly:
+            """A report of which nothing whole is asked for."""
+
+            def __init__(self, report):
+                self._report = report
+
+            def __getattr__(self, name):
+                if name in ("data", "rows", "columns", "text", "html"):
+                    raise AssertionError(name)
+                return getattr(self._report, name)
+
+        tail = {"angle": 0, "gravity": 9.81, "restitution": 0.2, "impacts": 1}
+        for whole in (clatter.sequence(10), clatter.sequence("phone-corner"), clatter.sequence(**tail), clatter.gradient(10), clatter.atlas("phone"),
+                      clatter.sweep("rod-10", angle=[1, 2, 88], rows="impact", model="discrete"), pickle.loads(pickle.dumps(clatter.sequence(10)))):
+            part = type(whole)(Costly(whole._report))
+            rows = whole.rows
+            self.assertEqual(len(part), len(rows))
+            name = whole.columns[-1]
+            for i in (0, len(rows) - 1, -1):
+                self.assertEqual((part[i], [*dict(part[i])]), (rows[i], [*dict(rows[i])]))
+                self.assertEqual(repr(dict(part[i])), repr(dict(rows[i])))
+            if not isinstance(whole, clatter.Rows):  # which looks for the parts of vectors
+                self.assertEqual(repr(part[name]), repr(whole[name]))
+        with self.assertRaises(IndexError):
+            clatter.sequence(10)[9]
+
     def test_long_results_show_their_ends(self):
         few, many = (clatter.sweep("rod-10", angle=np.linspace(1, 80, count), model="discrete") for count in (60, 500))
         self.assertEqual(repr(few) + "\n", few.to_text())

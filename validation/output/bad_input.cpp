@@ -4,8 +4,10 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <compare>
 #include <cstdio>
 #include <numeric>
+#include <tuple>
 #include <utility>
 
 #include "validation/output/symbols.hpp"
@@ -33,32 +35,53 @@ std::size_t misspelling(const std::string& from, const std::string& to) {
   return least;
 }
 
-/// Whether one may have meant `known`: it has what was typed as a part, or a third of its letters differ.
-bool is_near(const std::string& name, const std::string& known) {
-  return known.find(name) != std::string::npos ||
-         3 * misspelling(name, known) <= letter * (std::max(name.size(), known.size()) + 1);
-}
+/// A name as it is typed: without the dashes of a flag, the key of a table apart from the table.
+struct Spelled {
+  explicit Spelled(const std::string& name) {
+    const std::size_t dot = name.rfind('.');
+    if (dot != std::string::npos) table = name.substr(0, dot);
+    key = name.substr(dot == std::string::npos ? std::min(name.find_first_not_of('-'), name.size()) : dot + 1);
+  }
+  std::string table, key;
+};
+
+/// How far what was typed is from a name.
+struct Distance {
+  Distance(const std::string& name, const std::string& known)
+      : Distance(Spelled(name), Spelled(known), known.find(name) != std::string::npos) {}
+  Distance(const Spelled& from, const Spelled& to, bool is_part)
+      : is_other(!is_part), keys(misspelling(from.key, to.key)), tables(from.table != to.table),
+        most(letter * std::max<std::size_t>(1, std::min(from.key.size(), to.key.size()) / 3)) {
+    if (!from.table.empty() && tables > 0) tables = misspelling(from.table, to.table);
+  }
+  /// One may have meant it: what was typed is a part of it, or a third of the shorter's letters differ.
+  [[nodiscard]] bool is_near() const { return !is_other || keys <= most; }
+  auto operator<=>(const Distance& other) const { return rank() <=> other.rank(); }
+
+ private:
+  [[nodiscard]] std::tuple<bool, std::size_t, std::size_t> rank() const {
+    return {is_other, keys + std::min(tables, letter), tables};
+  }
+
+  bool is_other;
+  std::size_t keys, tables, most;  ///< an other table is as one letter at most
+};
 
 }  // namespace
 
 std::string nearest_name(const std::string& name, const std::vector<std::string>& candidates) {
-  const auto nearest =
-      std::min_element(candidates.begin(), candidates.end(), [&](const std::string& a, const std::string& b) {
-        const auto rank = [&](const std::string& known) {  // what was typed may be a part of it
-          return std::pair(known.find(name) == std::string::npos, misspelling(name, known));
-        };
-        return rank(a) < rank(b);
-      });
+  const auto nearest = std::min_element(
+      candidates.begin(), candidates.end(),
+      [&](const std::string& a, const std::string& b) { return Distance(name, a) < Distance(name, b); });
   return nearest == candidates.end() ? std::string() : *nearest;
 }
 
 std::string suggestion(const std::string& name, const std::vector<std::string>& candidates, bool are_listed) {
   constexpr std::size_t few = 12;
   const std::string nearest = nearest_name(name, candidates);
-  const bool has_list = are_listed || (!candidates.empty() && candidates.size() <= few);
-  if (!has_list || is_near(name, nearest)) return fmt::format("; did you mean {}?", nearest);
-  return are_listed ? ""
-                    : fmt::format("; there {} {}", candidates.size() == 1 ? "is" : "are", fmt::join(candidates, ", "));
+  if (!candidates.empty() && Distance(name, nearest).is_near()) return fmt::format("; did you mean {}?", nearest);
+  if (are_listed || candidates.empty() || candidates.size() > few) return "";
+  return fmt::format("; there {} {}", candidates.size() == 1 ? "is" : "are", fmt::join(candidates, ", "));
 }
 
 void say(const std::string& words) {

@@ -73,9 +73,11 @@ const Command& called_command(const std::vector<Command>& commands, std::vector<
     else if (found != words.end()) called = &command, asking = found;
   }
   if (called == nullptr) {
+    const bool is_near = !suggestion(words.front(), known, true).empty();
     const auto nearest = std::find(known.begin(), known.end(), nearest_name(words.front(), known));
-    throw BadInput("command '{}': unknown; did you mean {}?", words.front(),
-                   meant[static_cast<std::size_t>(nearest - known.begin())]);
+    throw BadInput("command '{}': unknown; {}", words.front(),
+                   is_near ? fmt::format("did you mean {}?", meant[static_cast<std::size_t>(nearest - known.begin())])
+                           : "clatter help lists them");
   }
   if (asking != words.begin()) words.erase(asking);
   words.erase(words.begin());

@@ -34,13 +34,22 @@ std::vector<std::string> several_values(const Key& key, const std::string& text)
   return values;
 }
 
-bool is_restitution(const Key& key) { return std::string_view(key.name).ends_with(".restitution"); }
+/// Where the restitution that was given for the model that runs comes from: the ground, or impacts.
+bool is_of_ground(const ReportCase& one) {
+  return model_of(one.input) == Model::continuous ||
+         restitution_law(one.given) == analytic::RestitutionLaw::viscoelastic;
+}
+
+/// Whether the column e has the key's value: the other model's restitution is a flag as others are.
+bool is_restitution(const ReportCase& one, const Key& key) {
+  return std::string_view(key.name) == (is_of_ground(one) ? "ground.restitution" : "impact.restitution");
+}
 bool is_floor(const Key& key) { return std::string_view(key.name) == "ground.floor"; }
 bool is_friction(const Key& key) { return std::string_view(key.name) == "ground.sliding_friction"; }
 
 /// "e", "floor" or "sliding friction": a key as one says it.
-std::string words_of(const Key& key) {
-  if (is_restitution(key)) return "e";
+std::string words_of(const ReportCase& one, const Key& key) {
+  if (is_restitution(one, key)) return "e";
   std::string name = key.argument();
   std::ranges::replace(name, '_', ' ');
   return name;
@@ -73,8 +82,8 @@ Row cells_of_case(const ReportCase& one) {
   const auto e = one.given_restitution();
   std::string given;
   for (const auto& [key, value] : one.varied) {
-    if (!is_restitution(*key) && !is_floor(*key) && !is_friction(*key))
-      given += fmt::format("{}{} {}", given.empty() ? "" : ", ", words_of(*key), value);
+    if (!is_restitution(one, *key) && !is_floor(*key) && !is_friction(*key))
+      given += fmt::format("{}{} {}", given.empty() ? "" : ", ", words_of(one, *key), value);
   }
   return {text(one.scene()),
           text(floor_of(one.given)),
@@ -208,7 +217,9 @@ std::string ReportCase::name() const {
   std::string words = names_scene ? scene() : "";
   for (const auto& [key, value] : varied) {
     words += words.empty() ? "" : ", ";
-    words += is_floor(*key) ? value : is_restitution(*key) ? "e = " + value : words_of(*key) + " " + value;
+    words += is_floor(*key)                ? value
+             : is_restitution(*this, *key) ? "e = " + value
+                                           : words_of(*this, *key) + " " + value;
   }
   return words;
 }
@@ -224,7 +235,7 @@ std::string ReportCase::heading() const {
 }
 
 std::optional<double> ReportCase::given_restitution() const {
-  return model_of(input) == Model::continuous ? given.ground_restitution : given.impact.restitution;
+  return is_of_ground(*this) ? given.ground_restitution : given.impact.restitution;
 }
 
 Grid cases_grid(const std::vector<const ReportCase*>& cases) {
@@ -374,13 +385,14 @@ std::string setting_of(const ReportCase& one, std::size_t place) {
   return place == one.varied.size() ? one.scene() : one.varied[place].second;
 }
 std::string name_of_setting(const ReportCase& one, std::size_t place) {
-  return place == one.varied.size() ? "scene" : words_of(*one.varied[place].first);
+  return place == one.varied.size() ? "scene" : words_of(one, *one.varied[place].first);
 }
 
 /// How many times the value by which the cases of one part are ranked changes with each thing that is varied, all else
-/// the same: the largest ratio of all, the most decisive first.
+/// the same: the largest ratio of all, the most decisive first.  Nothing of cases without such a value.
 std::vector<std::pair<std::string, double>> influences(const std::vector<const ReportCase*>& cases) {
   std::vector<std::pair<std::string, double>> times;
+  if (std::ranges::none_of(cases, [](const ReportCase* one) { return std::isfinite(one->value()); })) return times;
   const std::size_t keys = cases.front()->varied.size();
   for (std::size_t place = 0; place <= keys; ++place) {
     if (place == keys && !cases.front()->names_scene) continue;
@@ -431,7 +443,7 @@ std::string tie_words(const std::vector<std::vector<const ReportCase*>>& parts) 
 std::string fixed_words(const std::vector<const ReportCase*>& cases) {
   const auto is_of_springs = [](const ReportCase* one) {
     const numeric::Ground& ground = one->given.world.ground;
-    return std::ranges::any_of(one->varied, [](const auto& of) { return is_restitution(*of.first); }) &&
+    return std::ranges::any_of(one->varied, [&](const auto& of) { return is_restitution(*one, *of.first); }) &&
            one->given.ground_restitution && !ground.is_half_space() && !ground.is_pad();
   };
   if (std::ranges::none_of(cases, is_of_springs)) return "";

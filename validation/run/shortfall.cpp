@@ -18,10 +18,21 @@ std::string digits_shortfall(int asked, double achieved) {
   return fmt::format("asked {} digits, achieved {:.1f}", asked, std::max(-std::log10(achieved), 0.0));
 }
 
+namespace {
+
+/// Whether impacts take energy along the normal.
+bool takes_energy(const Scene& scene) {
+  return restitution_law(scene) == analytic::RestitutionLaw::viscoelastic ? scene.world.ground.is_damped()
+                                                                          : scene.impact.restitution.value_or(1) < 1;
+}
+
+}  // namespace
+
 std::string shortfall(const Scene& scene, const Run& run) {
   if (run.is_cut_short) return fmt::format("{}: {}", run.outcome, run.message);
   if (scene.until_rest && run.outcome == std::string_view("impact-limit"))
-    return fmt::format("not at rest after {} impacts", run.impacts.size());
+    return fmt::format("not at rest after {} impacts{}", run.impacts.size(),
+                       takes_energy(scene) ? "" : "; restitution 1 takes no energy");
   return scene.require_digits ? digits_shortfall(scene.accuracy.digits, run.relative_error) : "";
 }
 

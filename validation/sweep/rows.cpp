@@ -218,7 +218,7 @@ class AskedColumns {
     }
     throw BadInput(
         fmt::format("--columns '{}': must be hardest, hardest_QUANTITY, QUANTITY or QUANTITY_N with N from 1 "
-                    "to {}, or a column that is there anyway; did you mean {}?",
+                    "to {}, or a column that is there anyway{}",
                     name, impacts_, near(name)));
   }
 
@@ -235,7 +235,8 @@ class AskedColumns {
     return *std::find_if(columns_.begin(), columns_.end(), [&](const Column& column) { return column.name == name; });
   }
 
-  /// Names like one that there is not: all quantities that begin with it, else the nearest one, with its impact.
+  /// "; did you mean impulse_normal_2?": all quantities that begin with a name that there is not, else one that is
+  /// near, with its impact.
   [[nodiscard]] std::string near(const std::string& name) const {
     const std::string_view prefix = "hardest_";
     const std::size_t begin = name.starts_with(prefix) ? prefix.size() : 0, cut = name.rfind('_');
@@ -247,8 +248,9 @@ class AskedColumns {
     for (const Column& column : columns_)
       if (column.name.starts_with(quantity + "_"))
         longer.push_back(name.substr(0, begin) + column.name + name.substr(end));
-    if (!longer.empty()) return fmt::format("{}", fmt::join(longer, ", "));
-    return name.substr(0, begin) + nearest_name(quantity, names_) + name.substr(end);
+    if (longer.empty() && !suggestion(quantity, names_, true).empty())
+      longer.push_back(name.substr(0, begin) + nearest_name(quantity, names_) + name.substr(end));
+    return longer.empty() ? "" : fmt::format("; did you mean {}?", fmt::join(longer, ", "));
   }
 
   void require_new(const std::string& name) const {

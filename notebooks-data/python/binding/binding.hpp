@@ -20,14 +20,24 @@ namespace clatter::python {
 
 /// What a run came to.  Both functions hold all that they read.
 struct Report {
-  std::function<validation::Report()> made;  ///< when something of it is asked for
+  std::function<validation::Report()> made;  ///< when something of it is first asked for
   /// The text where the program prints another one than the report's.
   std::function<std::string(const validation::TextStyle&)> text = nullptr;
+  std::shared_ptr<const validation::Report> known = nullptr;  ///< once it is made
+
+  /// All of it, kept for the next question.
+  const validation::Report& whole() {
+    if (!known) {
+      known =
+          run_interruptible([make = made](const Watch&) { return std::make_shared<const validation::Report>(make()); });
+    }
+    return *known;
+  }
 };
 
 /// A report that is made already.
 [[nodiscard]] inline Report kept(validation::Report report) {
-  return {[made = std::make_shared<const validation::Report>(std::move(report))] { return *made; }};
+  return {.made = nullptr, .known = std::make_shared<const validation::Report>(std::move(report))};
 }
 
 /// A scene as Python hands it over: keys by the names of arguments take the place of what a file or a text says.

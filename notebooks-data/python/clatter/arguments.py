@@ -6,7 +6,6 @@ The keys of scenes are keyword arguments; their names, types and what is allowed
 
 from __future__ import annotations
 
-import difflib
 import functools
 import inspect
 import os
@@ -17,7 +16,7 @@ from typing import Any, Literal, NamedTuple, ParamSpec, TypeVar
 
 from clatter import _clatter
 from clatter.errors import BadArgument, BadInput
-from clatter.words import by_arguments, in_python, shown
+from clatter.words import ARGUMENTS_OF, by_arguments, in_python, shown
 
 Value = str | float | bool | Iterable[float]
 Swept = str | float | bool | Iterable[str] | Iterable[float] | Iterable[Iterable[float]]
@@ -118,7 +117,8 @@ def text_of(name: str, key: Key | None, value: Any) -> str:
         return f"[{','.join('[' + ','.join(point) + ']' for point in points)}]"
     vector = _vector(value) if kind in ("list", "any") else None
     if vector is None:
-        raise BadArgument(f"{name} {shown(value)}: must be {key.requirement() if key else 'a number, a text or a list of numbers'}")
+        several = "; sweep() takes several" if kind in ("number", "whole") and _vector(value) else ""
+        raise BadArgument(f"{name} {shown(value)}: must be {key.requirement() if key else 'a number, a text or a list of numbers'}{several}")
     return "x".join(vector)
 
 
@@ -248,13 +248,20 @@ _SYMBOLS = {"e": "restitution", "mu": "friction", "g": "gravity", "m": "mass", "
             "omega": "spin", "k": "stiffness"}
 
 
-def _nearest_argument(unknown: str, value: Any, names: list[str]) -> str:
-    """Of those that have the name as a word the one that takes such a value, else what is spelled alike."""
+_MOST_OWNERS = 3
+
+
+def _suggested_argument(unknown: str, value: Any, names: list[str], function: str) -> str:
+    """What is said of an argument that a function does not have: which others have it, else of those that have the name as a word
+    the one that takes such a value, else what is spelled alike."""
     if unknown in _SYMBOLS and _SYMBOLS[unknown] in names:
-        return _SYMBOLS[unknown]
+        return f"; did you mean {_SYMBOLS[unknown]}?"
     longer = [name for name in names if unknown in name.split("_")]
-    fitting = [name for name in longer if name in KEYS and difflib.get_close_matches(str(value), KEYS[name].names, 1)]
-    return (fitting or difflib.get_close_matches(unknown, longer or names, 1, 0))[0]
+    fitting = [name for name in longer if name in KEYS and _clatter.suggestion(str(value), KEYS[name].names)]
+    owners = sorted((other for other, arguments in ARGUMENTS_OF.items() if unknown in arguments), key=lambda one: "scene" not in ARGUMENTS_OF[one])
+    if owners and not fitting:
+        return f"; it belongs to {', '.join(f'{one}()' for one in owners[:_MOST_OWNERS])}{' and others' if len(owners) > _MOST_OWNERS else ''}"
+    return _clatter.suggestion(unknown, fitting or longer or names) or f"; help(clatter.{function}) lists them"
 
 
 _OPTIONS = _clatter.command_options()
@@ -284,13 +291,14 @@ def checked(function: Callable[_Arguments, _Returned]) -> Callable[_Arguments, _
     names = [*own, *(key.argument for key in keys)]
     types = {name: one.annotation for name, one in own.items() if set(str(one.annotation).split(" | ")) <= _TYPES.keys()}
     known = frozenset(names)
+    ARGUMENTS_OF[function.__name__] = known
 
     @functools.wraps(function)
     def call(*arguments: Any, **named: Any) -> Any:
         if not named.keys() <= known:
             unknown = next(name for name in named if name not in known)
-            near = _nearest_argument(unknown, named[unknown], names)
-            raise BadArgument(f"{unknown}: unknown argument of {function.__name__}(); did you mean {near}?")
+            raise BadArgument(f"{unknown}: unknown argument of {function.__name__}()"
+                              + _suggested_argument(unknown, named[unknown], names, function.__name__))
         given = [_checked_value(name, value, types[name]) if name in types else value for name, value in zip(positional, arguments)]
         for name in named.keys() & types.keys():
             named[name] = _checked_value(name, named[name], types[name])

@@ -62,7 +62,9 @@ def sequence(scene: Scene | float | None = None, *, method: str = "auto", **chan
     """
     report, shortfall, outcome, impacts, said = called(_clatter.sequence, *scene_text(scene, changes), method, given=as_given(scene, changes))
     _warn([*_reservations(shortfall, outcome, impacts), *said])
-    return Sequence(report)
+    run = Sequence(report)
+    run._length = impacts
+    return run
 
 
 @checked

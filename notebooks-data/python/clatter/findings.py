@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What explanations, plans, studies of cost, sweeps, regimes, measurements and scores return."""
 
-import functools
 from typing import Any
 
 from clatter.arguments import KEYS
@@ -79,10 +78,8 @@ class Atlas(Table):
     """Clattering close to flat: a row for each range of tilts.  What is of each impact of a row, as order, approaches and impulses,
     is a list."""
 
-    @functools.cached_property
-    def _columns(self) -> dict[str, list[Any]]:
-        lists = ("order", "approaches", "impulses")
-        return {name: [_listed(value) for value in values] if name in lists else values for name, values in super()._columns.items()}
+    def _values(self, name: str, cells: list[Any]) -> list[Any]:
+        return [_listed(value) for value in cells] if name in ("order", "approaches", "impulses") else cells
 
 
 def _listed(text: Any) -> Any:
@@ -180,12 +177,10 @@ class Rows(Table):
     """Rows of a sweep or of regimes; `rows` holds a record for each.  Of rows of impacts n is None, in arrays NaN, in one that sums
     up all further impacts."""
 
-    @functools.cached_property
-    def _columns(self) -> dict[str, list[Any]]:
+    def _values(self, name: str, cells: list[Any]) -> list[Any]:
         def whole(value: Any) -> Any:
             return None if value == "tail" else int(value) if isinstance(value, float) else value
-        return {name: [whole(value) for value in values] if name in _WHOLE or name.endswith("_impact") else values
-                for name, values in super()._columns.items()}
+        return [whole(value) for value in cells] if name in _WHOLE or name.endswith("_impact") else cells
 
     def column(self, name: str) -> Array:
         """One value of each row, vectors as rows; NaN where there is none.  @raise KeyError: with how a sweep gets more columns."""

@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Small objects over the program's JSON: each name of the JSON is an attribute."""
 
-import difflib
 from collections.abc import ItemsView, Iterable, Iterator, Mapping, ValuesView
 from typing import TYPE_CHECKING, Any, overload
 
+from clatter import _clatter
 from clatter.arrays import Array, frozen, lists, numbers, same_arrays, words
 
 JsonObject = Mapping[str, Any]
@@ -26,8 +26,9 @@ def as_array(values: list[Any]) -> Array:
 def absent(name: str, known: Iterable[str]) -> str:
     """What is said of a name that there is not: those that begin so, else the nearest one, or if none is near all that there are."""
     names = list(known)
-    near = [one for one in names if name and one.startswith(name)][:5] or difflib.get_close_matches(name, names, 1, 0.75)
-    return f"no '{name}' here; " + (f"did you mean {', '.join(near)}?" if near else f"there are {', '.join(names)}")
+    near = [one for one in names if name and one.startswith(name)][:5]
+    meant = f"; did you mean {', '.join(near)}?" if near else _clatter.suggestion(name, names)
+    return f"no '{name}' here" + (meant or f"; there are {', '.join(names)}")
 
 
 def value_of(row: JsonObject, name: str) -> Any:

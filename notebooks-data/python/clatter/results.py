@@ -57,6 +57,10 @@ class Report(Protocol):
     def data(self) -> dict[str, Any]: ...
     def rows(self) -> list[dict[str, Any]]: ...
     def columns(self) -> dict[str, list[Any]]: ...
+    def length(self) -> int: ...
+    def column(self, name: str) -> list[Any] | None: ...
+    def row(self, index: int) -> dict[str, Any]: ...
+    def object(self, list: str, index: int) -> dict[str, Any]: ...
     def text(self, format: str, ascii: bool) -> str: ...
     def html(self) -> str: ...
 
@@ -76,6 +80,18 @@ class KeptReport:
 
     def columns(self) -> dict[str, list[Any]]:
         return copy.deepcopy(self._columns)
+
+    def length(self) -> int:
+        return len(next(iter(self._columns.values()), []))
+
+    def column(self, name: str) -> list[Any] | None:
+        return copy.deepcopy(self._columns.get(name))
+
+    def row(self, index: int) -> dict[str, Any]:
+        return {name: values[index] for name, values in self._columns.items()}
+
+    def object(self, list: str, index: int) -> dict[str, Any]:
+        return copy.deepcopy((self._data[list] if list else self._rows)[index])
 
     def text(self, format: str, ascii: bool) -> str:
         if format not in _FORMATS:
@@ -102,8 +118,28 @@ def _without_gaps(column: list[Any]) -> list[Any]:
     return [float("nan") if value is None else value for value in column] if type(None) in kinds and kinds <= {float, int, type(None)} else column
 
 
+def _shown_rows(text: str, count: int, some: range) -> str:
+    """A table for a terminal with some of its `count` rows, without what is said below; "": it has other rows."""
+    lines: list[str] = []
+    for block in text.rstrip("\n").split("\n\n"):
+        found = re.fullmatch(r"(?s)(.*?\n *─+\n)(.*)", block)
+        rows = found[2].split("\n") if found else []
+        if found and len(rows) >= count:
+            lines.append(found[1] + "\n".join(_ends([rows[i] for i in some], "  {}")))
+    return "\n\n".join(lines)
+
+
 class RowList(list[Row]):
     """Some rows of a table: a list of records that gives its columns as the table does, rows["impulse_normal"], and shows itself."""
+
+    _of: tuple[Result[Any], range] | None = None  # which rows of which result
+
+    def _from(self, result: Result[Any], some: range) -> RowList[Row]:
+        self._of = (result, some)
+        return self
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return type(self), (list(self),)
 
     @property
     def columns(self) -> list[str]:
@@ -125,9 +161,16 @@ class RowList(list[Row]):
         """A row, some of them, or a column by its name."""
         if isinstance(index, str):
             return self.column(index)
-        return RowList(super().__getitem__(index)) if isinstance(index, slice) else super().__getitem__(index)
+        if not isinstance(index, slice):
+            return super().__getitem__(index)
+        rows: RowList[Row] = RowList(super().__getitem__(index))
+        return rows._from(self._of[0], self._of[1][index]) if self._of and len(self._of[1]) == len(self) else rows
 
     def __repr__(self) -> str:
+        if self._of and len(self._of[1]) == len(self) > 0:
+            result, some = self._of
+            if table := _shown_rows(result.to_text(), len(result), some):
+                return paragraphs_in_python(table)
         return _first_rows([dict(row.items()) for row in self], "rows")
 
 
@@ -158,9 +201,13 @@ class Result(Generic[Row]):
         """The program's JSON, made when it is first asked for."""
         return self._report.data()
 
+    def _values(self, name: str, cells: list[Any]) -> list[Any]:
+        """Of some cells of a column, where they are others than in CSV."""
+        return cells
+
     @functools.cached_property
     def _columns(self) -> dict[str, list[Any]]:
-        return self._report.columns()
+        return {name: self._values(name, cells[:len(self)]) for name, cells in self._report.columns().items()}
 
     def _objects(self) -> list[dict[str, Any]]:
         """The rows as JSON has them, vectors as lists."""
@@ -172,7 +219,8 @@ class Result(Generic[Row]):
         """A record for each, whose keys are the columns."""
         names, objects = list(self._columns), self._objects()
         rows = zip(objects, zip(*map(_without_gaps, self._columns.values())))
-        return RowList(self._row_class(one, dict(zip(names, row))) for one, row in rows)  # type: ignore[misc]
+        every: RowList[Row] = RowList(self._row_class(one, dict(zip(names, row))) for one, row in rows)  # type: ignore[misc]
+        return every._from(self, range(len(every)))
 
     @property
     def columns(self) -> list[str]:
@@ -181,12 +229,33 @@ class Result(Generic[Row]):
 
     def column(self, name: str) -> Array:
         """One value of each row, vectors as rows; NaN where there is none.  NAME_error is its error, NAME_z a vector's part."""
-        if name in self._columns:
-            return as_array(self._columns[name])
-        return column_of(self._objects(), name)
+        cells = self._report.column(name)
+        return column_of(self._objects(), name) if cells is None else as_array(self._values(name, cells[:len(self)]))
+
+    @functools.cached_property
+    def _length(self) -> int:
+        return self._report.length()
+
+    @functools.cached_property
+    def _has_gaps(self) -> dict[str, bool]:
+        """Whether a column without a number in a row has NaN there, of columns that were asked for."""
+        return {}
+
+    def _row(self, index: int) -> Row:
+        """One record, for much less than all of them."""
+        if "rows" in vars(self) or not -len(self) <= index < len(self):
+            return self.rows[index]
+        place = index % len(self)
+        cells = {name: self._values(name, [value])[0] for name, value in self._report.row(place).items()}
+        for name in [name for name, value in cells.items() if value is None]:
+            if name not in self._has_gaps:
+                self._has_gaps[name] = None not in _without_gaps(self._values(name, (self._report.column(name) or [])[:len(self)]))
+            if self._has_gaps[name]:
+                cells[name] = float("nan")
+        return self._row_class(self._report.object(self._rows_in, place), cells)  # type: ignore[return-value]
 
     def __len__(self) -> int:
-        return len(next(iter(self._columns.values()), []))
+        return self._length
 
     def __iter__(self) -> Iterator[Row]:
         return iter(self.rows)
@@ -199,7 +268,9 @@ class Result(Generic[Row]):
     def __getitem__(self, index: str) -> Array: ...
     def __getitem__(self, index: int | slice | str) -> Row | RowList[Row] | Array:
         """A row, some of them, or a column by its name."""
-        return self.column(index) if isinstance(index, str) else self.rows[index]
+        if isinstance(index, str):
+            return self.column(index)
+        return self.rows[index] if isinstance(index, slice) else self._row(index)
 
     def _beside(self) -> tuple[Any, ...]:
         """What it was made from beside the report."""
@@ -256,7 +327,7 @@ class Result(Generic[Row]):
         return self._report.text(format, ascii)
 
     def __repr__(self) -> str:
-        text = shown_text(self.to_text(), len(next(iter(self._report.columns().values()), [])), len(self._data.get("states") or []))
+        text = shown_text(self.to_text(), self._report.length(), len(self._data.get("states") or []))
         return paragraphs_in_python(text)
 
     def _repr_html_(self) -> str:
@@ -336,11 +407,10 @@ class Run(Result[OneImpact]):
     _rows_in = "impacts"
 
     @functools.cached_property
-    def _columns(self) -> dict[str, list[Any]]:
+    def _length(self) -> int:
         """Without the table's last row, where that is the sum of the impacts that follow."""
-        columns = self._report.columns()
-        count = len(columns["n"]) - (columns["n"][-1:] == ["tail"])
-        return {name: values[:count] for name, values in columns.items()}
+        count = self._report.length()
+        return count - (count > 0 and self._report.row(count - 1)["n"] == "tail")
 
     @property
     def impacts(self) -> list[OneImpact]:

@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-import difflib
 import os
 import re
 import tomllib
@@ -74,9 +73,13 @@ def scene_text(scene: Scene | float | None, changes: Mapping[str, Any]) -> Scene
     if isinstance(scene, str) and name in known and not os.path.exists(name):
         return SceneText(f"validation/cases/{name}.toml", known[name], texts)
     if os.sep not in name and not name.endswith(".toml") and not os.path.exists(name):
-        near = difflib.get_close_matches(name, known, 1, 0)[0]
-        raise BadInput(f"scene '{name}': neither a file nor a case; did you mean '{near}'? clatter.cases() lists them")
+        raise BadInput(f"scene '{name}': neither a file nor a case{_near_case(name)}")
     return SceneText(name, None, texts)
+
+
+def _near_case(name: str) -> str:
+    near = re.sub(r"(?<=mean )(.*)(?=\?)", r"'\1'", _clatter.suggestion(name, cases()))
+    return f"{near or ';'} clatter.cases() lists them"
 
 
 def cases() -> list[str]:
@@ -93,8 +96,7 @@ def case(name: str) -> dict[str, Any]:
     """
     known = _clatter.cases()
     if name not in known:
-        near = difflib.get_close_matches(name, known, 1, 0)[0]
-        raise BadInput(f"case '{name}': there is none; did you mean '{near}'? clatter.cases() lists them")
+        raise BadInput(f"case '{name}': there is none{_near_case(name)}")
     return tomllib.loads(known[name])
 
 

@@ -21,10 +21,22 @@ _FUNCTIONS = {*_clatter.command_options(), *_FUNCTION_OF.values(), "angles", "ve
 _COMMAND = (r"\bclatter\s+(shock\s+--ground|angles\s+--regimes|plan\s+--tradeoff|verify\s+--extremes|verify\s+--figures|[a-z]+)\b"
             r"((?:\s+--[a-z-]+(?:\s+[A-Z][A-Z0-9/]*\b)?)*)(?=[;:,.)]|\s(?!\s*--|[0-9\"'{])|$)(?!\s+--)")
 _MOST_SHOWN = 60  # characters of a value in a message
+ARGUMENTS_OF: dict[str, frozenset[str]] = {}  # of each function, which says them when it is made
+
+
+def _arguments_of_flags(found: re.Match[str]) -> str:
+    """Flags with their values, as a call has them."""
+    words = found["flags"].split()
+    pairs = [(flag.removeprefix("--").replace("-", "_"), value.strip("'")) for flag, value in zip(words[::2], words[1::2])]
+    return "or as arguments: " + ", ".join(f"{name}={value}" if _is_number(value) else f'{name}="{value}"' for name, value in pairs)
 
 # Forms of the command line, and what Python has for them.
 _FORMS: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = (
     (r"(?<=--probe )NAME:X,Y,Z\b|(?<=as )NAME:X,Y,Z\b|(?<=must be )NAME:X,Y,Z\b", '{"NAME": (x, y, z)}'),
+    (r"or as flags:(?P<flags>(?:\s+--[a-z-]+\s+[^\s-]\S*)+)", _arguments_of_flags),
+    (r"(further\s+contacts\s+like\s+these\s+are\s+in)\s+JSON\b", r"\1 .contacts"),
+    (r"(further\s+landings\s+like\s+these\s+are\s+in)\s+JSON\b", r"\1 .outcomes"),
+    (r"JSON\s+of\s+sequence\s+has\s+all\b", "sequence(...).outcomes has all"),
     (r"\bLOW:HIGH:COUNT\b", "(low, high, count)"), (r"\bHIGH must be greater than LOW\b", "high must be greater than low"),
     (r"\bHZ:G\b", "(Hz, g)"), (r"(?<=as )500:300(?= or )", "(500, 300)"),
     (r"as in ([-\d.e]+(?:[,:][-\d.e]+)+)", lambda found: f"as in ({', '.join(re.split('[,:]', found[1]))})"),
@@ -63,11 +75,13 @@ def _of_flag(found: re.Match[str], renamed: Mapping[str, str]) -> str:
 
 
 def _of_command(found: re.Match[str]) -> str:
-    """A command's function, with what is to be given it, where it has one."""
+    """A command's function, with what is to be given it, where it has one that takes all of that."""
     name = _FUNCTION_OF.get(" ".join(found[1].split()), found[1])
     if name not in _FUNCTIONS:
         return found[0]
     given = re.findall(r"--([a-z-]+)(?:\s+([A-Z][A-Z0-9/]*))?", found[2])
+    if any(flag.replace("-", "_") not in ARGUMENTS_OF.get(name, [flag.replace("-", "_")]) for flag, _ in given):
+        return f"the command line's clatter {found[1]}"
     return f"clatter.{name}({', '.join(flag.replace('-', '_') + '=' + (value or '...') for flag, value in given)})"
 
 
@@ -96,7 +110,7 @@ def in_python(text: str, given: Mapping[str, Any] | None = None, renamed: Mappin
     for form, words in _FORMS:
         text = re.sub(form, words, text)
     text = _echoed(text, given or {}, renamed or {})
-    text = re.sub(r"^--(?:set|over) (?=[a-z]+\.)", "", text)
+    text = re.sub(r"^(?:--)?(?:set|over) (?=[a-z_]+[.:])", "", text)
     if any("--" in re.split(r"[;)]|, |: ", text[found.end():])[0] for found in re.finditer(_COMMAND, text)):
         return said
     text = re.sub(_COMMAND, _of_command, text)

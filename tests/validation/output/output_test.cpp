@@ -162,6 +162,20 @@ BOOST_AUTO_TEST_CASE(the_nearest_name_is_the_one_with_fewest_changes) {
   BOOST_TEST(suggestion("tile", floors, true) == "");
 }
 
+BOOST_AUTO_TEST_CASE(a_name_is_suggested_only_where_few_letters_of_the_shorter_one_differ) {
+  std::vector<std::string> keys{"drop.topple",     "run.until",    "impact.restitution", "ground.sliding_friction",
+                                "impact.friction", "world.gravity"};
+  for (int i = 0; i < 20; ++i) keys.push_back(fmt::format("x.key_{}", i));  // too many to be listed
+  BOOST_TEST(suggestion("fricton", keys) == "; did you mean impact.friction?");
+  BOOST_TEST(suggestion("restituton", keys) == "; did you mean impact.restitution?");
+  BOOST_TEST(suggestion("body.gravity", keys) == "; did you mean world.gravity?");
+  BOOST_TEST(suggestion("ground.fricton", keys) == "; did you mean impact.friction?");
+  for (const char* far : {"nope.stl", "wrt", "history", "output"}) BOOST_TEST(suggestion(far, keys) == "", far);
+  BOOST_TEST(suggestion("ball", {"rod", "box", "capsule", "ellipsoid"}, true) == "");
+  BOOST_TEST(suggestion("--frictoin", {"--angle", "--friction"}) == "; did you mean --friction?");
+  BOOST_TEST(suggestion("jsn", {"table", "json"}, true) == "; did you mean json?");
+}
+
 BOOST_AUTO_TEST_CASE(a_foreign_text_moves_no_cursor_and_stays_readable) {
   BOOST_TEST(printable("a\x1b[2Jb\x7f") == "a\\x1b[2Jb\\x7f");
   BOOST_TEST(printable("\xc2\x9b"

@@ -28,8 +28,10 @@ OUT_OF_RANGE = {
     "1000001": "--impacts", "18": "--digits", "91": "--from", "90.5": "--to", "1e201": "--mass", "1e309": "--length"}
 REFUSED = {
     "sequence --angle 10 --angle 20": "twice", "sequence --angle": "value", "sequence --agle 10": "did you mean --angle",
+    "xyzzy": "'xyzzy': unknown; clatter help lists them", "sequence --angle 10 --xyzzy 1": "--xyzzy: unknown for sequence\n",
+    "sequence nope": "nope: neither a file nor a case\n", "sequence --angle 10 --body ball": "capsule\n",
     "sequnce": "did you mean sequence", "help columns --only sequnce": "did you mean sequence?", "tradeof rod-45": "did you mean plan --tradeoff?", "scene": "did you mean help scene?",
-    "plan --tradeoff --tradeoff rod-45": "--tradeoff: unknown for plan --tradeoff", "plan --tradeoff=x rod-45": "--tradeoff: unknown for plan;",
+    "plan --tradeoff --tradeoff rod-45": "--tradeoff: unknown for plan --tradeoff", "plan --tradeoff=x rod-45": "--tradeoff: unknown for plan\n",
     "help keys scene": "'scene': unexpected argument for help keys", "sequence --angle 10 --format jsn": "did you mean json",
     "sequence --angle 10 --restitution-law strong": "did you mean stronge", "angles 10": "unexpected",
     "sequence 10 --angle 10": "rod-10", "sequence --angle 10 -x": "-x", "sequence --angle 10 --step 1": "--step", "sequence": "--angle: required",

@@ -215,6 +215,17 @@ class Report(EmptyFolder):
                              (("--floor-restitution", "0.5:1.5:0.5"), "--floor-restitution"), (("--part", "1:2", "--part", "1:2g"), "given twice")):
             self.refused(words, "report", *scenes, *options, *wrong, "--format", "json")
 
+    def test_cases_are_told_apart_by_the_restitution_of_the_model_that_runs_and_by_that_of_the_other(self):
+        scene = (*BOX, "--drops", "26", "--impacts", "1", "--model", "discrete", "--floor", "concrete,wood", "--floor-restitution", "0.3,0.5")
+        found = self.json_of("report", *scene)
+        self.assertEqual({(case["floor"], case["restitution"]) for case in found["cases"]},
+                         {(floor, e) for floor in ("concrete", "wood") for e in (0.3, 0.5)})
+        self.assertIn(" e ", self.run_program("report", *scene, "--format", "table").stdout.split("──")[0])
+        self.assertEqual(found["moves"], [], "without a blow there is nothing to compare")
+        # Impacts' own law leaves the ground's restitution out.
+        both = self.json_of("report", *scene, "--restitution", "0.6")["cases"]
+        self.assertEqual({(case["restitution"], case["given"]) for case in both}, {(0.6, f"floor restitution {e}") for e in (0.3, 0.5)})
+
     def test_each_value_of_a_flag_is_a_case_and_the_answer_says_what_moves_the_margin_most(self):
         scene = (*BOX, "--impacts", "1", *PROBE, *OPTIONS, "--part", "300:500")
         several = ("--floor", "concrete,wood", "--floor-restitution", "0.4,0.6", "--gravity", "9:10:1")

@@ -52,6 +52,11 @@ class Words(EmptyFolder):
         self.assertAlmostEqual(run_["states"][0]["position"][2], 0, delta=1e-15)
         self.assertIn("; the body is at rest", run_["message"])
 
+    def test_a_body_that_does_not_come_to_rest_since_impacts_take_no_energy_is_told_so(self):
+        drop = ("sequence", "--angle", "10", "--gravity", "9.81", "--until-rest", "--digits", "2")
+        done = run(*drop, "--restitution", "1")
+        self.assertEqual((done.returncode, done.stderr), (3, "clatter: not at rest after 100000 impacts; restitution 1 takes no energy\n"))
+
     def test_a_time_before_the_first_impact_and_states_without_times_are_refused(self):
         self.each_refused({"--at=-1": "--at", "--rows states": "--rows states: needs --at or --rate"}, "sequence", "--angle", "10")
 

@@ -27,6 +27,7 @@ BAD = {
     "--over drop.angle_deg=0:60 --over impact.restitution=0:1 --samples 3 --quantity impacts=banana": "a number from 1",
     "--over drop.angle_deg=0:60 --over impact.restitution=0:1 --samples 3 --quantity outcome=end": "did you mean ends?",
     "--over drop.angle=0:60 --over drop.speed=1:2": "--over drop.angle: unknown key; did you mean drop.angle_deg?",
+    "--over fricton=0:1 --over drop.speed=1:2": "did you mean impact.friction?", "--over xyzzy=0:1 --over drop.speed=1:2": "--over xyzzy: unknown key\n",
     "--over drop.angle_deg=0:60 --over drop.angle_deg=0:60": "twice", "--over drop.angle_deg=60:0 --over drop.speed=1:2": "LOW",
     "--over drop.angle_deg=0:95 --over drop.speed=1:2": "from 0 to 90", "--over drop.angle_deg=5 --over drop.speed=1:2": "KEY=LOW:HIGH",
     "--over drop.speed=1:2 --over world.gravity=1:2": "--angle: required", "no-such-case --over drop.angle_deg=0:60 --over drop.speed=1:2": "no-such-case",
