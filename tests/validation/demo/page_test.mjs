@@ -135,6 +135,18 @@ onOnePage("a rod that loses energy", "#predict=0&gravity=9.81&e=0.8", {
   },
 });
 
+test("where the law of restitution creates energy the page says so with the program's number, and names the law that does not", () => onPage(
+  "#predict=0&friction=0.3&models=discrete&hide=map", async (page) => {
+    await page.waitForSelector(".warnings:visible");
+    const given = sequence("--angle", "10", "--friction", "0.3").impacts.reduce((sum, { energy_loss: loss }) => sum - Math.min(0, loss), 0);
+    for (const said of await page.locator(".warnings").allTextContents()) {
+      assert.match(said, /creates energy: .* from impact 3 on; .*with\.restitution_law=stronge/);
+      assert.ok(Math.abs(Number(/([\d.]+) J/.exec(said)[1]) - given) < SHOWN * given, said);
+    }
+    await page.evaluate(() => { location.hash += "&with.restitution_law=stronge"; });
+    await page.waitForFunction(() => document.querySelectorAll("#impact-table tbody tr").length && !document.querySelector(".warnings:not([hidden])"));
+  }));
+
 test("the continuous model follows, and tends to the discrete one on a stiff ground", () => onPage(
   "#predict=0&stiffness=1e12&hide=map,explain", async (page) => {
     await page.waitForSelector('tr[data-model="continuous"]');

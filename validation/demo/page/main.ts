@@ -25,7 +25,7 @@ import { readAddress, usualLayout, wrongInAddress, writeAddress, type State } fr
 import { Story } from "./story";
 import { ImpactTable, csvOf } from "./table";
 import { setUpTracks } from "./tracks";
-import { outcomeInWords, showNotes } from "./words";
+import { outcomeInWords, showNotes, showWarnings } from "./words";
 
 /** After a change, until the drop is played [ms]. */
 const PLAY_DELAY = 350;
@@ -193,6 +193,7 @@ class Page {
     this.story.setImpacts(models.steps);
     this.table.show(models.impacts, models.pairing, this.state.impact);
     this.strip.show(models.motions, models.pairing, this.state.impact);
+    showWarnings(models);
     byId("outcome").textContent = models.discrete ? outcomeInWords(models.discrete.outcome) : "";
     this.showChosen();
     if (!this.player.playing) {
