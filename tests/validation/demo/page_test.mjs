@@ -147,6 +147,17 @@ test("where the law of restitution creates energy the page says so with the prog
     await page.waitForFunction(() => document.querySelectorAll("#impact-table tbody tr").length && !document.querySelector(".warnings:not([hidden])"));
   }));
 
+test("the table of a drop with friction is whole in a window of 1280, and impulses stand in one of 390", async () => {
+  const visible = (page, title) => page.locator(`td[data-column="${title}"]`).evaluateAll((cells) => cells.every((cell) =>
+    cell.getBoundingClientRect().right <= cell.closest(".scroll").getBoundingClientRect().right + 1));
+  for (const [width, titles] of [[1280, ["Energy lost", "mode", "Lasts", "Peak force"]], [390, ["Impulse"]]]) {
+    await onPage("#predict=0&friction=0.3&hide=map,explain", async (page) => {
+      await page.waitForSelector('tr[data-model="continuous"]');
+      for (const title of titles) assert.ok(await visible(page, title), `${title} at ${width}`);
+    }, { viewport: { width, height: 900 } });
+  }
+});
+
 test("the continuous model follows, and tends to the discrete one on a stiff ground", () => onPage(
   "#predict=0&stiffness=1e12&hide=map,explain", async (page) => {
     await page.waitForSelector('tr[data-model="continuous"]');
