@@ -104,6 +104,11 @@ class Page {
       this.goTo(this.state.impact);
       this.state.time = NaN;  // if the drop is still being computed
     },
+    onStop: (time) => {
+      this.player.pause();
+      this.player.seek(time);
+      this.onTime();
+    },
     onShow: () => this.showAnew(),
   });
 
@@ -193,7 +198,7 @@ class Page {
     this.story.setImpacts(models.steps);
     this.table.show(models.impacts, models.pairing, this.state.impact);
     this.strip.show(models.motions, models.pairing, this.state.impact);
-    showWarnings(models);
+    showWarnings(models.discrete?.warnings ?? []);
     byId("outcome").textContent = models.discrete ? outcomeInWords(models.discrete.outcome) : "";
     this.showChosen();
     if (!this.player.playing) {

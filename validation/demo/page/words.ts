@@ -4,7 +4,6 @@ import type { Impact } from "./api";
 import { BODIES, CONTINUOUS_RADIUS, seenAngle, type BodyName } from "./body";
 import { byId } from "./dom";
 import { significant } from "./format";
-import { MODELS, type ModelName } from "./frame";
 import { DEFAULT_PARAMETERS, LEAST, bodyOf, dampingOf, restitutionOf, type Parameters } from "./parameters";
 
 /** What a body is to the models, if that is not what one sees. */
@@ -100,19 +99,13 @@ export function outcomeInWords(outcome: string): string {
   return OUTCOMES[outcome] ?? outcome.replace(/-/g, " ");
 }
 
-/** What the program warns of, as sentences; a command's option as the address has it. */
-function warningsInWords(warnings: readonly string[], model: ModelName): string {
+/** What the program warns of beside the discrete model's numbers, an option as the address has it; beside energies what concerns them. */
+export function showWarnings(warnings: readonly string[]): void {
   const said = warnings.map((warning) => warning.replace(/--([a-z-]+) (\w+)/g, (_all, name: string, value: string) => `with.${name.replace(/-/g, "_")}=${value} in the address`));
-  return said.map((warning) => `In the ${model} model ${warning}.`).join(" ");
-}
-
-/** Beside the table all of it, beside energies what concerns them. */
-export function showWarnings(answers: Readonly<Partial<Record<ModelName, { warnings?: string[] } | null>>>): void {
   for (const line of document.querySelectorAll<HTMLElement>(".warnings")) {
-    const concerns = (warning: string): boolean => !line.classList.contains("of-energy") || warning.includes("energy");
-    const said = MODELS.map((model) => warningsInWords((answers[model]?.warnings ?? []).filter(concerns), model)).filter(Boolean);
-    line.textContent = said.join(" ");
-    line.hidden = said.length === 0;
+    const told = said.filter((warning) => !line.classList.contains("of-energy") || warning.includes("energy"));
+    line.textContent = told.map((warning) => `In the discrete model ${warning}.`).join(" ");
+    line.hidden = told.length === 0;
   }
 }
 
