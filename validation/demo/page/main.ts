@@ -21,7 +21,7 @@ import { explainRequest, keyOf, sequenceRequest } from "./requests";
 import { SceneFile, download, setUpSharing } from "./sharing";
 import { Strip } from "./sketch";
 import { Sound } from "./sound";
-import { readAddress, usualLayout, wrongInAddress, writeAddress, type State } from "./state";
+import { isFixed, readAddress, usualLayout, wrongInAddress, writeAddress, type State } from "./state";
 import { Story } from "./story";
 import { ImpactTable, csvOf } from "./table";
 import { setUpTracks } from "./tracks";
@@ -348,7 +348,7 @@ class Page {
   }
 
   private setAngle(angle: number): void {
-    if (this.state.lock.includes("angle")) return;
+    if (isFixed(this.state) || this.state.lock.includes("angle")) return;
     this.state.parameters.angle = angle;
     this.askedOf = dropOf(this.state);  // the map tells what would be asked
     this.controls.refresh();

@@ -14,7 +14,9 @@ const TREMORS = [0.1, 0.5, 1, 2] as const;
 
 /** What an address may hide, and lock beside each quantity and choice of the situation. */
 const HIDDEN: readonly string[] = [...PANELS, "controls", "answers", "continuous"];
-const LOCKED: readonly string[] = ["scene", "file", "story", "sound", "layout", "rate", "slow", "predict"];
+const LOCKED: readonly string[] = ["all", "scene", "file", "story", "sound", "layout", "rate", "slow", "predict"];
+/** What `lock=all` stands for: whatever would make another drop of it. */
+const DROP: readonly string[] = ["scene", "file", "story", ...Object.keys(DEFAULT_PARAMETERS)];
 
 /** Words that mean something in an address, and numbers. */
 const WORDS: Readonly<Record<string, readonly (string | number)[]>> = {
@@ -39,7 +41,7 @@ function refused(name: string, text: string, given: boolean): string | null {
 }
 
 /** What an address says that means nothing, in words; null if all means something. */
-export function wrongInAddress({ hide, lock }: State): string | null {
+export function wrongInAddress({ said: { hide, lock } }: State): string | null {
   const query = addressQuery();
   const why = new Map<string, string[]>();
   for (const [name, text] of query) {
@@ -69,8 +71,10 @@ export interface State {
   fan: boolean;
   /** Whether the reader has taken the continuous model away; a link that hides it takes its tick, too. */
   alone: boolean;
-  lock: string[];
-  hide: string[];
+  lock: readonly string[];
+  hide: readonly string[];
+  /** Both as the link has them. */
+  said: Readonly<Record<"lock" | "hide", readonly string[]>>;
   /** The panel below the picture, or "all". */
   tab: string;
 }
@@ -91,6 +95,11 @@ function choiceOf(quantity: Quantity): keyof Choices | null {
   if (/^(speed|height|clearance|v[xyz])$/.test(quantity)) return "drop";
   if (/^w[xyz]$/.test(quantity)) return "spinning";
   return /^(mass|length|radius|width|thickness)$/.test(quantity) ? "body" : null;
+}
+
+/** Whether the reader is given no way to another drop: then neither picture, map nor file is one. */
+export function isFixed({ hide, lock }: State): boolean {
+  return hide.includes("controls") || lock.includes("all");
 }
 
 /** Takes over a situation, but for what the link of a class has locked; @return names of what stays as it was. */
@@ -126,9 +135,9 @@ function toQuery(state: State): URLSearchParams {
   if (state.tremor !== 0.5) query.set("tremor", String(state.tremor));
   if (state.fan) query.set("fan", "1");
   if (state.alone) query.set("models", "discrete");
-  if (state.lock.length) query.set("lock", state.lock.join(","));
+  if (state.said.lock.length) query.set("lock", state.said.lock.join(","));
   if (state.tab !== "strip") query.set("tab", state.tab);
-  if (state.hide.length) query.set("hide", state.hide.join(","));
+  if (state.said.hide.length) query.set("hide", state.said.hide.join(","));
   return query;
 }
 
@@ -163,6 +172,7 @@ export function stateOf(text: string): State {
   const parameters = situationIn(query);
   const number = (key: string, otherwise: number): number => numberOf(query.get(key), otherwise);
   const list = (key: string): string[] => (query.get(key) ?? "").split(",").map((s) => s.trim()).filter(Boolean);
+  const said = { lock: list("lock"), hide: list("hide") };
   return {
     parameters,
     impact: Math.max(1, Math.round(number("impact", 1))),
@@ -174,8 +184,9 @@ export function stateOf(text: string): State {
     tremor: TREMORS.find((tremor) => tremor === number("tremor", 0.5)) ?? 0.5,
     fan: query.get("fan") === "1",
     alone: query.get("models") === "discrete",
-    lock: list("lock"),
-    hide: list("hide"),
+    lock: said.lock.includes("all") ? [...said.lock, ...DROP] : said.lock,
+    hide: said.hide,
+    said,
     tab: [...PANELS, "all"].find((tab) => tab === query.get("tab")) ?? "strip",
   };
 }
