@@ -2,10 +2,11 @@
 // The page of `clatter demo` in a browser: what it shows is what the program computes, a link carries the whole state, and
 // keyboard, screen reader and narrow screens are served.
 import assert from "node:assert/strict";
+import { spawnSync } from "node:child_process";
 import { readFileSync } from "node:fs";
 import { test } from "node:test";
 import {
-  LARGE, SHOWN, address, chromium, close, column, number, onOnePage, onPage, printed, sequence, slide, waitForCell,
+  LARGE, SHOWN, address, chromium, close, column, number, onOnePage, onPage, printed, program, sequence, slide, waitForCell,
 } from "./page_browser.mjs";
 
 onOnePage("the rod of the first visit", "#predict=0", {
@@ -273,9 +274,13 @@ test("a link that is copied has the scene alone: who opens it is asked before th
   assert.deepEqual(["angle", "hide", "impact", "t", "predict"].map((name) => said.get(name)), ["15.5", "map,explain", null, null, null]);
 }));
 
+/** The program's line, without the dashes of its options. */
+const refusal = (...flags) => spawnSync(program, ["sequence", ...flags], { encoding: "utf8" }).stderr.trim().replace(/^clatter: /, "").replace(/--/g, "");
+
 test("a name or value of a link that means nothing is said, and a height without gravity has that of the program", async () => {
   for (const [fragment, words] of [["clearance=0,5&angel=10", /^clearance=0,5: a decimal comma is refused, write 0.5; angel=10: unknown; allowed are body, .*angle/],
-    ["e=half&tab=forces", /^e=half: must be a number; tab=forces: must be one of story, /], ["hide=map,situation", /^hide=situation: must be one of story, .*, continuous$/], ["lock=angel,scene", /^lock=angel: must be a quantity/]]) {
+    ["e=half&tab=forces", /^e=half: must be a number; tab=forces: must be one of story, /], ["hide=map,situation", /^hide=situation: must be one of story, .*, continuous$/], ["lock=angel,scene", /^lock=angel: must be a quantity/],
+    ["angle=10&clearance=0.5&speed=2", new RegExp(`^${refusal("--angle", "10", "--clearance", "0.5", "--speed", "2")}$`)]]) {
     await onPage(`#predict=0&${fragment}`, async (page) => {
       await page.waitForSelector("#error:visible");
       assert.match(await page.textContent("#error"), words);

@@ -40,6 +40,18 @@ function refused(name: string, text: string, given: boolean): string | null {
   return UNKNOWN;
 }
 
+/** What can be given in one way only, as the program has it; a choice in the link says which counts. */
+const WAYS: readonly (readonly [keyof Choices, readonly (readonly string[])[]])[] = [
+  ["drop", [["speed"], ["height"], ["clearance"], ["velocity"], ["vx", "vy", "vz"]]], ["turn", [["angle"], ["orientation"], ["attitude"], ["q0", "q1", "q2", "q3"]]],
+];
+
+function givenTwice(query: URLSearchParams): string[] {
+  return WAYS.flatMap(([choice, ways]) => {
+    const given = ways.flatMap((names) => names.find((name) => query.has(name)) ?? []);
+    return given.length < 2 || query.has(choice) ? [] : [`${given.join(" and ")}: give one of them, not ${given.length === 2 ? "both" : "all"}`];
+  });
+}
+
 /** What an address says that means nothing, in words; null if all means something. */
 export function wrongInAddress({ said: { hide, lock } }: State): string | null {
   const query = addressQuery();
@@ -52,7 +64,7 @@ export function wrongInAddress({ said: { hide, lock } }: State): string | null {
   const hidden = hide.filter((name) => !HIDDEN.includes(name)).map((name) => `hide=${name}: must be one of ${HIDDEN.join(", ")}`);
   const locked = lock.filter((name) => !LOCKED.includes(name) && !(name in DEFAULT_PARAMETERS))
     .map((name) => `lock=${name}: must be a quantity of the link, or one of ${LOCKED.join(", ")}`);
-  return [...wrong, ...hidden, ...locked].join("; ") || null;
+  return [...wrong, ...givenTwice(query), ...hidden, ...locked].join("; ") || null;
 }
 
 export interface State {
@@ -196,6 +208,10 @@ function addressQuery(): URLSearchParams {
   const said = new URLSearchParams(location.hash.slice(1));
   if (said.has("body") || said.has("given")) return said;
   const written = new URLSearchParams(document.querySelector<HTMLMetaElement>("meta[name=clatter-scene]")?.content ?? "");
+  // What the address gives takes the place of the same thing given in another way.
+  for (const [choice, ways] of WAYS) {
+    if ([choice, ...ways.flat()].some((name) => said.has(name))) for (const name of [choice, ...ways.flat()]) written.delete(name);
+  }
   for (const [name, value] of said) written.set(name, value);
   return written;
 }
