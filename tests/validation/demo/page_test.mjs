@@ -278,14 +278,21 @@ test("a link that is copied has the scene alone: who opens it is asked before th
 const refusal = (...flags) => spawnSync(program, ["sequence", ...flags], { encoding: "utf8" }).stderr.trim().replace(/^clatter: /, "").replace(/--/g, "");
 
 test("a name or value of a link that means nothing is said, and a height without gravity has that of the program", async () => {
-  for (const [fragment, words] of [["clearance=0,5&angel=10", /^clearance=0,5: a decimal comma is refused, write 0.5; angel=10: unknown; allowed are body, .*angle/],
-    ["e=half&tab=forces", /^e=half: must be a number; tab=forces: must be one of story, /], ["hide=map,situation", /^hide=situation: must be one of story, .*, continuous$/], ["lock=angel,scene", /^lock=angel: must be a quantity/],
+  for (const [fragment, words] of [["clearance=0,5&angel=10", /^clearance=0,5: a decimal comma is refused, write 0.5; angel=10: unknown, did you mean angle\?; allowed are body, .*angle/],
+    ["e=half&tab=forces", /^e=half: must be a number; tab=forces: must be one of story, /], ["hide=map,situation", /^hide=situation: must be one of story, .*, continuous; until it is, /], ["lock=angel,scene", /^lock=angel, did you mean angle\?: must be a quantity/],
     ["angle=10&clearance=0.5&speed=2", new RegExp(`^${refusal("--angle", "10", "--clearance", "0.5", "--speed", "2")}$`)]]) {
     await onPage(`#predict=0&${fragment}`, async (page) => {
       await page.waitForSelector("#error:visible");
       assert.match(await page.textContent("#error"), words);
     });
   }
+  for (const [slip, meant] of [["answer", "answers"], ["continous", "continuous"], ["tabel", "table"]]) await onPage(`#predict=0&hide=${slip}`, async (page) => {
+    await page.waitForSelector("#error:visible");
+    assert.match(await page.textContent("#error"), new RegExp(`^hide=${slip}, did you mean ${meant}\\?`));
+    for (const id of ["answers-print", "lesson-print", "lecture", "print", "of-continuous", "panel-table", "panel-strip", "story"]) assert.equal(await page.isVisible(`#${id}`), false, `${slip}: ${id}`);
+    await page.waitForTimeout(300);
+    assert.match(page.url(), new RegExp(`hide=${slip}(&|$)`));
+  });
   await onPage("#predict=0&hide=story,strip,numbers,profile,table,fan,force,energy,map,race,measured,explain,controls,continuous&lock=angle,turn,scene,file,story,sound,layout,rate,slow,predict", async (page) => {
     await page.waitForFunction(() => document.documentElement.dataset.latency !== undefined);
     assert.equal(await page.isVisible("#error"), false);

@@ -6,6 +6,7 @@ import {
   DEFAULT_PARAMETERS, DROPS, QUANTITIES, TURNS, isInPlane, isUsed, setBody, type Choices, type Parameters, type Quantity,
 } from "./parameters";
 import { namesGround, numberOf, parametersOf, usualGravity } from "./requests";
+import { nearMatch } from "./spelling";
 
 export const PANELS = ["story", "strip", "numbers", "profile", "table", "fan", "force", "energy", "map", "race", "measured", "explain"] as const;
 
@@ -25,7 +26,7 @@ const WORDS: Readonly<Record<string, readonly (string | number)[]>> = {
 };
 const NUMBERS: readonly string[] = [...QUANTITIES, "impact", "t"];
 
-const UNKNOWN = `unknown; allowed are ${[...Object.keys(WORDS), ...NUMBERS, "hide", "lock"].join(", ")}`;
+const NAMES: readonly string[] = [...Object.keys(WORDS), ...NUMBERS, "hide", "lock"];
 
 function refused(name: string, text: string, given: boolean): string | null {
   const words = WORDS[name];
@@ -37,8 +38,10 @@ function refused(name: string, text: string, given: boolean): string | null {
     return Number.isFinite(numberOf(text.replace(",", "."), NaN)) ? `a decimal comma is refused, write ${text.replace(",", ".")}` : "must be a number";
   }
   if (given || name === "hide" || name === "lock" || name.startsWith(EXTRA)) return null;
-  return UNKNOWN;
+  return `unknown${nearMatch(name, NAMES)}; allowed are ${NAMES.join(", ")}`;
 }
+
+const isSlip = (name: string): boolean => !HIDDEN.includes(name);
 
 /** What can be given in one way only, as the program has it; a choice in the link says which counts. */
 const WAYS: readonly (readonly [keyof Choices, readonly (readonly string[])[]])[] = [
@@ -61,9 +64,9 @@ export function wrongInAddress({ said: { hide, lock } }: State): string | null {
     if (reason) why.set(reason, [...(why.get(reason) ?? []), `${name}=${text}`]);
   }
   const wrong = [...why].map(([reason, said]) => `${said.join(", ")}: ${reason}`);
-  const hidden = hide.filter((name) => !HIDDEN.includes(name)).map((name) => `hide=${name}: must be one of ${HIDDEN.join(", ")}`);
+  const hidden = hide.filter(isSlip).map((name) => `hide=${name}${nearMatch(name, HIDDEN)}: must be one of ${HIDDEN.join(", ")}; until it is, all that can hold answers is hidden`);
   const locked = lock.filter((name) => !LOCKED.includes(name) && !(name in DEFAULT_PARAMETERS))
-    .map((name) => `lock=${name}: must be a quantity of the link, or one of ${LOCKED.join(", ")}`);
+    .map((name) => `lock=${name}${nearMatch(name, [...LOCKED, ...Object.keys(DEFAULT_PARAMETERS)])}: must be a quantity of the link, or one of ${LOCKED.join(", ")}`);
   return [...wrong, ...givenTwice(query), ...hidden, ...locked].join("; ") || null;
 }
 
@@ -197,7 +200,7 @@ export function stateOf(text: string): State {
     fan: query.get("fan") === "1",
     alone: query.get("models") === "discrete",
     lock: said.lock.includes("all") ? [...said.lock, ...DROP] : said.lock,
-    hide: said.hide,
+    hide: said.hide.some(isSlip) ? [...said.hide, ...HIDDEN.filter((name) => name !== "controls")] : said.hide,
     said,
     tab: [...PANELS, "all"].find((tab) => tab === query.get("tab")) ?? "strip",
   };
