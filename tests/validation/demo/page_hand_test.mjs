@@ -280,6 +280,23 @@ test("each other drop is asked about, until one is only shown", () => onPage("",
   assert.deepEqual([await asks(), await page.isChecked("#ask-first")], [false, false]);
 }));
 
+test("of a steep drop it is open whether it strikes again, and that it does not is told at once", async () => {
+  for (const [angle, count, verdict] of [["70", 1, /^You guessed it\. There is no second blow/], ["50", 2, /^A surprise: The second blow is/]]) {
+    assert.ok(sequence("--angle", angle).impacts.length >= count && (count > 1 || sequence("--angle", angle).impacts.length === 1));
+    await onPage(`#angle=${angle}`, async (page) => {
+      await page.waitForSelector('button[data-guess="none"]:visible');
+      assert.match(await page.locator("#prediction-question").innerText(), /If it strikes again, is the second blow harder/);
+      await page.click('button[data-guess="none"]');
+      await page.waitForFunction(() => /blow/.test(document.getElementById("prediction-reveal").textContent) && !document.body.classList.contains("watching"));
+      assert.match(await page.textContent("#prediction-reveal"), verdict);
+    });
+  }
+  await onPage("", async (page) => {
+    await page.waitForSelector("#impact-table tbody tr", { state: "attached" });
+    assert.equal(await page.isVisible('button[data-guess="none"]'), false);
+  });
+});
+
 test("a class that is divided is judged by neither answer, whoever began", () => onPage("", async (page) => {
   await page.waitForSelector("#prediction:not([hidden])");
   await page.click("#lecture");

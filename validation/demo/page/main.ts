@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The page: from a change of the situation to the requests, and from their answers to the panels.
 import { ApiError } from "./api";
+import { seenAngle } from "./body";
 import { Both } from "./both";
 import { Capture } from "./capture";
 import { showProfile } from "./charts";
@@ -13,7 +14,7 @@ import { InHand } from "./grab";
 import { AngleMap } from "./map";
 import { Models } from "./models";
 import { Tabs, Waiting, hidePanels, setUpLayout, setUpLecture, setUpOpening, setUpPrinting } from "./panels";
-import { isInPlane } from "./parameters";
+import { bodyOf, isInPlane, isUsed } from "./parameters";
 import { Picture } from "./picture";
 import { Player, TimeWarp, Transport } from "./playback";
 import { Prediction } from "./prediction";
@@ -169,6 +170,7 @@ class Page {
     byId("of-ground").classList.toggle("serves-both", parameters.ofGround);
     this.tabs.setUsable("force", both);
     if (!both) this.state.layout = "overlay";
+    if (isUsed(parameters, "angle")) this.prediction.awaits(seenAngle(bodyOf(parameters), parameters.angle));
     this.models.ask(parameters, both);
     this.fan.update();
     this.tabs.setUsable("map", this.map.show(parameters));
@@ -194,7 +196,7 @@ class Page {
     const { models } = this;
     this.picture.rescale();
     this.rewarp();
-    this.prediction.setImpacts(models.steps);
+    this.prediction.setImpacts(models.steps, models.discrete?.outcome === "impact-limit");
     this.story.setImpacts(models.steps);
     this.table.show(models.impacts, models.pairing, this.state.impact);
     this.strip.show(models.motions, models.pairing, this.state.impact);
@@ -236,7 +238,7 @@ class Page {
     this.playedTo = time;
     this.draw();
     this.capture.drawn(ended);
-    this.prediction.seen(this.player.time, ended);
+    this.prediction.seen(this.player.time);
     this.story.seen(this.player.time, ended);
     if (!this.player.playing) this.remember();
   }
