@@ -369,6 +369,7 @@ test("lock= disables controls, hide= takes panels away", () => onPage(
   "#predict=0&lock=angle,e&hide=map,explain,energy", async (page) => {
     await page.waitForSelector("#impact-table tbody tr");
     for (const id of ["angle", "angle-slider", "e", "e-slider"]) assert.equal(await page.isDisabled(`#${id}`), true, id);
+    assert.doesNotMatch(await page.textContent("#handout-try"), /angle/);
     assert.equal(await page.isDisabled("#gravity"), false);
     for (const panel of ["map", "explain", "energy"]) assert.equal(await page.isVisible(`#panel-${panel}`), false, panel);
     assert.equal(await page.isVisible("#panel-force"), true);

@@ -128,7 +128,7 @@ class Page {
     setUpSharing(state, (asks) => { if (asks) this.prediction.open(); });
     byId("csv").addEventListener("click", () => download("impacts.csv", csvOf(this.models.impacts), "text/csv"));
     if (state.predict) this.prediction.open();
-    setUpPrinting(() => [state.impact, this.player.time], (n, time) => this.put(n, time));
+    setUpPrinting(state, () => [state.impact, this.player.time], (n, time) => this.put(n, time));
     setUpLecture((on) => this.prediction.setVoting(on), () => this.onTime());
     const wrong = wrongInAddress(state);
     if (wrong) this.controls.setError("address", new ApiError(wrong));
