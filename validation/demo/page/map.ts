@@ -170,7 +170,8 @@ function write(plot: uPlot, x: number, y: number, text: string): void {
   paint(plot, COLOURS.ink, 1, (ctx) => {
     ctx.font = FONT.replace("12px", `${12 * devicePixelRatio}px`);
     ctx.textBaseline = "middle";
-    ctx.textAlign = "left";
-    ctx.fillText(text, plot.valToPos(x, "x", true) + 10 * devicePixelRatio, plot.valToPos(y, "y", true));
+    const isAtEdge = plot.valToPos(x, "x") + LABEL[0] > plot.over.clientWidth;
+    ctx.textAlign = isAtEdge ? "right" : "left";
+    ctx.fillText(text, plot.valToPos(x, "x", true) + (isAtEdge ? -10 : 10) * devicePixelRatio, plot.valToPos(y, "y", true));
   });
 }
