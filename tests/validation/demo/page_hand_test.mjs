@@ -3,7 +3,7 @@
 // life is said; no number of before a blow stands beside one of after it; and nothing gives the guess away.
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { LARGE, number, onOnePage, onPage, sequence, waitForCell } from "./page_browser.mjs";
+import { LARGE, column, number, onOnePage, onPage, sequence, waitForCell } from "./page_browser.mjs";
 
 const NARROW = { width: 390, height: 800 };
 /** What a browser on a laptop or a projector leaves of 1280 × 720. */
@@ -199,6 +199,31 @@ test("where nothing falls by itself the hand says that letting go switches gravi
   assert.match(await page.textContent("#caption"), /Let go to drop it\.$/);
 }));
 
+test("a drop that a link locks, or whose controls it hides, is in nobody's hand: not by pointer, key, file or map", async () => {
+  for (const fragment of ["lock=all", "hide=controls"]) await onPage(`#predict=0&${fragment}`, async (page) => {
+    await page.waitForSelector('tr[data-model="continuous"]');
+    const before = await column(page, "Impulse");
+    const { x, y, width, height } = await page.locator("#stage").boundingBox();
+    await page.mouse.move(x + width / 2, y + 0.8 * height);
+    await page.mouse.down();
+    await page.mouse.move(x + width / 2, y + 0.4 * height, { steps: 4 });
+    await page.mouse.up();
+    await page.focus("#stage");
+    for (const key of ["ArrowUp", "]", "Enter"]) await page.keyboard.press(key);
+    await page.locator("#map-chart .u-over").click({ position: { x: 200, y: 100 } });
+    await page.evaluate(() => {
+      const clipboardData = new DataTransfer();
+      clipboardData.setData("text/plain", "[drop]\nangle = 30\nspeed = 1\n");
+      document.body.dispatchEvent(new ClipboardEvent("paste", { clipboardData, bubbles: true }));
+    });
+    await page.waitForTimeout(500);
+    assert.equal(await page.isVisible("#grab-hint"), false);
+    assert.deepEqual(await column(page, "Impulse"), before);
+    assert.match(page.url(), new RegExp(`&${fragment}(&|$)`));
+    for (const field of await page.locator("#panel-controls :is(input:not(#ask-first), select):visible").all()) assert.ok(await field.isDisabled());
+  });
+});
+
 test("a first visit shows angle, restitution and gravity; the rest is under More", () => onPage("", async (page) => {
   const shown = await page.locator('#panel-controls input[type="number"]:visible').evaluateAll((fields) => fields.map(({ id }) => id));
   assert.deepEqual(shown, ["angle", "e", "gravity"]);
@@ -254,6 +279,23 @@ test("each other drop is asked about, until one is only shown", () => onPage("",
   await page.fill("#angle", "20");
   assert.deepEqual([await asks(), await page.isChecked("#ask-first")], [false, false]);
 }));
+
+test("of a steep drop it is open whether it strikes again, and that it does not is told at once", async () => {
+  for (const [angle, count, verdict] of [["70", 1, /^You guessed it\. There is no second blow/], ["50", 2, /^A surprise: The second blow is/]]) {
+    assert.ok(sequence("--angle", angle).impacts.length >= count && (count > 1 || sequence("--angle", angle).impacts.length === 1));
+    await onPage(`#angle=${angle}`, async (page) => {
+      await page.waitForSelector('button[data-guess="none"]:visible');
+      assert.match(await page.locator("#prediction-question").innerText(), /If it strikes again, is the second blow harder/);
+      await page.click('button[data-guess="none"]');
+      await page.waitForFunction(() => /blow/.test(document.getElementById("prediction-reveal").textContent) && !document.body.classList.contains("watching"));
+      assert.match(await page.textContent("#prediction-reveal"), verdict);
+    });
+  }
+  await onPage("", async (page) => {
+    await page.waitForSelector("#impact-table tbody tr", { state: "attached" });
+    assert.equal(await page.isVisible('button[data-guess="none"]'), false);
+  });
+});
 
 test("a class that is divided is judged by neither answer, whoever began", () => onPage("", async (page) => {
   await page.waitForSelector("#prediction:not([hidden])");

@@ -113,10 +113,10 @@ for (const [browser, viewport] of [["chromium", LARGE], ["firefox", LARGE], ["ch
   }, { browser, viewport }));
 }
 
-test("a step of the story tells only when the picture has come to the blow", () => onPage("#predict=0&hide=explain,map", async (page) => {
+test("a step of the story tells only when the picture has come to the blow, and stops before what the next one asks", () => onPage("#predict=0&hide=explain,map", async (page) => {
   await page.waitForSelector('tr[data-model="continuous"]');
   await page.click("#story-start");
-  await scrollTo(page, 2, "10");
+  await scrollTo(page, 1, "10");
   // Frames come when the test gives them.
   await page.evaluate(() => {
     const waiting = [];
@@ -125,6 +125,13 @@ test("a step of the story tells only when the picture has come to the blow", () 
     globalThis.isPlaying = () => waiting.length > 0;
     globalThis.frames = (until) => { for (let i = 0; i < 2000 && !until(); i++) { now += 50; for (const frame of waiting.splice(0)) frame(now); } };
   });
+  await page.locator("#story-1 button", { hasText: "quarter" }).click();
+  await page.waitForFunction(() => globalThis.isPlaying(), null, { polling: 50 });
+  await page.evaluate(() => globalThis.frames(() => !globalThis.isPlaying()));
+  assert.match(await page.textContent("#caption"), /^Impact 1/);
+  assert.equal(await page.getAttribute("#story-1", "data-state"), "tells");
+  assert.equal(await page.isVisible("#results"), false);
+  await scrollTo(page, 2, "10");
   await page.locator("#story-2 button", { hasText: "Twice" }).click();
   await page.waitForFunction(() => globalThis.isPlaying(), null, { polling: 50 });
   const caption = () => page.textContent("#caption");

@@ -2,10 +2,11 @@
 // The page of `clatter demo` in a browser: what it shows is what the program computes, a link carries the whole state, and
 // keyboard, screen reader and narrow screens are served.
 import assert from "node:assert/strict";
+import { spawnSync } from "node:child_process";
 import { readFileSync } from "node:fs";
 import { test } from "node:test";
 import {
-  LARGE, SHOWN, address, chromium, close, column, number, onOnePage, onPage, printed, sequence, slide, waitForCell,
+  LARGE, SHOWN, address, chromium, close, column, number, onOnePage, onPage, printed, program, sequence, slide, waitForCell,
 } from "./page_browser.mjs";
 
 onOnePage("the rod of the first visit", "#predict=0", {
@@ -135,6 +136,29 @@ onOnePage("a rod that loses energy", "#predict=0&gravity=9.81&e=0.8", {
   },
 });
 
+test("where the law of restitution creates energy the page says so with the program's number, and names the law that does not", () => onPage(
+  "#predict=0&friction=0.3&models=discrete&hide=map", async (page) => {
+    await page.waitForSelector(".warnings:visible");
+    const given = sequence("--angle", "10", "--friction", "0.3").impacts.reduce((sum, { energy_loss: loss }) => sum - Math.min(0, loss), 0);
+    for (const said of await page.locator(".warnings").allTextContents()) {
+      assert.match(said, /creates energy: .* from impact 3 on; .*with\.restitution_law=stronge/);
+      assert.ok(Math.abs(Number(/([\d.]+) J/.exec(said)[1]) - given) < SHOWN * given, said);
+    }
+    await page.evaluate(() => { location.hash += "&with.restitution_law=stronge"; });
+    await page.waitForFunction(() => document.querySelectorAll("#impact-table tbody tr").length && !document.querySelector(".warnings:not([hidden])"));
+  }));
+
+test("the table of a drop with friction is whole in a window of 1280, and impulses stand in one of 390", async () => {
+  const visible = (page, title) => page.locator(`td[data-column="${title}"]`).evaluateAll((cells) => cells.every((cell) =>
+    cell.getBoundingClientRect().right <= cell.closest(".scroll").getBoundingClientRect().right + 1));
+  for (const [width, titles] of [[1280, ["Energy lost", "mode", "Lasts", "Peak force"]], [390, ["Impulse"]]]) {
+    await onPage("#predict=0&friction=0.3&hide=map,explain", async (page) => {
+      await page.waitForSelector('tr[data-model="continuous"]');
+      for (const title of titles) assert.ok(await visible(page, title), `${title} at ${width}`);
+    }, { viewport: { width, height: 900 } });
+  }
+});
+
 test("the continuous model follows, and tends to the discrete one on a stiff ground", () => onPage(
   "#predict=0&stiffness=1e12&hide=map,explain", async (page) => {
     await page.waitForSelector('tr[data-model="continuous"]');
@@ -250,14 +274,25 @@ test("a link that is copied has the scene alone: who opens it is asked before th
   assert.deepEqual(["angle", "hide", "impact", "t", "predict"].map((name) => said.get(name)), ["15.5", "map,explain", null, null, null]);
 }));
 
+/** The program's line, without the dashes of its options. */
+const refusal = (...flags) => spawnSync(program, ["sequence", ...flags], { encoding: "utf8" }).stderr.trim().replace(/^clatter: /, "").replace(/--/g, "");
+
 test("a name or value of a link that means nothing is said, and a height without gravity has that of the program", async () => {
-  for (const [fragment, words] of [["clearance=0,5&angel=10", /^clearance=0,5: a decimal comma is refused, write 0.5; angel=10: unknown; allowed are body, .*angle/],
-    ["e=half&tab=forces", /^e=half: must be a number; tab=forces: must be one of story, /], ["hide=map,situation", /^hide=situation: must be one of story, .*, continuous$/], ["lock=angel,scene", /^lock=angel: must be a quantity/]]) {
+  for (const [fragment, words] of [["clearance=0,5&angel=10", /^clearance=0,5: a decimal comma is refused, write 0.5; angel=10: unknown, did you mean angle\?; allowed are body, .*angle/],
+    ["e=half&tab=forces", /^e=half: must be a number; tab=forces: must be one of story, /], ["hide=map,situation", /^hide=situation: must be one of story, .*, continuous; until it is, /], ["lock=angel,scene", /^lock=angel, did you mean angle\?: must be a quantity/],
+    ["angle=10&clearance=0.5&speed=2", new RegExp(`^${refusal("--angle", "10", "--clearance", "0.5", "--speed", "2")}$`)]]) {
     await onPage(`#predict=0&${fragment}`, async (page) => {
       await page.waitForSelector("#error:visible");
       assert.match(await page.textContent("#error"), words);
     });
   }
+  for (const [slip, meant] of [["answer", "answers"], ["continous", "continuous"], ["tabel", "table"]]) await onPage(`#predict=0&hide=${slip}`, async (page) => {
+    await page.waitForSelector("#error:visible");
+    assert.match(await page.textContent("#error"), new RegExp(`^hide=${slip}, did you mean ${meant}\\?`));
+    for (const id of ["answers-print", "lesson-print", "lecture", "print", "of-continuous", "panel-table", "panel-strip", "story"]) assert.equal(await page.isVisible(`#${id}`), false, `${slip}: ${id}`);
+    await page.waitForTimeout(300);
+    assert.match(page.url(), new RegExp(`hide=${slip}(&|$)`));
+  });
   await onPage("#predict=0&hide=story,strip,numbers,profile,table,fan,force,energy,map,race,measured,explain,controls,continuous&lock=angle,turn,scene,file,story,sound,layout,rate,slow,predict", async (page) => {
     await page.waitForFunction(() => document.documentElement.dataset.latency !== undefined);
     assert.equal(await page.isVisible("#error"), false);
@@ -334,6 +369,7 @@ test("lock= disables controls, hide= takes panels away", () => onPage(
   "#predict=0&lock=angle,e&hide=map,explain,energy", async (page) => {
     await page.waitForSelector("#impact-table tbody tr");
     for (const id of ["angle", "angle-slider", "e", "e-slider"]) assert.equal(await page.isDisabled(`#${id}`), true, id);
+    assert.doesNotMatch(await page.textContent("#handout-try"), /angle/);
     assert.equal(await page.isDisabled("#gravity"), false);
     for (const panel of ["map", "explain", "energy"]) assert.equal(await page.isVisible(`#panel-${panel}`), false, panel);
     assert.equal(await page.isVisible("#panel-force"), true);

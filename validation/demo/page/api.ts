@@ -219,6 +219,8 @@ export interface SequenceAnswer {
   body: { mass: number; centre: Vector; inertia: Inertia };
   impacts: Impact[];
   outcome: string;
+  /** What the program says beside its numbers, a clause each. */
+  warnings?: string[];
 }
 
 export interface SimulateAnswer extends SequenceAnswer {

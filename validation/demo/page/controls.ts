@@ -132,6 +132,7 @@ export class Controls {
     setText(byId("orientation-name"), parameters.turn === "orientation" ? orientationName(parameters.orientation) : "");
     const extra = Object.entries(parameters.extra).map(([name, text]) => `${name} = ${text}`);
     byId("extra").hidden = extra.length === 0;
+    byId("extra-forget").hidden = isLocked("extra");
     byId("extra-keys").textContent = extra.join("; ");
     if (extra.length > 0) this.openMore();
     this.scene.value = sceneOf(parameters) ?? "";

@@ -101,6 +101,8 @@ export class FanPanel {
     const { parameters, tremor, hide } = this.state;
     if (hide.includes("fan")) return;
     byId("panel-fan").setAttribute("aria-busy", "true");
+    byId("panel-fan").classList.add("computing");
+    say("fan-said", "computing …");
     this.wanted = null;
     this.tilts = [];
     void this.ask(parameters, tremor * DEGREE);
@@ -156,6 +158,7 @@ export class FanPanel {
   private show(): void {
     const { tilts, wanted, parting } = this;
     byId("panel-fan").setAttribute("aria-busy", "false");
+    byId("panel-fan").classList.remove("computing");
     this.chosen = wanted ? this.stepOf(wanted) : undefined;
     const within = `Of ${tilts.length} drops that a hand lets go within ${this.state.tremor}°`;
     const same = parting === null ? " all strike the same places, one after the other."

@@ -10,7 +10,7 @@ import type { OrbitControl } from "./orbit";
 import { attitudeOf, bodyOf, tiltOf, type Parameters } from "./parameters";
 import { planeRotation, product, rotate, turnAbout, type Rotation } from "./rotation";
 import type { Stage } from "./stage";
-import type { State } from "./state";
+import { isFixed, type State } from "./state";
 
 const DEGREE = Math.PI / 180;
 /** So near the pointer has to come to the body [px]. */
@@ -95,12 +95,18 @@ export class InHand {
     this.box.addEventListener("keydown", (event) => this.key(event));
   }
 
+  /** Letting it go changes each of these, and gravity where there is none. */
+  private get isLocked(): boolean {
+    const { state } = this;
+    return isFixed(state) || ["angle", "height", "speed", "clearance", "drop", "spinning"].some((name) => state.lock.includes(name)) || (state.parameters.gravity === 0 && state.lock.includes("gravity"));
+  }
+
   /** The body as it can be taken: where it is given by angles. */
   private body(): Taken | null {
-    const { parameters, lock, layout } = this.state;
+    const { parameters, layout } = this.state;
     const motion = this.around.motion();
     const isGiven = parameters.turn === "plane" || parameters.turn === "tilted";
-    if (!isGiven || layout === "side" || lock.includes("angle") || lock.includes("height") || !motion) return null;
+    if (!isGiven || layout === "side" || this.isLocked || !motion) return null;
     const { body } = motion;
     const tilt = tiltOf(parameters);
     if (this.held) return { body, held: this.held, tilt, over: this.taken?.over ?? [0, 0] };

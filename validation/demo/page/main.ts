@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The page: from a change of the situation to the requests, and from their answers to the panels.
 import { ApiError } from "./api";
+import { seenAngle } from "./body";
 import { Both } from "./both";
 import { Capture } from "./capture";
 import { showProfile } from "./charts";
@@ -13,7 +14,7 @@ import { InHand } from "./grab";
 import { AngleMap } from "./map";
 import { Models } from "./models";
 import { Tabs, Waiting, hidePanels, setUpLayout, setUpLecture, setUpOpening, setUpPrinting } from "./panels";
-import { isInPlane } from "./parameters";
+import { bodyOf, isInPlane, isUsed } from "./parameters";
 import { Picture } from "./picture";
 import { Player, TimeWarp, Transport } from "./playback";
 import { Prediction } from "./prediction";
@@ -21,11 +22,11 @@ import { explainRequest, keyOf, sequenceRequest } from "./requests";
 import { SceneFile, download, setUpSharing } from "./sharing";
 import { Strip } from "./sketch";
 import { Sound } from "./sound";
-import { readAddress, usualLayout, wrongInAddress, writeAddress, type State } from "./state";
+import { isFixed, readAddress, usualLayout, wrongInAddress, writeAddress, type State } from "./state";
 import { Story } from "./story";
 import { ImpactTable, csvOf } from "./table";
 import { setUpTracks } from "./tracks";
-import { outcomeInWords, showNotes } from "./words";
+import { outcomeInWords, showNotes, showWarnings } from "./words";
 
 /** After a change, until the drop is played [ms]. */
 const PLAY_DELAY = 350;
@@ -104,6 +105,11 @@ class Page {
       this.goTo(this.state.impact);
       this.state.time = NaN;  // if the drop is still being computed
     },
+    onStop: (time) => {
+      this.player.pause();
+      this.player.seek(time);
+      this.onTime();
+    },
     onShow: () => this.showAnew(),
   });
 
@@ -122,7 +128,7 @@ class Page {
     setUpSharing(state, (asks) => { if (asks) this.prediction.open(); });
     byId("csv").addEventListener("click", () => download("impacts.csv", csvOf(this.models.impacts), "text/csv"));
     if (state.predict) this.prediction.open();
-    setUpPrinting(() => [state.impact, this.player.time], (n, time) => this.put(n, time));
+    setUpPrinting(state, () => [state.impact, this.player.time], (n, time) => this.put(n, time));
     setUpLecture((on) => this.prediction.setVoting(on), () => this.onTime());
     const wrong = wrongInAddress(state);
     if (wrong) this.controls.setError("address", new ApiError(wrong));
@@ -164,6 +170,7 @@ class Page {
     byId("of-ground").classList.toggle("serves-both", parameters.ofGround);
     this.tabs.setUsable("force", both);
     if (!both) this.state.layout = "overlay";
+    if (isUsed(parameters, "angle")) this.prediction.awaits(seenAngle(bodyOf(parameters), parameters.angle));
     this.models.ask(parameters, both);
     this.fan.update();
     this.tabs.setUsable("map", this.map.show(parameters));
@@ -189,10 +196,11 @@ class Page {
     const { models } = this;
     this.picture.rescale();
     this.rewarp();
-    this.prediction.setImpacts(models.steps);
+    this.prediction.setImpacts(models.steps, models.discrete?.outcome === "impact-limit");
     this.story.setImpacts(models.steps);
     this.table.show(models.impacts, models.pairing, this.state.impact);
     this.strip.show(models.motions, models.pairing, this.state.impact);
+    showWarnings(models.discrete?.warnings ?? []);
     byId("outcome").textContent = models.discrete ? outcomeInWords(models.discrete.outcome) : "";
     this.showChosen();
     if (!this.player.playing) {
@@ -230,7 +238,7 @@ class Page {
     this.playedTo = time;
     this.draw();
     this.capture.drawn(ended);
-    this.prediction.seen(this.player.time, ended);
+    this.prediction.seen(this.player.time);
     this.story.seen(this.player.time, ended);
     if (!this.player.playing) this.remember();
   }
@@ -342,7 +350,7 @@ class Page {
   }
 
   private setAngle(angle: number): void {
-    if (this.state.lock.includes("angle")) return;
+    if (isFixed(this.state) || this.state.lock.includes("angle")) return;
     this.state.parameters.angle = angle;
     this.askedOf = dropOf(this.state);  // the map tells what would be asked
     this.controls.refresh();

@@ -27,6 +27,8 @@ interface Fold {
 }
 
 const HEIGHT = 300;
+/** Of a fold's angle in the chart [px]. */
+const LABEL = [70, 16] as const;
 const MAP_DELAY = 120; // ms
 const REFINED = 101;
 const RESOLVED = 1e-3; // degrees
@@ -86,7 +88,7 @@ export class AngleMap {
     const data = [rows.map((r) => r.theta_deg), rows.map((r) => r.beta_deg), rows.map((r) => r.gamma_deg)] as uPlot.AlignedData;
     if (this.plot) this.plot.setData(data);
     else this.plot = this.build(data);
-    this.note.textContent = this.folds.map(foldInWords).join(" ");
+    this.note.textContent = (["beta_deg", "gamma_deg"] as const).map((curve) => rangesInWords(curve, this.folds.filter((fold) => fold.curve === curve))).join(" ");
     this.box.setAttribute("aria-label", `Contact angles over the first angle. ${this.note.textContent}`);
   }
 
@@ -115,8 +117,13 @@ export class AngleMap {
 
   private mark(plot: uPlot): void {
     upright(plot, this.theta, COLOURS.ink, [], 1);
+    // Labels that would cover one that stands there already are left to the words below.
+    const written: [number, number][] = [];
     for (const fold of this.folds) {
       ring(plot, fold.theta, fold.value, CURVES[fold.curve]);
+      const [x, y] = [plot.valToPos(fold.theta, "x"), plot.valToPos(fold.value, "y")];
+      if (written.some(([left, top]) => Math.abs(x - left) < LABEL[0] && Math.abs(y - top) < LABEL[1])) continue;
+      written.push([x, y]);
       write(plot, fold.theta, fold.value, `${fixed(fold.theta, decimalsOf(fold))}°`);
     }
   }
@@ -138,10 +145,12 @@ function decimalsOf({ resolution }: Fold): number {
   return Math.max(0, Math.ceil(-Math.log10(resolution)) - 1);
 }
 
-function foldInWords(fold: Fold): string {
-  const not = fold.ends ? "does not strike" : "strikes again as the";
-  const which = fold.curve === "beta_deg" ? `the other end ${not} second` : `the first end ${not} third`;
-  return `Beyond ${fixed(fold.theta, decimalsOf(fold))}° ${which}.`;
+/** "Third blow: 0–27.5778°, 58.1–90°." */
+function rangesInWords(curve: Curve, folds: readonly Fold[]): string {
+  const at = (fold: Fold): string => fixed(fold.theta, decimalsOf(fold));
+  const ranges = folds.flatMap((fold, i) => (fold.ends ? [`${i ? at(folds[i - 1] as Fold) : "0"}–${at(fold)}°`] : i === folds.length - 1 ? [`${at(fold)}–90°`] : []));
+  const which = curve === "beta_deg" ? "Second blow, of the other end" : "Third blow, of the first end again";
+  return `${which}: ${ranges.join(", ") || "at every angle"}.`;
 }
 
 function merge(rows: AngleRow[], more: AngleRow[]): AngleRow[] {
@@ -161,7 +170,8 @@ function write(plot: uPlot, x: number, y: number, text: string): void {
   paint(plot, COLOURS.ink, 1, (ctx) => {
     ctx.font = FONT.replace("12px", `${12 * devicePixelRatio}px`);
     ctx.textBaseline = "middle";
-    ctx.textAlign = "left";
-    ctx.fillText(text, plot.valToPos(x, "x", true) + 10 * devicePixelRatio, plot.valToPos(y, "y", true));
+    const isAtEdge = plot.valToPos(x, "x") + LABEL[0] > plot.over.clientWidth;
+    ctx.textAlign = isAtEdge ? "right" : "left";
+    ctx.fillText(text, plot.valToPos(x, "x", true) + (isAtEdge ? -10 : 10) * devicePixelRatio, plot.valToPos(y, "y", true));
   });
 }

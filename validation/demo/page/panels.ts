@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Panels and switches that only show the state: what is hidden, how the models are laid out, the lecture, and what is printed.
 import { byId, press, say } from "./dom";
-import { PANELS, type State } from "./state";
+import { PANELS, isFixed, type State } from "./state";
 
 export function hidePanels({ hide }: State): void {
   for (const panel of [...PANELS, "controls"]) byId(panel === "story" ? "story" : `panel-${panel}`).hidden = hide.includes(panel);
@@ -81,11 +81,16 @@ const SHEETS = ["handout", "lesson", "exercises", "answers"];
 
 /**
  * All of it; or a page for a class: the drop, its blows and questions, with the picture before the drop; or a sheet of words alone.
+ * What a link lets nobody change no question asks to change.
  * @param moment the chosen impact and the time of the picture
  * @param put shows them
  */
-export function setUpPrinting(moment: () => [number, number], put: (n: number, time: number) => void): void {
+export function setUpPrinting(state: State, moment: () => [number, number], put: (n: number, time: number) => void): void {
   let before: [number, number] | null = null;
+  const { parameters: { turn }, lock } = state;
+  const canTilt = !isFixed(state) && !lock.includes("angle") && (turn === "plane" || turn === "tilted");
+  byId("handout-try").textContent = canTilt ? "Halve the angle. What happens to the time between the first two blows? Guess, then try."
+    : "Where does the body strike, blow by blow, and how long is it between two blows? Draw it, then step from blow to blow.";
   byId("print").addEventListener("click", () => print());
   for (const sheet of SHEETS) {
     byId(`${sheet}-print`).addEventListener("click", () => {

@@ -5,12 +5,14 @@ import { byId } from "./dom";
 import { significant } from "./format";
 import { comparison } from "./words";
 
-type Guess = "harder" | "same" | "softer";
+type Guess = "harder" | "same" | "softer" | "none";
 
-const TITLES: Readonly<Record<Guess, string>> = { harder: "Yes", same: "About the same", softer: "No" };
+const TITLES: Readonly<Record<Guess, string>> = { harder: "Yes", same: "About the same", softer: "No", none: "There is none" };
 const GUESSES = Object.keys(TITLES) as Guess[];
 /** Blows that differ by less are "about the same". */
 const ALIKE = 0.1;
+/** From here on an elastic rod may turn away after its first blow, and so the question leaves it open whether there is a second [°]. */
+const STEEP = 45;
 
 export class Prediction {
   private readonly card = byId("prediction");
@@ -24,6 +26,8 @@ export class Prediction {
   /** A guess was made, and the second blow has not been seen yet. */
   isWaiting = false;
   private impacts: readonly Impact[] = [];
+  /** No second blow was asked for. */
+  private isCut = false;
   /** Of the drop before, which the slower model may still tell of. */
   private past: readonly Impact[] | null = null;
 
@@ -56,22 +60,34 @@ export class Prediction {
     return !this.card.hidden;
   }
 
-  /** The impacts of the situation; a guess can come before them, and is void for another situation. */
-  setImpacts(impacts: readonly Impact[]): void {
+  /** The impacts of the situation; a guess can come before them, and is void for another situation. @param isCut whether more may follow than were asked for */
+  setImpacts(impacts: readonly Impact[], isCut: boolean): void {
     if (impacts === this.past) return;
     const isAnother = this.impacts.length > 0 && impacts !== this.impacts;
     this.impacts = impacts;
+    this.isCut = isCut && impacts.length === 1;
+    if (impacts[0]) this.setOpen((impacts.length < 2 && !isCut) || impacts[0].contact_angle_deg >= STEEP);
     if (isAnother) this.give(null);
   }
 
-  /** What the picture shows now; once that is the second blow, the guess is judged. */
-  seen(time: number, ended: boolean): void {
+  /** The angle of a drop whose impacts are still to come [°]. */
+  awaits(angle: number): void {
+    this.setOpen(angle >= STEEP);
+  }
+
+  /** Whether there is a second blow is part of the question. */
+  private setOpen(open: boolean): void {
+    for (const part of this.card.querySelectorAll<HTMLElement>(".surely, .perhaps")) part.hidden = open === part.classList.contains("surely");
+  }
+
+  /** What the picture shows now; once that is the second blow, the guess is judged; at once where none comes. */
+  seen(time: number): void {
     if (!this.isWaiting || !this.impacts.length) return;
     const second = this.impacts[1];
-    if (second ? time < second.start : !ended) return;
+    if (second && time < second.start) return;
     this.wait(false);
-    const votes = this.votes?.length ? ` The class: ${this.buttons.map(({ textContent }) => textContent).join(", ")}.` : "";
-    this.reveal.textContent = revealed(this.guess, this.impacts) + votes;
+    const votes = this.votes?.length ? ` The class: ${this.buttons.filter(({ hidden }) => !hidden).map(({ textContent }) => textContent).join(", ")}.` : "";
+    this.reveal.textContent = (this.isCut ? "Only one blow is computed: set “Impacts, at most”." : revealed(this.guess, this.impacts)) + votes;
   }
 
   /** @param isOther about a drop whose impacts are still to come, before which a guess may be made */
@@ -122,10 +138,10 @@ export class Prediction {
 function revealed(guess: Guess | null, impacts: readonly Impact[]): string {
   const [first, second] = impacts;
   if (!first) return "";
-  if (!second) return "There is no second blow: after the first nothing comes down again.";
-  const ratio = second.impulse_normal / first.impulse_normal;
-  const truth: Guess = Math.abs(ratio - 1) < ALIKE ? "same" : ratio > 1 ? "harder" : "softer";
+  const ratio = second ? second.impulse_normal / first.impulse_normal : NaN;
+  const truth: Guess = !second ? "none" : Math.abs(ratio - 1) < ALIKE ? "same" : ratio > 1 ? "harder" : "softer";
   const verdict = guess === null ? "The class is divided:" : guess === truth ? "You guessed it." : "A surprise:";
+  if (!second) return `${verdict} There is no second blow: after the first nothing comes down again.`;
   const numbers = `${significant(second.impulse_normal, 4)} N·s after ${significant(first.impulse_normal, 4)} N·s`;
   return `${verdict} The second blow is ${comparison(ratio)}${comparison(ratio) === "about as hard" ? "" : " as the first"}: ${numbers}.`;
 }

@@ -4,7 +4,7 @@ import { ApiError, ask } from "./api";
 import { byId, make } from "./dom";
 import type { Parameters } from "./parameters";
 import { fileRequest, namesGround, parametersOf, type SceneArguments } from "./requests";
-import { addressOf, assignUnlocked, type State } from "./state";
+import { addressOf, assignUnlocked, isFixed, type State } from "./state";
 
 /** The page as it came, before anything on it was changed, and without the script that it unpacked, which would run beside that of its copy. */
 document.currentScript?.remove();
@@ -66,7 +66,7 @@ export class SceneFile {
   private opened = 0;
 
   constructor(private readonly state: State, private readonly onOpen: (hasGround: boolean) => void) {
-    const locked = state.lock.includes("scene") || state.lock.includes("file");
+    const locked = isFixed(state) || state.lock.includes("scene") || state.lock.includes("file");
     const input = byId<HTMLInputElement>("scene-file");
     input.disabled = locked;
     byId("open").classList.toggle("disabled", locked);

@@ -6,6 +6,7 @@ import {
   DEFAULT_PARAMETERS, DROPS, QUANTITIES, TURNS, isInPlane, isUsed, setBody, type Choices, type Parameters, type Quantity,
 } from "./parameters";
 import { namesGround, numberOf, parametersOf, usualGravity } from "./requests";
+import { nearMatch } from "./spelling";
 
 export const PANELS = ["story", "strip", "numbers", "profile", "table", "fan", "force", "energy", "map", "race", "measured", "explain"] as const;
 
@@ -14,7 +15,9 @@ const TREMORS = [0.1, 0.5, 1, 2] as const;
 
 /** What an address may hide, and lock beside each quantity and choice of the situation. */
 const HIDDEN: readonly string[] = [...PANELS, "controls", "answers", "continuous"];
-const LOCKED: readonly string[] = ["scene", "file", "story", "sound", "layout", "rate", "slow", "predict"];
+const LOCKED: readonly string[] = ["all", "scene", "file", "story", "sound", "layout", "rate", "slow", "predict"];
+/** What `lock=all` stands for: whatever would make another drop of it. */
+const DROP: readonly string[] = ["scene", "file", "story", ...Object.keys(DEFAULT_PARAMETERS)];
 
 /** Words that mean something in an address, and numbers. */
 const WORDS: Readonly<Record<string, readonly (string | number)[]>> = {
@@ -23,7 +26,7 @@ const WORDS: Readonly<Record<string, readonly (string | number)[]>> = {
 };
 const NUMBERS: readonly string[] = [...QUANTITIES, "impact", "t"];
 
-const UNKNOWN = `unknown; allowed are ${[...Object.keys(WORDS), ...NUMBERS, "hide", "lock"].join(", ")}`;
+const NAMES: readonly string[] = [...Object.keys(WORDS), ...NUMBERS, "hide", "lock"];
 
 function refused(name: string, text: string, given: boolean): string | null {
   const words = WORDS[name];
@@ -35,11 +38,25 @@ function refused(name: string, text: string, given: boolean): string | null {
     return Number.isFinite(numberOf(text.replace(",", "."), NaN)) ? `a decimal comma is refused, write ${text.replace(",", ".")}` : "must be a number";
   }
   if (given || name === "hide" || name === "lock" || name.startsWith(EXTRA)) return null;
-  return UNKNOWN;
+  return `unknown${nearMatch(name, NAMES)}; allowed are ${NAMES.join(", ")}`;
+}
+
+const isSlip = (name: string): boolean => !HIDDEN.includes(name);
+
+/** What can be given in one way only, as the program has it; a choice in the link says which counts. */
+const WAYS: readonly (readonly [keyof Choices, readonly (readonly string[])[]])[] = [
+  ["drop", [["speed"], ["height"], ["clearance"], ["velocity"], ["vx", "vy", "vz"]]], ["turn", [["angle"], ["orientation"], ["attitude"], ["q0", "q1", "q2", "q3"]]],
+];
+
+function givenTwice(query: URLSearchParams): string[] {
+  return WAYS.flatMap(([choice, ways]) => {
+    const given = ways.flatMap((names) => names.find((name) => query.has(name)) ?? []);
+    return given.length < 2 || query.has(choice) ? [] : [`${given.join(" and ")}: give one of them, not ${given.length === 2 ? "both" : "all"}`];
+  });
 }
 
 /** What an address says that means nothing, in words; null if all means something. */
-export function wrongInAddress({ hide, lock }: State): string | null {
+export function wrongInAddress({ said: { hide, lock } }: State): string | null {
   const query = addressQuery();
   const why = new Map<string, string[]>();
   for (const [name, text] of query) {
@@ -47,10 +64,10 @@ export function wrongInAddress({ hide, lock }: State): string | null {
     if (reason) why.set(reason, [...(why.get(reason) ?? []), `${name}=${text}`]);
   }
   const wrong = [...why].map(([reason, said]) => `${said.join(", ")}: ${reason}`);
-  const hidden = hide.filter((name) => !HIDDEN.includes(name)).map((name) => `hide=${name}: must be one of ${HIDDEN.join(", ")}`);
+  const hidden = hide.filter(isSlip).map((name) => `hide=${name}${nearMatch(name, HIDDEN)}: must be one of ${HIDDEN.join(", ")}; until it is, all that can hold answers is hidden`);
   const locked = lock.filter((name) => !LOCKED.includes(name) && !(name in DEFAULT_PARAMETERS))
-    .map((name) => `lock=${name}: must be a quantity of the link, or one of ${LOCKED.join(", ")}`);
-  return [...wrong, ...hidden, ...locked].join("; ") || null;
+    .map((name) => `lock=${name}${nearMatch(name, [...LOCKED, ...Object.keys(DEFAULT_PARAMETERS)])}: must be a quantity of the link, or one of ${LOCKED.join(", ")}`);
+  return [...wrong, ...givenTwice(query), ...hidden, ...locked].join("; ") || null;
 }
 
 export interface State {
@@ -69,8 +86,10 @@ export interface State {
   fan: boolean;
   /** Whether the reader has taken the continuous model away; a link that hides it takes its tick, too. */
   alone: boolean;
-  lock: string[];
-  hide: string[];
+  lock: readonly string[];
+  hide: readonly string[];
+  /** Both as the link has them. */
+  said: Readonly<Record<"lock" | "hide", readonly string[]>>;
   /** The panel below the picture, or "all". */
   tab: string;
 }
@@ -91,6 +110,11 @@ function choiceOf(quantity: Quantity): keyof Choices | null {
   if (/^(speed|height|clearance|v[xyz])$/.test(quantity)) return "drop";
   if (/^w[xyz]$/.test(quantity)) return "spinning";
   return /^(mass|length|radius|width|thickness)$/.test(quantity) ? "body" : null;
+}
+
+/** Whether the reader is given no way to another drop: then neither picture, map nor file is one. */
+export function isFixed({ hide, lock }: State): boolean {
+  return hide.includes("controls") || lock.includes("all");
 }
 
 /** Takes over a situation, but for what the link of a class has locked; @return names of what stays as it was. */
@@ -126,9 +150,9 @@ function toQuery(state: State): URLSearchParams {
   if (state.tremor !== 0.5) query.set("tremor", String(state.tremor));
   if (state.fan) query.set("fan", "1");
   if (state.alone) query.set("models", "discrete");
-  if (state.lock.length) query.set("lock", state.lock.join(","));
+  if (state.said.lock.length) query.set("lock", state.said.lock.join(","));
   if (state.tab !== "strip") query.set("tab", state.tab);
-  if (state.hide.length) query.set("hide", state.hide.join(","));
+  if (state.said.hide.length) query.set("hide", state.said.hide.join(","));
   return query;
 }
 
@@ -163,6 +187,7 @@ export function stateOf(text: string): State {
   const parameters = situationIn(query);
   const number = (key: string, otherwise: number): number => numberOf(query.get(key), otherwise);
   const list = (key: string): string[] => (query.get(key) ?? "").split(",").map((s) => s.trim()).filter(Boolean);
+  const said = { lock: list("lock"), hide: list("hide") };
   return {
     parameters,
     impact: Math.max(1, Math.round(number("impact", 1))),
@@ -174,8 +199,9 @@ export function stateOf(text: string): State {
     tremor: TREMORS.find((tremor) => tremor === number("tremor", 0.5)) ?? 0.5,
     fan: query.get("fan") === "1",
     alone: query.get("models") === "discrete",
-    lock: list("lock"),
-    hide: list("hide"),
+    lock: said.lock.includes("all") ? [...said.lock, ...DROP] : said.lock,
+    hide: said.hide.some(isSlip) ? [...said.hide, ...HIDDEN.filter((name) => name !== "controls")] : said.hide,
+    said,
     tab: [...PANELS, "all"].find((tab) => tab === query.get("tab")) ?? "strip",
   };
 }
@@ -185,6 +211,10 @@ function addressQuery(): URLSearchParams {
   const said = new URLSearchParams(location.hash.slice(1));
   if (said.has("body") || said.has("given")) return said;
   const written = new URLSearchParams(document.querySelector<HTMLMetaElement>("meta[name=clatter-scene]")?.content ?? "");
+  // What the address gives takes the place of the same thing given in another way.
+  for (const [choice, ways] of WAYS) {
+    if ([choice, ...ways.flat()].some((name) => said.has(name))) for (const name of [choice, ...ways.flat()]) written.delete(name);
+  }
   for (const [name, value] of said) written.set(name, value);
   return written;
 }

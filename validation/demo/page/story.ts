@@ -9,12 +9,19 @@ interface Teller {
   /** A new situation in the picture, before the drop. */
   onEnter(): void;
   onPlay(): void;
+  /** The picture stays at a time. */
+  onStop(time: number): void;
   /** The picture at an impact. */
   onShow(): void;
 }
 
 /** The line of the window that a step has to reach: below the picture. */
 const LINE = "-74% 0px -25% 0px";
+
+/** What a step's link says. */
+function linkOf(step: HTMLElement): string {
+  return new URL((step.querySelector("a") as HTMLAnchorElement).href).hash.slice(1);
+}
 
 export class Story {
   private readonly steps = [...document.querySelectorAll<HTMLElement>("#story li")];
@@ -24,6 +31,8 @@ export class Story {
   /** Of the current step; the drop that it tells of. */
   private impacts: readonly Impact[] | null = null;
   private n = 1;
+  /** The guessed step plays on, and the next one asks about what comes. */
+  private mustStop = false;
   /** What the reader had before the story. */
   private own: State | null = null;
 
@@ -53,9 +62,20 @@ export class Story {
   /** What the picture shows; once that is the blow that the step tells of, or the end, it tells. */
   seen(time: number, ended: boolean): void {
     const step = this.current;
-    if (step?.dataset["state"] !== "waits" || !this.impacts) return;
-    const blow = this.impacts[this.n - 1];
-    if (blow ? time >= blow.start : ended) this.reveal(step);
+    if (!step || !this.impacts) return;
+    const [blow, next] = this.impacts.slice(this.n - 1);
+    if (step.dataset["state"] === "waits" && (blow ? time >= blow.start : ended)) this.reveal(step);
+    const stop = blow && next ? (blow.start + next.start) / 2 : Infinity;
+    if (!this.mustStop || time < stop) return;
+    this.mustStop = false;
+    this.teller.onStop(stop);
+  }
+
+  /** Whether the step after this one asks about the same drop, and has not told. */
+  private asksOn(step: HTMLElement): boolean {
+    const next = this.steps[this.steps.indexOf(step) + 1];
+    const dropOf = (one: HTMLElement): string => linkOf(one).replace(/&impact=.*/, "");
+    return next !== undefined && dropOf(next) === dropOf(step) && next.dataset["state"] !== "tells";
   }
 
   private get isLocked(): boolean {
@@ -101,7 +121,8 @@ export class Story {
   private put(step: HTMLElement): void {
     this.current = step;
     this.impacts = null;
-    const wanted = stateOf(new URL((step.querySelector("a") as HTMLAnchorElement).href).hash.slice(1));
+    this.mustStop = false;
+    const wanted = stateOf(linkOf(step));
     this.n = wanted.impact;
     assignUnlocked(this.state, wanted.parameters);
     Object.assign(this.state, { impact: wanted.impact, time: NaN });
@@ -116,6 +137,7 @@ export class Story {
     step.dataset["state"] = "waits";
     this.say(step, "Watch …");
     this.mark();
+    this.mustStop = this.asksOn(step);
     this.teller.onPlay();
   }
 
@@ -137,10 +159,10 @@ export class Story {
     if (line) line.textContent = words;
   }
 
-  /** Which step the picture shows; while that asks nothing else on the page may tell. */
+  /** Which step the picture shows; while that asks, or the next one about the same drop, nothing else on the page may tell. */
   private mark(): void {
     for (const step of this.steps) step.toggleAttribute("data-current", step === this.current && document.body.classList.contains("telling"));
     const state = this.current?.dataset["state"];
-    document.body.classList.toggle("asking", document.body.classList.contains("telling") && (state === "asks" || state === "waits"));
+    document.body.classList.toggle("asking", document.body.classList.contains("telling") && (state === "asks" || state === "waits" || (this.current !== null && this.asksOn(this.current))));
   }
 }

@@ -12,6 +12,8 @@ interface Column {
   /** The program's name of it, where only that tells it from its neighbour: with friction. */
   rubbing?: string;
   needsFriction?: true;
+  /** A blow of the discrete model has none. */
+  ofContinuous?: true;
   unit: string;
   value: (impact: Impact) => number | null;
   /** Its error bar, in the same unit. */
@@ -21,23 +23,23 @@ interface Column {
 }
 
 const COLUMNS: readonly Column[] = [
-  { title: "Time", unit: "s", value: (i) => i.start, error: (bars) => bars.start },
-  { title: "Angle", unit: "°", value: (i) => i.contact_angle_deg, error: (bars) => bars.contact_angle_deg },
   { title: "Impulse", rubbing: "Pₙ", unit: "N·s", value: (i) => i.impulse_normal, error: (bars) => bars.impulse_normal },
   { title: "Pₜ", needsFriction: true, unit: "N·s", value: (i) => i.impulse_tangential, error: (bars) => bars.impulse_tangential },
   { title: "mode", needsFriction: true, unit: "", value: () => null, error: () => null, words: ({ mode }) => mode ?? "–" },
+  { title: "Time", unit: "s", value: (i) => i.start, error: (bars) => bars.start },
+  { title: "Angle", unit: "°", value: (i) => i.contact_angle_deg, error: (bars) => bars.contact_angle_deg },
   { title: "Velocity after", unit: "m/s", value: (i) => i.velocity_after[2], error: (bars) => bars.velocity_after?.[2] },
   {
     title: "Spin after", unit: "rad/s", value: (i) => i.angular_velocity_after[1],
     error: (bars) => bars.angular_velocity_after?.[1],
   },
-  { title: "Lasts", unit: "ms", value: (i) => (i.peak_force === null ? null : i.duration * 1e3), error: (bars) => (bars.duration ?? 0) * 1e3 },
-  { title: "Peak force", unit: "N", value: (i) => i.peak_force, error: (bars) => bars.peak_force },
   {
     // An elastic impact loses nothing; rounding and the step control leave a trace that would look like a loss.
     title: "Energy lost", unit: "J", value: (i) => (Math.abs(i.energy_loss) < 1e-5 * Math.abs(i.energy_before) ? 0 : i.energy_loss),
     error: (bars) => bars.energy_loss,
   },
+  { title: "Lasts", ofContinuous: true, unit: "ms", value: (i) => (i.peak_force === null ? null : i.duration * 1e3), error: (bars) => (bars.duration ?? 0) * 1e3 },
+  { title: "Peak force", ofContinuous: true, unit: "N", value: (i) => i.peak_force, error: (bars) => bars.peak_force },
 ];
 
 const DIGITS: Readonly<Record<ModelName, number>> = { discrete: 6, continuous: CONTINUOUS_DIGITS };
@@ -50,6 +52,7 @@ export class ImpactTable {
   private largest: number[] = [];
   private readonly head = make("tr");
   private rubs = false;
+  private lasts = true;
 
   constructor(private readonly onChoose: (model: ModelName, n: number) => void) {
     this.showHead();
@@ -57,7 +60,7 @@ export class ImpactTable {
   }
 
   private get columns(): readonly Column[] {
-    return this.rubs ? COLUMNS : COLUMNS.filter(({ needsFriction }) => !needsFriction);
+    return COLUMNS.filter(({ needsFriction, ofContinuous }) => (this.rubs || !needsFriction) && (this.lasts || !ofContinuous));
   }
 
   private showHead(): void {
@@ -73,8 +76,9 @@ export class ImpactTable {
     const paired = pairing?.count ?? 0;
     const all = MODELS.flatMap((model) => impacts[model] ?? []);
     const rubs = all.some(({ mode = "frictionless" }) => mode !== "frictionless");
-    if (rubs !== this.rubs) {
-      this.rubs = rubs;
+    const lasts = all.some(({ peak_force: peak }) => peak !== null) || !document.body.classList.contains("discrete-only");
+    if (rubs !== this.rubs || lasts !== this.lasts) {
+      [this.rubs, this.lasts] = [rubs, lasts];
       this.showHead();
     }
     this.largest = this.columns.map(({ value }) => Math.max(0, ...all.map((impact) => Math.abs(value(impact) ?? 0))));

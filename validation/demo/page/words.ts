@@ -99,6 +99,16 @@ export function outcomeInWords(outcome: string): string {
   return OUTCOMES[outcome] ?? outcome.replace(/-/g, " ");
 }
 
+/** What the program warns of beside the discrete model's numbers, an option as the address has it; beside energies what concerns them. */
+export function showWarnings(warnings: readonly string[]): void {
+  const said = warnings.map((warning) => warning.replace(/--([a-z-]+) (\w+)/g, (_all, name: string, value: string) => `with.${name.replace(/-/g, "_")}=${value} in the address`));
+  for (const line of document.querySelectorAll<HTMLElement>(".warnings")) {
+    const told = said.filter((warning) => !line.classList.contains("of-energy") || warning.includes("energy"));
+    line.textContent = told.map((warning) => `In the discrete model ${warning}.`).join(" ");
+    line.hidden = told.length === 0;
+  }
+}
+
 export function showNotes(parameters: Parameters): void {
   byId("handout-drop").textContent = dropInWords({ ...parameters, e: restitutionOf(parameters) });
   byId("body-note").textContent = BODY_NOTES[parameters.body] ?? "";
