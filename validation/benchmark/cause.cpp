@@ -711,8 +711,9 @@ Diagnosis diagnosis_of(const Answer& answer, const Reference& reference, const S
   if (is_explained) return diagnosis;
   // Beside a cause the law's numbers tell what it leaves open.
   if (trials.are_spent() || diagnosis.causes.empty())
-    diagnosis.remark = trials.are_spent() ? "the search for its causes ended after its last trial: shorter steps may tell"
-                     : answer.is_list   ? "no known single cause fits"
+    diagnosis.remark = trials.are_spent()
+                           ? "the search for its causes ended after its last trial: shorter steps may tell"
+                       : answer.is_list ? "no known single cause fits"
                                         : "no known single cause fits; shorter steps may tell";
   const auto sequence = std::ranges::find(reference.sequences, score.law, [](const auto& one) { return one.law.name; });
   if (answer.is_list || score.found == 0 || sequence == reference.sequences.end()) return diagnosis;

@@ -72,8 +72,8 @@ struct Problem : Terms {
 /// What gave the truth, in words.
 [[nodiscard]] std::string oracle_of(const Problem& problem);
 
-/// How a code finds friction by Moreau's law: as that says, or wrongly.  Of points that strike together the impulse as a
-/// whole is wrong: with the turn that it gives, reversed, or without, so that each point rebounds by the law.
+/// How a code finds friction by Moreau's law: as that says, or wrongly.  Of points that strike together the impulse as
+/// a whole is wrong: with the turn that it gives, reversed, or without, so that each point rebounds by the law.
 enum class Solver {
   right,
   pyramid,       ///< in place of the cone, with sides along x and y
@@ -118,7 +118,7 @@ struct Reference : Terms {
   double gravity_along = 0;           ///< along x [m/s²]
   std::vector<ReferenceSequence> sequences{};
   std::vector<DeclaredLaw> laws{};  ///< that a run may follow, asked for or not
-  std::string remark{};  ///< on the truth, for readers; empty: none
+  std::string remark{};             ///< on the truth, for readers; empty: none
 
   [[nodiscard]] double reach() const { return body.reach(); }
   /// Acceleration of free fall, ground axes [m/s²].
