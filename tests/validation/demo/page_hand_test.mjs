@@ -216,7 +216,6 @@ test("a drop that a link locks, or whose controls it hides, is in nobody's hand:
       clipboardData.setData("text/plain", "[drop]\nangle = 30\nspeed = 1\n");
       document.body.dispatchEvent(new ClipboardEvent("paste", { clipboardData, bubbles: true }));
     });
-    await page.waitForTimeout(500);
     assert.equal(await page.isVisible("#grab-hint"), false);
     assert.deepEqual(await column(page, "Impulse"), before);
     assert.match(page.url(), new RegExp(`&${fragment}(&|$)`));

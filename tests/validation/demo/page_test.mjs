@@ -290,7 +290,7 @@ test("a name or value of a link that means nothing is said, and a height without
     await page.waitForSelector("#error:visible");
     assert.match(await page.textContent("#error"), new RegExp(`^hide=${slip}, did you mean ${meant}\\?`));
     for (const id of ["answers-print", "lesson-print", "lecture", "print", "of-continuous", "panel-table", "panel-strip", "story"]) assert.equal(await page.isVisible(`#${id}`), false, `${slip}: ${id}`);
-    await page.waitForTimeout(300);
+    await page.waitForFunction(() => document.documentElement.dataset.latency !== undefined);
     assert.match(page.url(), new RegExp(`hide=${slip}(&|$)`));
   });
   await onPage("#predict=0&hide=story,strip,numbers,profile,table,fan,force,energy,map,race,measured,explain,controls,continuous&lock=angle,turn,scene,file,story,sound,layout,rate,slow,predict", async (page) => {
