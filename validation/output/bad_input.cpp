@@ -56,7 +56,7 @@ struct Distance {
   }
   /// One may have meant it: what was typed is a part of it, or a third of the shorter's letters differ.
   [[nodiscard]] bool is_near() const { return !is_other || keys <= most; }
-  auto operator<=>(const Distance& other) const { return rank() <=> other.rank(); }
+  bool operator<(const Distance& other) const { return rank() < other.rank(); }
 
  private:
   [[nodiscard]] std::tuple<bool, std::size_t, std::size_t> rank() const {
