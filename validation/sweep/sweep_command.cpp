@@ -956,13 +956,15 @@ constexpr const char* sweep_footer =
 /// Which scenes, and what their rows hold.
 void add_request_options(Command& command, SweepRequest& request) {
   add_scene_argument(command, request.file, false);
-  command.add({.name = "--set",
-               .target = &request.sets,
-               .type = "KEY=VALUE|A,B,...|FROM:TO:STEP|FROM:TO:lin:COUNT|FROM:TO:log:COUNT",
-               .help =
-                   "values of a key of the scene file; may be repeated, the last varies fastest; drop.attitude takes "
-                   "uniform (with --random), 26 or [Q0,Q1,Q2,Q3],[...] or @FILE",
-               .repeats = true});
+  command.add(
+      {.name = "--set",
+       .target = &request.sets,
+       .type = "KEY=VALUE|A,B,...|RANGE",
+       .help =
+           "values of a key of the scene file, RANGE as FROM:TO:STEP, FROM:TO:lin:COUNT or FROM:TO:log:COUNT; may be "
+           "repeated, the last varies fastest; drop.attitude takes "
+           "uniform (with --random), 26 or [Q0,Q1,Q2,Q3],[...] or @FILE",
+       .repeats = true});
   command.add(sweep_arguments(request));
   command.add(
       {.name = "--scenes",
