@@ -365,7 +365,8 @@ class Data(InFolder):
         self.assertEqual([n for n, _ in drawn["panel1_0"]], [1, 2, 3])
         self.assertGreaterEqual(drawn["panel1_0"][1][1], 1e-5 * abs(float(rows[1].split(",")[7])) / largest * (1 - 1e-9))
         self.assertLess(drawn["panel1_0"][0][1], 1e-15)
-        self.assertEqual([drawn[f"panel1_{k}"][0][1] for k in range(1, 5)], [1e-9, 1e-6, 1e-3, 1e-2])
+        # Of the four limits those that lie among the errors.
+        self.assertEqual([drawn[name][0][1] for name in sorted(drawn) if name not in ("panel1_0",)], [1e-9, 1e-6])
 
     def test_what_is_wrong_is_one_line_and_nothing_is_written(self):
         for arguments, _, _ in COMMANDS.values():
