@@ -335,6 +335,9 @@ class ImpactCauses {
       if (value != asked && !(value > same)) break;  // no friction, of any sign
       for (const Solver solver : solvers()) {
         if (solver == Solver::right && value == asked) continue;
+        // In the plane any ratio is that of some friction along the slip after: where P_t is against the slip before,
+        // none but the one asked for tells.
+        if (value != asked && reference_.is_planar && solver != Solver::normal_first && !pushes()) continue;
         const double one = misfit(solving(solver), value, all());
         if (one < left) best = solver, left = one, friction = value;
       }

@@ -719,7 +719,7 @@ std::string comments_of(const std::string& path) {
   return lines;
 }
 
-/// Likewise of a part of a sweep.
+/// The same for a part of a sweep.
 std::string scenes_of_part(const SweepInput& part, const SweepPlan& plan) {
   if (!is_hdf5(part)) return scenes_of_head(comments_of(part.output));
   const auto head = read_hdf5_head(part.output, column_head(plan, plan.report()));

@@ -51,7 +51,7 @@ class Page {
   private isBroken = false;
 
   private readonly table = new ImpactTable((model, n) => this.goToImpact(model, n));
-  private readonly fan = new FanPanel(this.state, () => { this.draw(); this.remember(); });
+  private readonly fan = new FanPanel(this.state, () => { this.draw(); writeAddress(this.state); });
   private readonly models = new Models(
     () => this.onAnswer(), (model, error) => this.onError(model, error), (busy) => this.waiting.show(busy));
   private readonly picture = new Picture(this.state, this.models, this.fan, () => this.draw());

@@ -297,7 +297,7 @@ BOOST_AUTO_TEST_CASE(a_phone_that_rests_in_the_end_does_not_move_on) {
   BOOST_REQUIRE(s.last_motion);
   BOOST_CHECK(s.last_motion->kind == space::LastMotion::Kind::rests);
   BOOST_TEST(!s.moves_on);
-  BOOST_TEST(s.message.ends_with("the body is at rest"));
+  BOOST_TEST(s.message.find("the body is at rest") != std::string::npos);
 }
 
 BOOST_AUTO_TEST_CASE(a_ball_slips_until_five_sevenths_of_its_speed_are_left_and_rolls_on) {
