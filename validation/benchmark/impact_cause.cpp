@@ -336,8 +336,8 @@ class ImpactCauses {
       for (const Solver solver : solvers()) {
         if (solver == Solver::right && value == asked) continue;
         // In the plane any ratio is that of some friction along the slip after: where P_t is against the slip before,
-        // none but the one asked for tells.
-        if (value != asked && reference_.is_planar && solver != Solver::normal_first && !pushes()) continue;
+        // either may be meant, and add_friction() tells both.
+        if (solver != Solver::right && reference_.is_planar && solver != Solver::normal_first && !pushes()) continue;
         const double one = misfit(solving(solver), value, all());
         if (one < left) best = solver, left = one, friction = value;
       }

@@ -368,7 +368,9 @@ class Page {
   }
 
   private remember(): void {
-    if (this.hasShown) this.state.time = this.player.time;
+    // A time beyond the end of what has answered so far is still wanted.
+    const awaits = this.player.progress >= 1 && this.state.time > this.player.time;
+    if (this.hasShown && !awaits) this.state.time = this.player.time;
     writeAddress(this.state);
   }
 }
