@@ -330,14 +330,13 @@ class ImpactCauses {
     if (takes_steps()) return;
     double left = Score::unknown, friction = 0;
     Solver best = Solver::right;
-    const double asked = law_.law.friction_value, ratio = std::fabs(impulse_ratio_of(broken_.front()));
+    const Booking& first = impacts_[broken_.front()].bookings.front();
+    const double asked = law_.law.friction_value,
+                 ratio = std::fabs(reference_.impulse_ratio(first.before, first.after));
     for (const double value : {asked, ratio}) {
       if (value != asked && !(value > same)) break;  // no friction, of any sign
       for (const Solver solver : solvers()) {
         if (solver == Solver::right && value == asked) continue;
-        // In the plane any ratio is that of some friction along the slip after: where P_t is against the slip before,
-        // either may be meant, and add_friction() tells both.
-        if (solver != Solver::right && reference_.is_planar && solver != Solver::normal_first && !pushes()) continue;
         const double one = misfit(solving(solver), value, all());
         if (one < left) best = solver, left = one, friction = value;
       }
@@ -349,10 +348,14 @@ class ImpactCauses {
     const auto [name, words] = named(best);
     causes_.push_back({name, {}, left, fmt::format("{} explains {}", words, which)});
     causes_.back().law = changed(solving(best), friction);
-    if (friction == asked) return;
-    causes_.push_back({"friction", friction, left,
-                       fmt::format("friction {} ({} is asked) with it", three_digits(friction), shortest(asked))});
-    causes_.back().is_more = true;
+    if (friction != asked) {
+      causes_.push_back({"friction", friction, left,
+                         fmt::format("friction {} ({} is asked) with it", three_digits(friction), shortest(asked))});
+      causes_.back().is_more = true;
+    }
+    // In the plane any ratio is that of some friction along the slip after: where P_t is against the slip before,
+    // either may be meant.
+    if (reference_.is_planar && best != Solver::normal_first && !pushes()) add_friction_ratio(asked);
   }
 
   static Change solving(Solver solver) {
@@ -361,13 +364,6 @@ class ImpactCauses {
       law.solver = solver;
       law.law.friction_value = friction;
     };
-  }
-
-  /// P_t/P_n, in the plane with the sign of P_t, of the momentum that an impact gives.
-  [[nodiscard]] double impulse_ratio_of(std::size_t i) const {
-    const Booking& booking = impacts_[i].bookings.front();
-    const Vector3 change = booking.after.velocity - booking.before.velocity;
-    return (reference_.is_planar ? change.x() : change.head<2>().norm()) / change.z();
   }
 
   /// e times the velocity of the centre of mass in place of the contact's.  Moreau's map takes any number for e, as a
@@ -484,7 +480,11 @@ class ImpactCauses {
       keep("friction", fit, fmt::format("{} ({} is asked) explains {}", words, shortest(asked), which()), coulomb);
     if (causes_.size() > before || !reference_.is_planar) return;
     // Against the slip before and along the slip after: either may be meant.
-    if (add_friction_that_pushes(asked) && pushes()) return;
+    if (!add_friction_that_pushes(asked) || !pushes()) add_friction_ratio(asked);
+  }
+
+  /// P_t = μ_i P_n, whatever the slip becomes.
+  void add_friction_ratio(double asked) {
     const Change ratio = [](Reference&, DeclaredLaw& law, double value) {
       law.is_moreau = false;
       law.law.friction = analytic::FrictionKind::impulse_ratio;

@@ -425,6 +425,11 @@ space::FreeFlight Reference::flight(const space::State& state) const {
   return {principal, state, gravity, gravity_along};
 }
 
+double Reference::impulse_ratio(const space::State& before, const space::State& after) const {
+  const Vector3 change = after.velocity - before.velocity;
+  return (is_planar ? change.x() : change.head<2>().norm()) / change.z();
+}
+
 space::State Reference::struck(const space::State& state, int point, const Vector3& impulse) const {
   space::State after = state;
   after.velocity += impulse / body.mass;

@@ -132,6 +132,8 @@ struct Reference : Terms {
   /// At `until` [J].  @pre energy_alone
   [[nodiscard]] double last_energy(const ReferenceSequence& sequence) const;
   [[nodiscard]] analytic::space::FreeFlight flight(const analytic::space::State& state) const;
+  /// P_t/P_n of the momentum between two states, in the plane with the sign of P_t.
+  [[nodiscard]] double impulse_ratio(const analytic::space::State& before, const analytic::space::State& after) const;
   /// The state with an impulse applied at a point [N·s].
   [[nodiscard]] analytic::space::State struck(const analytic::space::State& state, int point,
                                               const analytic::space::Vector3& impulse) const;

@@ -59,10 +59,6 @@ std::string measured_words(const Reference& reference, const DeclaredLaw& law, c
   const int point = *std::ranges::max_element(points, {}, approach);
   const auto exact = answer_of(reference, law, before, points);
   if (!exact) return "";
-  const auto ratio = [&](const State& state) {
-    const Vector3 change = state.velocity - before.velocity;
-    return (reference.is_planar ? change.x() : change.head<2>().norm()) / change.z();
-  };
   const auto restitution = [&](const State& state) {
     return -reference.velocity(state, point).z() / reference.velocity(before, point).z();
   };
@@ -79,7 +75,8 @@ std::string measured_words(const Reference& reference, const DeclaredLaw& law, c
     const std::string direction = direction_words(reference.velocity(before, point), after.velocity - before.velocity,
                                                   exact->velocity - before.velocity, reference.is_planar);
     differs |= !direction.empty();
-    all = words("P_t/P_n", ratio(after), ratio(*exact)) + direction + ", " + all;
+    all = words("P_t/P_n", reference.impulse_ratio(before, after), reference.impulse_ratio(before, *exact)) +
+          direction + ", " + all;
   }
   if (points.size() > 1) return differs ? ": " + all : "";
   const Vector3 impulse = reference.body.mass * (after.velocity - before.velocity);
