@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <atomic>
 #include <cctype>
-#include <ctime>
 #include <exception>
 #include <mutex>
 #include <set>
@@ -17,6 +16,7 @@
 
 #include "validation/embedded/embedded.hpp"
 #include "validation/output/bad_input.hpp"
+#include "validation/output/processor_time.hpp"
 #include "validation/scene/option_values.hpp"
 
 namespace clatter::validation {
@@ -94,12 +94,6 @@ std::vector<Check> read_checks() {
     if (!ids.contains(id)) unsound(id, "is measured but not in the table");
   }
   return checks;
-}
-
-double thread_seconds() {
-  std::timespec time{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
 }
 
 std::string judge(const Check& check, const Measured& measured) {

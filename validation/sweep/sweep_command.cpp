@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <fmt/format.h>
-#include <time.h>
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -32,6 +31,7 @@
 #include "validation/output/numeric_table.hpp"
 #include "validation/output/palette.hpp"
 #include "validation/output/picture.hpp"
+#include "validation/output/processor_time.hpp"
 #include "validation/output/report.hpp"
 #include "validation/output/sink.hpp"
 #include "validation/scene/failure.hpp"
@@ -446,12 +446,7 @@ std::optional<FileThere> file_there(const SweepInput& input, const SweepPlan& pl
     there.told = head->told;
     return there;
   }
-  if (input.bare) {
-    throw BadInput(
-        "--output {}: is there already, and without comments does not say of which sweep; --restart "
-        "overwrites it",
-        input.output);
-  }
+  if (input.bare) throw OtherFileThere(input.output, "and without comments does not say of which sweep");
   std::ifstream file(path, std::ios::binary);
   if (!is_own_file(input.output, file, csv_head(report, false))) {
     there.rows.amiss = "its head is cut";
@@ -768,20 +763,16 @@ int check_file(const SweepInput& input, const SweepPlan& plan) {
   return failed;
 }
 
-/// Places of a sweep's scenes that are marked, in words: "7, 200 to 399", of the first gaps.
+/// Places of a sweep's scenes that are marked, in words.
 std::string runs_of(const std::vector<char>& marks, char mark) {
-  constexpr std::size_t most = 20;
   std::vector<std::string> runs;
-  std::size_t more = 0;
   for (std::size_t begin = 0; begin < marks.size();) {
     std::size_t end = begin;
     while (end < marks.size() && marks[end] == mark) ++end;
-    if (end > begin && runs.size() == most) ++more;
-    else if (end > begin)
-      runs.push_back(end == begin + 1 ? std::to_string(begin) : fmt::format("{} to {}", begin, end - 1));
+    if (end > begin) runs.push_back(scene_run(static_cast<long long>(begin), static_cast<long long>(end) - 1));
     begin = std::max(end, begin + 1);
   }
-  return fmt::format("{}{}", fmt::join(runs, ", "), more > 0 ? fmt::format(" and {} more", more) : "");
+  return listed(runs);
 }
 
 /// How often the scenes of a sweep are in the files of its parts.
@@ -822,9 +813,10 @@ std::string part_words(const SweepInput& input, const SweepPlan& whole, PartsFou
   for (const std::string& told : {there->told.set_aside, there->told.fell_short})
     if (!told.empty()) words += "; " + std::regex_replace(told, std::regex("\n"), "; ");
   return words;
+} catch (const OtherFileThere& other) {
+  return other.words;
 } catch (const BadInput& error) {
-  const std::string words = error.what(), begin = fmt::format("--output {}: is there already, ", input.output);
-  return words.starts_with(begin) ? words.substr(begin.size(), words.find("; --restart") - begin.size()) : words;
+  return error.what();
 }
 
 /// Says of each file of a part what it lacks, and what all of them lack together.
@@ -853,12 +845,6 @@ std::vector<Column> dry_run_columns() {
           {"threads", "threads", "", "threads that share it"},
           {"time", "time", "s", "processor time over threads"},
           {"tried", "tried", "", "scenes that were computed for this"}};
-}
-
-double thread_seconds() {
-  timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
 /// Computes some scenes, spread over the sweep, and tells what all of them take; writes none.

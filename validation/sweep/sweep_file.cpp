@@ -18,7 +18,6 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "validation/output/bad_input.hpp"
 #include "validation/sweep/rows.hpp"
 
 namespace clatter::validation {
@@ -212,9 +211,12 @@ bool is_own_file(const std::string& path, std::istream& there, const std::string
   const std::string_view kind = head.find(", map: ") < head.find('\n') ? "map" : "sweep";
   const std::size_t title = found.text.find(fmt::format(", {}: ", kind));
   const bool is_of_its_kind = found.text.starts_with("# clatter ") && title < found.text.find('\n');
-  throw BadInput("--output {}: is there already, {}; --restart overwrites it", path,
-                 is_of_its_kind ? fmt::format("of another {} ({})", kind, found.difference)
-                                : fmt::format("and is not of this {}", kind));
+  throw OtherFileThere(path, is_of_its_kind ? fmt::format("of another {} ({})", kind, found.difference)
+                                            : fmt::format("and is not of this {}", kind));
+}
+
+std::string scene_run(long long first, long long last) {
+  return first == last ? std::to_string(first) : fmt::format("{} to {}", first, last);
 }
 
 FoundRows find_rows(std::istream& rows, const ExpectedRows& expected,
@@ -223,9 +225,7 @@ FoundRows find_rows(std::istream& rows, const ExpectedRows& expected,
   FoundRows found;
   long long before = -1;  // place of the scene of the row before
   const auto lack = [&](long long first, long long last) {
-    if (first > last) return;
-    found.missing.push_back(first == last ? std::to_string(scenes.at(first))
-                                          : fmt::format("{} to {}", scenes.at(first), scenes.at(last)));
+    if (first <= last) found.missing.push_back(scene_run(scenes.at(first), scenes.at(last)));
   };
   std::string begins;
   long long of_scene = 0, told = 0;  // rows that the scene has, and how many it should have
@@ -259,7 +259,7 @@ FoundRows find_rows(std::istream& rows, const ExpectedRows& expected,
       of_scene = told = 0, is_cut = false;
     }
     ++of_scene;
-    const long long n = expected.scene_rows ? whole_of(csv_cell(row.substr(begins.size()), 0)) : 1;
+    const long long n = expected.scene_rows ? whole_of(csv_cell(std::string_view(row).substr(begins.size()), 0)) : 1;
     told = expected.scene_rows ? whole_of(csv_cell(row, *expected.scene_rows)) : 1;
     if (n > 0 && n < of_scene) found.amiss = fmt::format("impact {} of scene {} is there again, or late", n, scene);
     if (!found.amiss.empty()) return found;

@@ -13,6 +13,7 @@
 #include <string_view>
 #include <vector>
 
+#include "validation/output/bad_input.hpp"
 #include "validation/output/sink.hpp"
 #include "validation/sweep/points.hpp"
 
@@ -65,9 +66,20 @@ struct ExpectedRows {
 [[nodiscard]] FoundRows find_rows(std::istream& rows, const ExpectedRows& expected,
                                   const std::function<void(std::string_view row)>& take);
 
+/// A file that a run would overwrite is there, and is not its own.
+struct OtherFileThere : BadInput {
+  /// @param is  what it is, in words behind "is there already,"
+  OtherFileThere(const std::string& path, const std::string& is)
+      : BadInput("--output {}: is there already, {}; --restart overwrites it", path, is), words(is) {}
+  std::string words;
+};
+
+/// "7" or "200 to 399".
+[[nodiscard]] std::string scene_run(long long first, long long last);
+
 /// Whether a file that is in the place of FILE, and not empty, has the whole of this head, behind which its rows are
 /// read on; false: it ends within it.  Files of a scene, mesh or list that lay elsewhere count as the same.
-/// @throws BadInput if it is another file than that of this sweep or map
+/// @throws OtherFileThere if it is not that of this sweep or map
 [[nodiscard]] bool is_own_file(const std::string& path, std::istream& there, const std::string& head);
 
 /// FILE.part, which grows by whole scenes and takes the name FILE in commit(); FILE is where symbolic links lead.
