@@ -279,6 +279,17 @@ test("each other drop is asked about, until one is only shown", () => onPage("",
   assert.deepEqual([await asks(), await page.isChecked("#ask-first")], [false, false]);
 }));
 
+test("a guess is about the discrete model's blows, even where the continuous one answers first", () => onPage("", async (page) => {
+  await page.waitForSelector('#impact-table tr[data-model="continuous"]', { state: "attached" });
+  await page.click('button[data-guess="softer"]');
+  await page.waitForFunction(() => /^A surprise: .*1\.003 N·s/.test(document.getElementById("prediction-reveal").textContent));
+}, { before: () => {
+  const post = Worker.prototype.postMessage;
+  Worker.prototype.postMessage = function late(data) {
+    setTimeout(() => post.call(this, data), data[0] === "sequence" ? 3000 : 0);
+  };
+} }));
+
 test("of a steep drop it is open whether it strikes again, and that it does not is told at once", async () => {
   for (const [angle, count, verdict] of [["70", 1, /^You guessed it\. There is no second blow/], ["50", 2, /^A surprise: The second blow is/]]) {
     assert.ok(sequence("--angle", angle).impacts.length >= count && (count > 1 || sequence("--angle", angle).impacts.length === 1));

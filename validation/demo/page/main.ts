@@ -18,7 +18,7 @@ import { bodyOf, isInPlane, isUsed } from "./parameters";
 import { Picture } from "./picture";
 import { Player, TimeWarp, Transport } from "./playback";
 import { Prediction } from "./prediction";
-import { explainRequest, keyOf, sequenceRequest } from "./requests";
+import { dropOf, explainRequest } from "./requests";
 import { SceneFile, download, setUpSharing } from "./sharing";
 import { Strip } from "./sketch";
 import { Sound } from "./sound";
@@ -31,11 +31,6 @@ import { outcomeInWords, showNotes, showWarnings } from "./words";
 /** After a change, until the drop is played [ms]. */
 const PLAY_DELAY = 350;
 
-/** What decides about the blows, however many of them are asked for. */
-function dropOf({ parameters }: State): string {
-  return keyOf(sequenceRequest({ ...parameters, impacts: 1 }));
-}
-
 class Page {
   private readonly state: State = readAddress();
   private asked = 0;
@@ -47,7 +42,7 @@ class Page {
   /** The impact that the reader chose, whose equations stand there while another one is played. */
   private explained = this.state.impact;
   /** The drop that the question was last about. */
-  private askedOf = dropOf(this.state);
+  private askedOf = dropOf(this.state.parameters);
   private isBroken = false;
 
   private readonly table = new ImpactTable((model, n) => this.goToImpact(model, n));
@@ -141,7 +136,7 @@ class Page {
 
   /** Whoever guesses is asked again for each other drop, until "Just show me". */
   private change(): void {
-    const key = dropOf(this.state);
+    const key = dropOf(this.state.parameters);
     const asks = this.state.predict && key !== this.askedOf;
     this.askedOf = key;
     if (asks) {
@@ -196,7 +191,7 @@ class Page {
     const { models } = this;
     this.picture.rescale();
     this.rewarp();
-    this.prediction.setImpacts(models.steps, models.discrete?.outcome === "impact-limit");
+    if (models.discrete) this.prediction.setImpacts(models.discrete, models.discreteOf);
     this.story.setImpacts(models.steps);
     this.table.show(models.impacts, models.pairing, this.state.impact);
     this.strip.show(models.motions, models.pairing, this.state.impact);
@@ -352,7 +347,7 @@ class Page {
   private setAngle(angle: number): void {
     if (isFixed(this.state) || this.state.lock.includes("angle")) return;
     this.state.parameters.angle = angle;
-    this.askedOf = dropOf(this.state);  // the map tells what would be asked
+    this.askedOf = dropOf(this.state.parameters);  // the map tells what would be asked
     this.controls.refresh();
     this.update();
     this.playSoon();

@@ -7,7 +7,7 @@ import type { ModelName, Motions } from "./frame";
 import { ContinuousMotion, DiscreteMotion, touchRotation } from "./motion";
 import { bodyOf, isInPlane, type Parameters } from "./parameters";
 import { TimeWarp } from "./playback";
-import { keyOf, sequenceRequest, simulateRequest } from "./requests";
+import { dropOf, keyOf, sequenceRequest, simulateRequest } from "./requests";
 import { rotateBack, type Vector } from "./rotation";
 import { outcomeInWords } from "./words";
 
@@ -19,6 +19,8 @@ const CONTINUOUS_DELAY = 150;
 export class Models {
   readonly motions: Motions = { discrete: null, continuous: null };
   discrete: SequenceAnswer | null = null;
+  /** Of which drop the discrete model's answer is. */
+  discreteOf = "";
   continuous: SimulateAnswer | null = null;
   /** Of which situation the continuous model's answer is. */
   private continuousOf = "";
@@ -84,6 +86,7 @@ export class Models {
     if (this.refusedOf !== key) this.onError("continuous", null);
     const body = { ...bodyOf(parameters), ...answer.body };
     this.discrete = { ...answer, impacts: answer.impacts.map((impact) => asSeen(body, impact)) };
+    this.discreteOf = dropOf(parameters);
     this.body = body;
     this.motions.discrete = answer.impacts.length
       ? new DiscreteMotion(body, this.discrete.impacts, parameters.gravity, spinOf(parameters)) : null;

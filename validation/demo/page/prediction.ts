@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Before the first answer: what does the reader expect? A guess that is tested teaches more than a table that is read.
-import type { Impact } from "./api";
+import type { Impact, SequenceAnswer } from "./api";
 import { byId } from "./dom";
 import { significant } from "./format";
 import { comparison } from "./words";
@@ -25,7 +25,9 @@ export class Prediction {
   private guess: Guess | null = null;  // also of a class that is divided
   /** A guess was made, and the second blow has not been seen yet. */
   isWaiting = false;
+  /** The discrete model's, and of which drop; the other one may answer first. */
   private impacts: readonly Impact[] = [];
+  private drop = "";
   /** No second blow was asked for. */
   private isCut = false;
   /** Of the drop before, which the slower model may still tell of. */
@@ -60,13 +62,15 @@ export class Prediction {
     return !this.card.hidden;
   }
 
-  /** The impacts of the situation; a guess can come before them, and is void for another situation. @param isCut whether more may follow than were asked for */
-  setImpacts(impacts: readonly Impact[], isCut: boolean): void {
+  /** What the discrete model answers; a guess can come before it, and is void for another drop. */
+  setImpacts({ impacts, outcome }: SequenceAnswer, drop: string): void {
     if (impacts === this.past) return;
-    const isAnother = this.impacts.length > 0 && impacts !== this.impacts;
+    const isAnother = this.impacts.length > 0 && drop !== this.drop;
+    this.drop = drop;
     this.impacts = impacts;
-    this.isCut = isCut && impacts.length === 1;
-    if (impacts[0]) this.setOpen((impacts.length < 2 && !isCut) || impacts[0].contact_angle_deg >= STEEP);
+    const mayFollow = outcome === "impact-limit";
+    this.isCut = mayFollow && impacts.length === 1;
+    if (impacts[0]) this.setOpen((impacts.length < 2 && !mayFollow) || impacts[0].contact_angle_deg >= STEEP);
     if (isAnother) this.give(null);
   }
 

@@ -26,6 +26,11 @@ export function sequenceRequest(parameters: Parameters): Request {
   return { path: "sequence", body: { ...drop(parameters), ...law(parameters), ...Object.fromEntries(extra) } };
 }
 
+/** What decides about the blows, however many of them are asked for. */
+export function dropOf(parameters: Parameters): string {
+  return keyOf(sequenceRequest({ ...parameters, impacts: 1 }));
+}
+
 /** Fewer digits in the equations than the program's six: they are to be read. */
 export function explainRequest(parameters: Parameters, impact: number): Request {
   const { body } = sequenceRequest(parameters);
