@@ -279,9 +279,10 @@ test("each other drop is asked about, until one is only shown", () => onPage("",
   assert.deepEqual([await asks(), await page.isChecked("#ask-first")], [false, false]);
 }));
 
-test("a guess is about the discrete model's blows, even where the continuous one answers first", () => onPage("", async (page) => {
-  await page.waitForSelector('#impact-table tr[data-model="continuous"]', { state: "attached" });
+test("a guess is judged, and the table begins, with the discrete model, even where the continuous one answers first", () => onPage("", async (page) => {
   await page.click('button[data-guess="softer"]');
+  await page.waitForSelector('#impact-table tr[data-model="continuous"]', { state: "attached" });
+  assert.equal(await page.locator('#impact-table tr[data-model="discrete"]').count(), 3);
   await page.waitForFunction(() => /^A surprise: .*1\.003 N·s/.test(document.getElementById("prediction-reveal").textContent));
 }, { before: () => {
   const post = Worker.prototype.postMessage;
@@ -289,6 +290,23 @@ test("a guess is about the discrete model's blows, even where the continuous one
     setTimeout(() => post.call(this, data), data[0] === "sequence" ? 3000 : 0);
   };
 } }));
+
+test("who skips to the motion keeps the drop and what its link hides and locks", () => onPage("#angle=25&hide=answers&lock=all", async (page) => {
+  await page.waitForSelector("#impact-table tbody tr", { state: "attached" });
+  const address = page.url();
+  await page.focus(".skip");
+  await page.keyboard.press("Enter");
+  assert.equal(await page.evaluate(() => document.activeElement.id), "motion");
+  assert.equal(page.url(), address);
+  assert.deepEqual([await page.inputValue("#angle"), await page.isVisible("#answers-print"), await page.isDisabled("#angle")], ["25", false, true]);
+}));
+
+for (const browser of ["chromium", "firefox"]) test(`a decimal comma is a point in ${browser}`, () => onPage("#predict=0", async (page) => {
+  await page.fill("#angle", "");
+  await page.focus("#angle");
+  await page.keyboard.type("1,5");
+  assert.equal(await page.inputValue("#angle"), "1.5");
+}, { browser }));
 
 test("of a steep drop it is open whether it strikes again, and that it does not is told at once", async () => {
   for (const [angle, count, verdict] of [["70", 1, /^You guessed it\. There is no second blow/], ["50", 2, /^A surprise: The second blow is/]]) {

@@ -235,6 +235,14 @@ export class Controls {
     field.addEventListener("input", () => {
       if (field.value !== "" && Number.isFinite(field.valueAsNumber)) this.set(quantity, field.valueAsNumber);
     });
+    // A browser whose language has decimal points would leave a comma out: 15 for 1,5.
+    const put = (event: Event, text = ""): void => {
+      if (!text.includes(",")) return;
+      event.preventDefault();
+      document.execCommand("insertText", false, text.replace(",", "."));
+    };
+    field.addEventListener("keydown", (event) => put(event, event.key));
+    field.addEventListener("paste", (event) => put(event, event.clipboardData?.getData("text/plain")));
     field.addEventListener("blur", () => this.refresh());
   }
 

@@ -3,7 +3,7 @@
 // over what a hand's tremor makes of the one that is wanted: shares of what happens, and the digits that all have in common.
 import { ask, type Impact, type SequenceAnswer } from "./api";
 import { byId, make, press, say } from "./dom";
-import { cut, digitsLeft, significant, withKinds } from "./format";
+import { cut, digitsLeft, sharedDigits, significant, withKinds } from "./format";
 import type { Frame } from "./frame";
 import { spinOf } from "./models";
 import { DiscreteMotion, touchRotation } from "./motion";
@@ -190,10 +190,10 @@ export class FanPanel {
   private row(impact: Impact, i: number): HTMLElement {
     const { tilts, wanted } = this;
     const alike = tilts.filter(({ course }) => course.slice(0, i + 1).every((step, k) => step === wanted?.course[k]));
-    const apart = Math.max(...alike.map(({ impacts }) => Math.abs((impacts[i]?.impulse_normal ?? NaN) - impact.impulse_normal)));
     const { impulse_normal: value, error_estimate: bars, amplification } = impact;
     const exact = impact.predictable === false ? 0 : Math.min(ALL_DIGITS, digitsLeft(value, bars?.impulse_normal));
-    const hand = alike.length === tilts.length ? Math.min(exact, digitsLeft(value, apart)) : 0;
+    const hands = [value, ...tilts.map(({ impacts }) => impacts[i]?.impulse_normal ?? NaN)];
+    const hand = alike.length === tilts.length ? Math.min(exact, sharedDigits(hands, ALL_DIGITS)) : 0;
     const digits = withKinds(cut(significant(value, ALL_DIGITS), [hand, exact]), ["", "exact", "lost"]);
     const said = make("span", { class: "spoken" }, ` ${hand} digits for every tilt, ${exact} for the exact one`);
     return make("tr", {}, make("th", { scope: "row" }, String(impact.n)),

@@ -38,6 +38,14 @@ export function digitsLeft(value: number, error: number | null | undefined): num
   return left > 0 ? left : 0;
 }
 
+/** How many leading digits numbers have in common, of so many. */
+export function sharedDigits(values: readonly number[], most: number): number {
+  const [first = "", ...others] = values.map((value) => value.toExponential(most - 1).replace(".", ""));
+  if (others.some((other) => other.split("e")[1] !== first.split("e")[1])) return 0;
+  const differs = [...first].findIndex((letter, i) => others.some((other) => other[i] !== letter));
+  return differs < 0 ? most : Math.min(most, differs);
+}
+
 /** A printed number cut after so many significant digits, counts rising; the last part has the rest. Zeros before the first digit go with it. */
 export function cut(text: string, counts: readonly number[]): string[] {
   const parts = [...counts, 0].map(() => "");

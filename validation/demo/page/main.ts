@@ -127,8 +127,12 @@ class Page {
     setUpLecture((on) => this.prediction.setVoting(on), () => this.onTime());
     const wrong = wrongInAddress(state);
     if (wrong) this.controls.setError("address", new ApiError(wrong));
-    // Another link to this page, opened where it stands.
+    // Another link to this page, opened where it stands; the one to the motion is no other scene.
     addEventListener("hashchange", () => location.reload());
+    document.querySelector(".skip")?.addEventListener("click", (event) => {
+      event.preventDefault();
+      byId("motion").focus();
+    });
     this.controls.refresh();
     this.update();
     this.draw();

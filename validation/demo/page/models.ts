@@ -27,6 +27,9 @@ export class Models {
   private body: Body | null = null;
   /** Which situation it refused last. */
   private refusedOf = "";
+  /** The situation that the discrete model has answered or refused last; until then the other one's answer is kept back. */
+  private toldOf = "";
+  private keptBack: (() => void) | null = null;
   private readonly sequence: Latest<SequenceAnswer, Parameters>;
   private readonly simulation: Latest<SimulateAnswer, Parameters>;
 
@@ -39,7 +42,10 @@ export class Models {
     onBusy: (busy: boolean) => void,
   ) {
     this.sequence = new Latest<SequenceAnswer, Parameters>(
-      0, (answer, parameters) => this.onSequence(answer, parameters), (error) => onError("discrete", error));
+      0, (answer, parameters) => this.onSequence(answer, parameters), (error, parameters) => {
+        onError("discrete", error);
+        this.goOn(keyOf(simulateRequest(parameters)));
+      });
     this.simulation = new Latest<SimulateAnswer, Parameters>(
       CONTINUOUS_DELAY, (answer, parameters) => this.onSimulation(answer, parameters),
       (error, parameters) => {
@@ -49,6 +55,7 @@ export class Models {
   }
 
   ask(parameters: Parameters, both: boolean): void {
+    this.keptBack = null;
     this.sequence.ask(sequenceRequest(parameters), { ...parameters });
     if (both) return this.simulation.ask(simulateRequest(parameters), { ...parameters });
     this.simulation.leave();
@@ -96,10 +103,20 @@ export class Models {
       this.continuous = null;
     }
     this.onAnswer();
+    this.goOn(key);
+  }
+
+  /** What the other model said meanwhile of the same situation follows. */
+  private goOn(key: string): void {
+    this.toldOf = key;
+    this.keptBack?.();
   }
 
   private onSimulation(answer: SimulateAnswer, parameters: Parameters): void {
-    this.continuousOf = keyOf(simulateRequest(parameters));
+    const key = keyOf(simulateRequest(parameters));
+    this.keptBack = key === this.toldOf ? null : () => this.onSimulation(answer, parameters);
+    if (this.keptBack) return;
+    this.continuousOf = key;
     this.onError("continuous", null);
     const given = bodyOf(parameters);
     const impacts = answer.impacts.map((impact) => asSeen(given, named(given, impact, isInPlane(parameters))));

@@ -25,7 +25,7 @@ export class Prediction {
   private guess: Guess | null = null;  // also of a class that is divided
   /** A guess was made, and the second blow has not been seen yet. */
   isWaiting = false;
-  /** The discrete model's, and of which drop; the other one may answer first. */
+  /** The discrete model's, and of which drop. */
   private impacts: readonly Impact[] = [];
   private drop = "";
   /** No second blow was asked for. */

@@ -36,7 +36,7 @@ function dropInWords(parameters: Parameters): string {
 function groundInWords({ stiffness, damping, follow, e }: Parameters, isOfPage: boolean): string {
   const numbers = `k = ${significant(stiffness, 4)} N/m³, c = ${significant(damping, 4)} N·s/m⁴`;
   const given = follow && e < LEAST ? `e = ${LEAST}, the least that the page gives it` : "e";
-  const choice = isOfPage || given !== "e" ? `${isOfPage ? ", chosen by the page" : ""}; c is such that it gives ${given}` : "";
+  const choice = isOfPage || given !== "e" ? `${isOfPage ? ", chosen by the page" : ""}; c is such that it gives ${given} in the first blow, and less in a faster one` : "";
   return `The continuous model’s ground: ${numbers}${choice}.`;
 }
 
