@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "numeric/contact/equilibrium.hpp"
 
@@ -16,9 +17,10 @@ constexpr double largest_left = 1e-3;
 constexpr double slow_roll = 1e-2;  ///< of g: deceleration of a body that rolls on
 constexpr double no_slip = 1e-3;    ///< of its speed: slip of a body that rolls
 constexpr double roundness = 1e-9;  ///< of shape and inertia
-/// A window of RockingWatch, in evaluations; growth between two that counts as none; how fast its farthest point may
-/// turn, over a fall; how far a body that rocks in place may move, over its depth.
+/// A window of RockingWatch, in evaluations and in periods; growth between two that counts as none; how fast its
+/// farthest point may turn, over a fall; how far a body that rocks in place may move, over its depth.
 constexpr long window = 10'000;
+constexpr double least_periods = 0.5;
 constexpr double steady_growth = 1.05, fastest_rocking = 3, farthest_move = 10;
 
 /// An instant on the ground, with what its motions are measured by.
@@ -244,13 +246,15 @@ void RockingWatch::begin(long evaluations) {
 
 std::optional<GroundMotion> RockingWatch::look(const ContactSystem& system, const ContactInstant& at) {
   const Vector3 v = velocity(at.state);
+  if (!now_.begin) now_.begin = at.time;
   now_.heave = std::max(now_.heave, std::fabs(v.z()));
   now_.sliding = std::max(now_.sliding, std::hypot(v.x(), v.y()));
   now_.turning = std::max(now_.turning, angular_velocity(at.state).norm());
   now_.spin = std::max(now_.spin, std::fabs(at.diagnosis.spin));
   now_.depth = std::max(now_.depth, at.diagnosis.load.deepest);
   now_.slips = now_.slips && system.phase().kind != FrictionPhase::Kind::stick;
-  if (system.evaluations() < ends_) return std::nullopt;
+  const double period = 2 * std::numbers::pi * std::sqrt(now_.depth / system.gravity());
+  if (system.evaluations() < ends_ || !(at.time - *now_.begin >= least_periods * period)) return std::nullopt;
   now_.place = system.motion(at.state).centre;
   const auto found = judge(system, at);
   before_ = now_;

@@ -31,11 +31,13 @@ class RockingWatch {
  public:
   /// Begins with a contact, at this count of evaluations.
   void begin(long evaluations);
-  /// The rest or slide of the body about which it rocks, told after each step.  Two windows of 10,000 evaluations must
-  /// show that the body heaves by less than a fall into its contact and turns no faster than that allows, neither more
-  /// in the second than in the first, and that it stays in place or slides all the time in a way that friction stops.
-  /// `left_speed` and `left_turning` are the largest speeds of the second: observed, no bound.  The centre of mass of a
-  /// body that rocks while it slides is slowed by the same impulse, μ_k (m g t − m v_z), as long as all of it slips.
+  /// The rest or slide of the body about which it rocks, told after each step.  Two windows of 10,000 evaluations, each
+  /// of at least half a period 2π √(depth/g) of the load that the ground carries, without which the short while in
+  /// which an impact turns the body back would be one, must show that the body heaves by less than a fall into its
+  /// contact and turns no faster than that allows, neither more in the second than in the first, and that it stays in
+  /// place or slides all the time in a way that friction stops. `left_speed` and `left_turning` are the largest speeds
+  /// of the second: observed, no bound.  The centre of mass of a body that rocks while it slides is slowed by the same
+  /// impulse, μ_k (m g t − m v_z), as long as all of it slips.
   [[nodiscard]] std::optional<GroundMotion> look(const ContactSystem& system, const ContactInstant& at);
 
  private:
@@ -44,6 +46,7 @@ class RockingWatch {
     double depth = 0;                                      ///< largest [m]
     Vector3 place = Vector3::Zero();                       ///< at its end [m]
     bool slips = true;                                     ///< all the time
+    std::optional<double> begin{};                         ///< after touch-down [s]
   };
   [[nodiscard]] std::optional<GroundMotion> judge(const ContactSystem& system, const ContactInstant& at) const;
 

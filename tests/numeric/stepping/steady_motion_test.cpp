@@ -196,3 +196,21 @@ BOOST_AUTO_TEST_CASE(a_body_that_heaves_for_ever_is_said_to) {
   BOOST_TEST(slide.error.duration <= 2 * fall / (friction * g));
   BOOST_TEST(std::fabs(slide.ledger_gap) <= 1e-6);
 }
+
+/// At its deepest a corner that sticks hardly moves for as many steps as a tight tolerance takes there; the ground
+/// presses by a hundred times the weight, and what it stores it gives back.
+BOOST_AUTO_TEST_CASE(an_impact_that_turns_a_body_back_is_no_rest) {
+  const Body crate = box_body({0.3, 0.2, 0.1}, 2);
+  const Eigen::Quaterniond attitude(0.8529184862645794, 0.2845568818869075, 0.4373181730657549, 0.0176139792599396);
+  const MotionState start = on_ground(
+      crate,
+      {.attitude = attitude, .velocity = {0.4, -0.2, -2.2979}, .angular_velocity = {0.91728, 1.50755, -0.648194}});
+  for (const double hardness : {1e10, 1e12}) {
+    const World world{.ground = with_friction({.stiffness = hardness}, 0.3)};
+    const Simulation run = simulate(crate, world, start, plain_impacts(1), {.digits = 8});
+    BOOST_TEST((run.outcome == Outcome::impact_limit), run.message);
+    BOOST_TEST_REQUIRE(run.impacts.size() == 1U);
+    BOOST_TEST(run.impacts[0].value.velocity_after.z() > 0);
+    BOOST_TEST(std::fabs(run.impacts[0].value.work_damping) <= 1e-9);
+  }
+}
