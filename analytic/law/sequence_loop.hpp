@@ -134,22 +134,20 @@ class SequenceLoop {
       unphysical_.first_along = result_.rows.size() + 1;
   }
 
+  inline static const std::string sliding_on = "the body slides on", lying = "the body is at rest";
+
   /// The contact has come to rest; has the body?
   /// @param stays  what the body does where it turns on
   void rest(bool turns, bool slides, const std::string& how, const std::string& stays) {
     result_.outcome = turns ? Outcome::sustained_contact : Outcome::at_rest;
     result_.moves_on = slides && !turns;
-    result_.message = how + "; " +
-                      (turns    ? stays + ", which impacts do not describe"
-                       : slides ? "the body slides on"
-                                : "the body is at rest");
+    result_.message = how + "; " + (turns ? stays + ", which impacts do not describe" : slides ? sliding_on : lying);
   }
 
   /// The motion after all that is known to be none.
   void lies_still() {
-    const std::string slides = "the body slides on";
-    const std::size_t at = result_.message.find(slides);
-    if (at != std::string::npos) result_.message.replace(at, slides.size(), "the body is at rest");
+    const std::size_t at = result_.message.find(sliding_on);
+    if (at != std::string::npos) result_.message.replace(at, sliding_on.size(), lying);
     result_.moves_on = false;
   }
 

@@ -7,6 +7,7 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <array>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -95,6 +96,13 @@ struct State {
   Vector3 velocity = Vector3::Zero();            ///< of the centre of mass, world frame [m/s]
   Vector3 angular_velocity = Vector3::Zero();    ///< world frame [rad/s]
 };
+
+/// NaN in all of it.
+[[nodiscard]] inline State unknown_state() {
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  const Vector3 none = Vector3::Constant(nan);
+  return {none, Quaternion(nan, nan, nan, nan), none, none};
+}
 
 /// Height of the centre of mass above the lowest point [m].
 /// @throws std::domain_error unless the attitude's Euler parameters, body to world, have the length 1 to within 1e-6

@@ -143,9 +143,9 @@ struct StateAt {
   double time = 0;                           ///< since the first impact [s]
   std::size_t rows = 0;                      ///< impacts until then
   bool touches = false;                      ///< some of it stays on the ground
-  bool is_known = false;                     ///< else the model does not say how it moves then
-  State state;                               ///< x, y from those of the first impact
-  double energy = 0;                         ///< as mechanical_energy() [J]
+  bool is_known = false;                     ///< else the model does not say how it moves then, and all is NaN
+  State state = unknown_state();             ///< x, y from those of the first impact
+  double energy = detail::missing;           ///< as mechanical_energy() [J]
   StateErrors error;                         ///< bounds, of the state at exactly that time
   double position_error = detail::infinite;  ///< on the length; infinite if the order of impacts before is open [m]
   double tilt_error = detail::infinite;      ///< part of the attitude's across the vertical [rad]

@@ -170,7 +170,10 @@ class Run : public SequenceLoop<Sequence, ErrorGrowth> {
       const bool stays = accumulates();
       Next next = stays ? go_on_touching(arriving) : Next::flight;
       if (next == Next::end) return;
-      if (is_full()) return note_slow_contacts();
+      if (is_full()) {
+        if (next == Next::flight && awaits(infinite)) take_off();
+        return note_slow_contacts();
+      }
       if (!stays && options_.until_rest && is_still()) return settle();
       flown = {};
       while (next == Next::flight) next = fly(arriving, flown);
@@ -178,15 +181,29 @@ class Run : public SequenceLoop<Sequence, ErrorGrowth> {
     }
   }
 
+  struct Flown {
+    FreeFlight flight;
+    Vector3 from;  ///< place that left the ground last, body frame
+    FirstContact to;
+  };
+
+  /// The next flight, and the states in it that are asked for.
+  Flown take_off() {
+    const auto lifted = std::exchange(lifted_, {});
+    Flown flown{FreeFlight(principal_, state_, drop_.gravity, drop_.gravity_along),
+                lifted ? body_.vertices[*lifted] : result_.rows.back().corners.front().place,
+                {}};
+    flown.to = first_contact(body_, flown.flight, touches_);
+    result_.root_evaluations += flown.to.evaluations;
+    if (flown.to.end == FlightEnd::contact || flown.to.end == FlightEnd::no_contact)
+      note_flight(flown.flight, flown.from, flown.to.end == FlightEnd::contact ? time_ + flown.to.time : infinite);
+    return flown;
+  }
+
   Next fly(std::vector<int>& arriving, FirstContact& flown) {
     const ImpactRow& last = result_.rows.back();
-    const FreeFlight flight(principal_, state_, drop_.gravity, drop_.gravity_along);
-    flown = first_contact(body_, flight, touches_);
-    result_.root_evaluations += flown.evaluations;
-    const auto lifted = std::exchange(lifted_, {});
-    const Vector3& from = lifted ? body_.vertices[*lifted] : last.corners.front().place;
-    if (flown.end == FlightEnd::contact || flown.end == FlightEnd::no_contact)
-      note_flight(flight, from, flown.end == FlightEnd::contact ? time_ + flown.time : infinite);
+    const Flown now = take_off();
+    flown = now.to;
     if (flown.end == FlightEnd::contact && is_over(time_ + flown.time)) return Next::end;
     if (result_.root_evaluations > most_evaluations) {
       throw NumericalError("the body spins so fast that its flights take more than a million evaluations");
@@ -200,7 +217,7 @@ class Run : public SequenceLoop<Sequence, ErrorGrowth> {
       return go_on_touching(arriving);
     }
     arriving = flown.together;
-    arrive(flight, flown, from);
+    arrive(now.flight, flown, now.from);
     return Next::impact;
   }
 
@@ -642,7 +659,8 @@ class Run : public SequenceLoop<Sequence, ErrorGrowth> {
     }
     if (!growth_) tail.forget();
     else if (growth_->predictable()) add_errors(drop_, result_.rows.back(), tail);
-    else end_is_certain_ = settling_ || ends_for_certain(tail) || rests_for_certain();
+    else
+      end_is_certain_ = ends_for_certain(tail) || settling_ || rests_for_certain();  // the first says what of the tail
     const bool turns =
         !result_.rest && (goes_down || tips(tail.corners) || tail.angular_velocity_after != Vector3::Zero());
     const bool spins = tail.angular_velocity_after.z() != 0;
