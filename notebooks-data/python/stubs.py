@@ -111,7 +111,7 @@ def samples() -> Mapping[str, list[Any]]:
     """Records of each class, of drops that differ in what there is to say."""
     rest = clatter.sequence(0, gravity=9.81, restitution=0.5, friction=0.3)
     sequences = [clatter.sequence(angle=10), clatter.sequence("phone-corner", friction=0.3), rest, clatter.sequence("cube"),
-                 clatter.sequence("coin")]
+                 clatter.sequence("coin"), clatter.sequence("die")]
     simulated = [clatter.simulate("phone-corner", impacts=3), clatter.simulate("bracket", impacts=1)]
     explanation, plan = clatter.explain(2, 10), clatter.plan("phone-corner", digits=3)
     runs = [*sequences, *simulated]

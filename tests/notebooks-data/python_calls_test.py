@@ -208,7 +208,11 @@ class Results(unittest.TestCase):
                         np.testing.assert_array_equal(result[1:3][column], result[column][1:3], err_msg=column)
                         self.assertFalse(frame[column].map(lambda one: one is None).any() and frame[column].map(
                             lambda one: isinstance(one, float)).any(), f"{column}: numbers and None")
-        kinds = pandas.DataFrame(clatter.sweep("phone-corner", orientation=[5, 10], model="discrete", columns="hardest")).dtypes
+        sides = clatter.sweep("phone-corner", orientation=[5, 10], model="discrete", columns="hardest")
+        self.assertEqual((sides["hardest"].dtype, sides["energy_loss"].dtype), (int, float))
+        with self.assertRaisesRegex(TypeError, r"^rows are taken by .*DataFrame\(x\)\[mask\]"):
+            sides[sides["impacts"] > 2]
+        kinds = pandas.DataFrame(sides).dtypes
         self.assertEqual({kinds[name] for name in ("index", "drop.orientation", "impacts", "hardest")}, {np.dtype(int)})
         self.assertEqual(kinds["last_start"], float)
         frame = pandas.DataFrame(self.results["Sequence"])
@@ -327,12 +331,16 @@ class SweepsAsTheProgram(unittest.TestCase):
                 (r"^size \[\(.*: must be one list of numbers, which no sweep varies; call sweep\(\) for each",
                  lambda: clatter.sweep(body="box", size=[(0.1, 0.05, 0.01), (0.2, 0.05, 0.01)], angle=10)),
                 ("^until: unknown argument of shock", lambda: clatter.shock("phone-damped", **point, until=1)),
+                (r"^angle \[\[1, 2\]\]: must be a value or one list of values", lambda: clatter.sweep(angle=[[1, 2]])),
                 ("^no 'angle' here; did you mean drop.angle_deg", lambda: clatter.sweep(angle=[5, 10], model="discrete")["angle"])):
             with self.subTest(said), self.assertRaisesRegex((clatter.BadInput, KeyError), said.replace("^no", "no")) as refused:
                 call()
             self.assertNotRegex(str(refused.exception), r"--[a-z]")
         for said, call in ((r"^restitution=0\.3 is the discrete model's alone: the ground's own is floor_restitution=0\.3",
                             lambda: clatter.shock("phone-damped", **point, restitution=0.3, sensitivity=False)),
+                           (r"^friction=0\.3 is .*: the ground's own is sliding_friction=0\.3",
+                            lambda: clatter.sweep(floor="concrete", angle=[10, 11], friction=0.3, impacts=1, errors=False)),
+                           ("^the whole body sinks below the ground", lambda: clatter.simulate(12, stiffness=1e3, body="box", mass=0.2, size=(0.15, 0.07, 0.01), impacts=1)),
                            ("^friction: .*the ground's own is sliding_friction", lambda: clatter.simulate("phone-damped", friction=0.3, impacts=1)),
                            ("friction follows the slip$", lambda: clatter.sequence(45, impulse_ratio=0.7))):
             with self.assertWarnsRegex(clatter.ClatterWarning, said):

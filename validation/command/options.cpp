@@ -118,9 +118,9 @@ PreparedScene read_discrete_flags(const SceneFlags& given) {
   return prepared;
 }
 
-void warn_of_restitution(const SceneFlags& given, const Scene& scene) {
-  if (is_given(given, "--restitution") && scene.impact.restitution && !scene.ground_restitution)
-    say("warning: " + discrete_restitution_words(scene));
+void warn_of_law(const SceneFlags& given, const Scene& scene) {
+  for (const auto& [key, words] : discrete_law_words(scene))
+    if (is_given(given, key_named(key).flag)) say("warning: " + words);
 }
 
 bool is_given(const SceneFlags& given, const std::string& name) { return !given.texts.at(name).empty(); }

@@ -65,8 +65,8 @@ void add_time_flags(Command& command, SceneFlags& flags);
 [[nodiscard]] Scene read_scene_flags(const SceneFlags& flags);
 /// For `sequence` and `explain`.  @throws as read_discrete_scene
 [[nodiscard]] PreparedScene read_discrete_flags(const SceneFlags& flags);
-/// Says on stderr that a restitution which was typed is not that of the continuous model, which is to run.
-void warn_of_restitution(const SceneFlags& given, const Scene& scene);
+/// Says on stderr that a restitution or friction which was typed is not that of the continuous model, which is to run.
+void warn_of_law(const SceneFlags& given, const Scene& scene);
 /// Whether the flag ("--history") was typed.
 [[nodiscard]] bool is_given(const SceneFlags& flags, const std::string& name);
 /// Whether file or flags have a ground: then the scene can be one of the continuous model.

@@ -136,6 +136,11 @@ std::string cause_words(const Comparison& comparison) {
                              Part{"the tipping of the face", &PredictedSize::tipping}};
   const auto [impact, quantity, relative] = largest_difference(comparison);
   if (impact == nullptr) return "";
+  if (!comparison.agrees() && !comparison.other_law.empty()) {
+    return "Why they differ: by their laws of impact, see the last line. Without [impact], --restitution and "
+           "--friction "
+           "the discrete model takes the ground's, which --floor-restitution and --sliding-friction set.";
+  }
   const PredictedSize& size = impact->predicted;
   const std::size_t q = quantity.place;
   const auto& [words, most] =

@@ -69,17 +69,17 @@ struct Distance {
 
 }  // namespace
 
-std::string nearest_name(const std::string& name, const std::vector<std::string>& candidates) {
+std::optional<std::string> near_name(const std::string& name, const std::vector<std::string>& candidates) {
   const auto nearest = std::min_element(
       candidates.begin(), candidates.end(),
       [&](const std::string& a, const std::string& b) { return Distance(name, a) < Distance(name, b); });
-  return nearest == candidates.end() ? std::string() : *nearest;
+  if (nearest == candidates.end() || !Distance(name, *nearest).is_near()) return std::nullopt;
+  return *nearest;
 }
 
 std::string suggestion(const std::string& name, const std::vector<std::string>& candidates, bool are_listed) {
   constexpr std::size_t few = 12;
-  const std::string nearest = nearest_name(name, candidates);
-  if (!candidates.empty() && Distance(name, nearest).is_near()) return fmt::format("; did you mean {}?", nearest);
+  if (const auto near = near_name(name, candidates)) return fmt::format("; did you mean {}?", *near);
   if (are_listed || candidates.empty() || candidates.size() > few) return "";
   return fmt::format("; there {} {}", candidates.size() == 1 ? "is" : "are", fmt::join(candidates, ", "));
 }

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -19,8 +20,9 @@ class BadInput : public std::runtime_error {
       : std::runtime_error(fmt::format(words, std::forward<Given>(given)...)) {}
 };
 
-/// The candidate nearest to `name` by edit distance, of those that have it as a part if there are any.
-[[nodiscard]] std::string nearest_name(const std::string& name, const std::vector<std::string>& candidates);
+/// The candidate that may have been meant by `name`: the nearest by edit distance, of those that have it as a part if
+/// there are any; none where that is too far.
+[[nodiscard]] std::optional<std::string> near_name(const std::string& name, const std::vector<std::string>& candidates);
 /// "; did you mean steel?"; where the candidates are few and none is near, these: "; there are steel, wood".
 /// @param are_listed  the words before it have the candidates already, however many they are
 [[nodiscard]] std::string suggestion(const std::string& name, const std::vector<std::string>& candidates,

@@ -406,7 +406,8 @@ PlannedRun run_to_digits(const Scene& scene, const numeric::Body& body, const nu
     depth = std::max(depth, row.value.indentation), sinks = sinks || row.submerged;
   for (const std::string& warning : planned.run.warnings)
     planned.warnings.push_back(warning + (sinks ? "" : pad_remark(scene, depth)));
-  if (const std::string deep = springs_warning(scene, depth); !deep.empty()) planned.warnings.push_back(deep);
+  planned.deep = springs_warning(scene, depth);
+  if (!planned.deep.empty()) planned.warnings.push_back(planned.deep);
   return planned;
 }
 

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <deque>
+#include <map>
 #include <set>
 #include <sstream>
 
@@ -73,11 +74,11 @@ const Command& called_command(const std::vector<Command>& commands, std::vector<
     else if (found != words.end()) called = &command, asking = found;
   }
   if (called == nullptr) {
-    const bool is_near = !suggestion(words.front(), known, true).empty();
-    const auto nearest = std::find(known.begin(), known.end(), nearest_name(words.front(), known));
-    throw BadInput("command '{}': unknown; {}", words.front(),
-                   is_near ? fmt::format("did you mean {}?", meant[static_cast<std::size_t>(nearest - known.begin())])
-                           : "clatter help lists them");
+    const std::optional<std::string> near = near_name(words.front(), known);
+    const std::ptrdiff_t place = near ? std::find(known.begin(), known.end(), *near) - known.begin() : 0;
+    throw BadInput(
+        "command '{}': unknown; {}", words.front(),
+        near ? fmt::format("did you mean {}?", meant[static_cast<std::size_t>(place)]) : "clatter help lists them");
   }
   if (asking != words.begin()) words.erase(asking);
   words.erase(words.begin());
@@ -127,6 +128,12 @@ const Argument* find_option(const Command& command, const std::string& name) {
   const std::vector<std::string> known = command.option_names();
   static const std::set<std::string> heights{"--drop", "--from", "--fall", "--drop-height", "--fall-height"};
   const bool is_height = heights.contains(name) && std::ranges::count(known, "--clearance") > 0;
+  // As heads of tables and texts have them.
+  static const std::map<std::string, std::string> symbols{
+      {"--e", "--restitution"}, {"--mu", "--friction"}, {"--g", "--gravity"}, {"--k", "--stiffness"}};
+  const auto symbol = symbols.find(name);
+  if (symbol != symbols.end() && std::ranges::count(known, symbol->second) > 0)
+    throw BadInput("option {}: unknown for {}; did you mean {}?", name, command.name, symbol->second);
   throw BadInput("option {}: unknown{}{}", name, command.name.empty() ? "" : " for " + command.name,
                  is_height ? "; did you mean --clearance, of the lowest point, or --height, of the centre of mass?"
                            : suggestion(name, known));

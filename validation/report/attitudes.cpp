@@ -269,7 +269,7 @@ std::optional<AllAttitudes> all_attitudes(const ReportInput& input, const Scene&
   all.name = name_of_drop(all.scene, worst.attitude, worst.down);
   all.report = plan.report();
   summary.fill(
-      all.report, [&](long long index) { return plan.command_of(index); },
+      all.report, [&](long long index, const std::string& column) { return plan.command_of(index, column); },
       [&](long long place) { return plan.attitude_name(place); });
   all.report.commands.clear();
   all.scatter = sweep.request.scatter.value_or(0);

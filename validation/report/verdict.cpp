@@ -143,8 +143,8 @@ std::vector<std::string> assumed_words(const Scene& scene, Model model, const Bl
     items.emplace_back(
         "No friction: the body slides freely over the ground, which makes some blows milder and others "
         "harder. --sliding-friction MU gives it");
-  if (is_continuous && scene.impact.restitution && !scene.ground_restitution)
-    items.push_back(discrete_restitution_words(scene));
+  if (is_continuous)
+    for (const auto& [key, words] : discrete_law_words(scene)) items.push_back(words);
   if (is_continuous && ground.is_half_space())
     items.emplace_back(
         "The half-space takes the ground under corners and edges for 11 to 31 % softer than it is, by energy (boundary "

@@ -296,8 +296,11 @@ std::string other_law_words(const Scene& scene, double approach) {
   const double e = analytic::restitution_of_damping(ground.damping_per_stiffness() * approach);
   std::string words;
   if (impact.restitution && *impact.restitution != e) {
-    words = fmt::format("e = {} where the ground has {} at {} m/s", shortest(*impact.restitution), significant(e, 3),
-                        significant(approach, 3));
+    const std::string given = shortest(*impact.restitution), own = significant(e, 3);
+    words = std::fabs(*impact.restitution - e) < 5e-4
+                ? fmt::format("e = {} at any speed where the ground has that at {} m/s alone", given,
+                              significant(approach, 3))
+                : fmt::format("e = {} where the ground has {} at {} m/s", given, own, significant(approach, 3));
   }
   const bool has_friction = impact.impulse_ratio || impact.friction;
   if (has_friction && (!impact.friction || *impact.friction != ground.sliding_friction)) {

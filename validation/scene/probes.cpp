@@ -13,6 +13,7 @@
 #include "validation/output/number.hpp"
 #include "validation/scene/argument.hpp"
 #include "validation/scene/body_properties.hpp"
+#include "validation/scene/keys.hpp"
 #include "validation/scene/pad.hpp"
 
 namespace clatter::validation {
@@ -128,9 +129,16 @@ std::vector<std::string> doubts_of(const Scene& scene, Model model, const std::v
   return doubts;
 }
 
-std::string discrete_restitution_words(const Scene& scene) {
-  return fmt::format("--restitution {0} is the discrete model's alone: the ground's own is --floor-restitution {0}",
-                     shortest(*scene.impact.restitution));
+std::map<std::string, std::string> discrete_law_words(const Scene& scene) {
+  std::map<std::string, std::string> words;
+  const auto add = [&](const char* key, const std::optional<double>& number, bool has_own, const char* own) {
+    if (!number || has_own) return;
+    words[key] = fmt::format("{} {} is the discrete model's alone: the ground's own is {} {}", key_named(key).flag,
+                             shortest(*number), own, shortest(*number));
+  };
+  add("impact.restitution", scene.impact.restitution, scene.ground_restitution.has_value(), "--floor-restitution");
+  add("impact.friction", scene.impact.friction, scene.world.ground.has_friction(), "--sliding-friction");
+  return words;
 }
 
 void say_doubts(const Scene& scene, Model model, const std::vector<Probe>& probes) {

@@ -2,6 +2,7 @@
 // The points of a scene's body of which the shock is asked.
 #pragma once
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -56,7 +57,7 @@ void say_doubts(const Scene& scene, Model model, const std::vector<Probe>& probe
 /// As the JSON echo has them.
 [[nodiscard]] Value probe_fields(const std::vector<Probe>& probes);
 
-/// That impact.restitution, which the scene has, says nothing of a ground that yields.
-[[nodiscard]] std::string discrete_restitution_words(const Scene& scene);
+/// By its key, what of the scene's [impact] says nothing of a ground that yields and has no such number of its own.
+[[nodiscard]] std::map<std::string, std::string> discrete_law_words(const Scene& scene);
 
 }  // namespace clatter::validation

@@ -131,7 +131,7 @@ Scene shock_scene(const ShockInput& input) {
   SceneFlags flags = input.scene;
   flags.model = model_of(input);
   const Scene scene = flags.model == Model::discrete ? read_discrete_flags(flags).scene : read_scene_flags(flags);
-  if (flags.model == Model::continuous) warn_of_restitution(flags, scene);
+  if (flags.model == Model::continuous) warn_of_law(flags, scene);
   if (scene.sweep)
     throw BadInput(fmt::format("{}: sweep: must be left out here, the scene sweeps nothing", scene.path));
   require_level(scene, "shock and report");

@@ -160,7 +160,7 @@ int run_sweep(const Scene& scene, const numeric::Body& body, const OutputChoice&
 
 int run_simulate(const SimulateInput& input) {
   const Scene scene = read_scene_flags(input.scene);
-  warn_of_restitution(input.scene, scene);
+  warn_of_law(input.scene, scene);
   const OutputChoice& choice = input.output;
   check_window(input, scene);
   require_states(input.states, scene);

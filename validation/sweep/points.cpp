@@ -17,13 +17,17 @@
 
 namespace clatter::validation {
 
+std::string unit_of(const std::string& key) {
+  const auto found = std::ranges::find(all_keys(), key, &Key::name);
+  return found != all_keys().end() ? found->unit : key.starts_with("body.size") ? "m" : "";
+}
+
 std::string axis_words(const std::string& key) {
   std::string words = key.substr(key.find('.') + 1);
   if (words.ends_with("_deg")) words.resize(words.size() - 4);
   std::replace_if(
       words.begin(), words.end(), [](char c) { return c == '_' || c == '.'; }, ' ');
-  const auto found = std::ranges::find(all_keys(), key, &Key::name);
-  const std::string unit = found != all_keys().end() ? found->unit : key.starts_with("body.size") ? "m" : "";
+  const std::string unit = unit_of(key);
   return unit.empty() ? words : fmt::format("{} [{}]", words, unit);
 }
 

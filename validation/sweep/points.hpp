@@ -26,6 +26,8 @@ using SweptAttitude = std::array<double, 4>;
 /// An attitude turned by a vector [rad] in the world frame: (cos ½|v|, sin ½|v| v/|v|) q.
 [[nodiscard]] SweptAttitude turned(const SweptAttitude& attitude, const std::array<double, 3>& vector);
 
+/// The unit of a number of a scene; empty: none.
+[[nodiscard]] std::string unit_of(const std::string& key);
 /// A swept key as an axis of a picture is called: its last word, and its unit, as in "angle [°]" for drop.angle_deg.
 [[nodiscard]] std::string axis_words(const std::string& key);
 

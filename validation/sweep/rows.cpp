@@ -157,7 +157,10 @@ std::vector<Column> scene_columns(const RowLayout& layout) {
     const Probe& probe = layout.probes[i];
     for_each_probe_number(layout, i, [&](const ProbeNumber& number) {
       const std::string name = number.prefix + probe.name;
-      add({name, name, number.unit, number.meaning + probe.name});
+      add({name, name, number.unit, number.meaning + probe.name},
+          number.prefix.starts_with(of_landing)
+              ? ""
+              : "; empty where an impact that may be harder cannot be predicted: the first landing's is known then");
       if (number.impact) columns.push_back({name + "_impact", name + "_impact", "", "number of that impact"});
     });
   }
@@ -248,8 +251,8 @@ class AskedColumns {
     for (const Column& column : columns_)
       if (column.name.starts_with(quantity + "_"))
         longer.push_back(name.substr(0, begin) + column.name + name.substr(end));
-    if (longer.empty() && !suggestion(quantity, names_, true).empty())
-      longer.push_back(name.substr(0, begin) + nearest_name(quantity, names_) + name.substr(end));
+    const std::optional<std::string> other = near_name(quantity, names_);
+    if (longer.empty() && other) longer.push_back(name.substr(0, begin) + *other + name.substr(end));
     return longer.empty() ? "" : fmt::format("; did you mean {}?", fmt::join(longer, ", "));
   }
 
@@ -506,7 +509,7 @@ void read_impact_columns(const std::string& names, int impacts, RowLayout& layou
 std::vector<Column> sweep_columns(const RowLayout& layout) {
   std::vector<Column> columns{{"index", "index", "", "number of the scene, from 0"}};
   for (const std::string& key : layout.swept)
-    columns.push_back({key, key, "", "swept key; clatter help keys explains it"});
+    columns.push_back({key, key, unit_of(key), "swept key; clatter help keys explains it"});
   const std::vector<Column> results = result_columns(layout);
   columns.insert(columns.end(), results.begin(), results.end());
   return columns;

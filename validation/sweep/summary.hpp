@@ -61,26 +61,29 @@ class Summary {
   /// Puts the summary into a report that has its head: a row for each number and `texts` in JSON.  A reader sees the
   /// rows that were asked for, the one by which attitudes are ranked first, all if none was; notes on what was asked,
   /// and up to three on what else is remarkable; and the commands of the scenes that these are about.
-  /// @param command  the command that shows a scene, of its number
+  /// @param command  the command that shows a number of a scene, of the scene's number and the column
   /// @param attitude  the name of a listed attitude, of its place from 0
   template <class Command, class Attitude>
   void fill(Report& report, const Command& command, const Attitude& attitude) const {
     report.grid.columns = columns();
     for (std::size_t i = 0; i < numbers_.size(); ++i) {
       if (numbers_[i].histogram.count() > 0 && !is_flag(i))
-        add_number(report, i, command(numbers_[i].least.index), command(numbers_[i].largest.index));
+        add_number(report, i, command(numbers_[i].least.index, columns_[i].name),
+                   command(numbers_[i].largest.index, columns_[i].name));
     }
     if (points_->attitudes() > 0) add_attitudes(report, attitude);
     if (!worst_scenes_.empty()) {
       Grid worst = worst_scenes();
-      for (std::size_t i = 0; i < worst.rows.size(); ++i) worst.rows[i].emplace_back(command(worst_scenes_[i].index));
+      for (std::size_t i = 0; i < worst.rows.size(); ++i)
+        worst.rows[i].emplace_back(command(worst_scenes_[i].index, rank_by_));
       report.fields["worst"] = row_objects(worst);
       report.further = std::move(worst);
     }
     add_texts(report);
     for (const std::size_t i : remarked(report)) {
       const Extreme& worst = is_worst_least(columns_[i].name) ? numbers_[i].least : numbers_[i].largest;
-      report.commands.push_back({fmt::format("{}, the {}", columns_[i].name, end_of(i)), command(worst.index)});
+      report.commands.push_back(
+          {fmt::format("{}, the {}", columns_[i].name, end_of(i)), command(worst.index, columns_[i].name)});
     }
   }
   /// Place, among the rows' columns, of the one by which attitudes are ranked; none if the rows have none that tells.

@@ -552,7 +552,7 @@ class SweepOutput {
   void write_report() {
     if (summary_) {
       summary_->fill(
-          report_, [this](long long index) { return plan_.command_of(index); },
+          report_, [this](long long index, const std::string& column) { return plan_.command_of(index, column); },
           [this](long long place) { return plan_.attitude_name(place); });
     } else {
       report_.grid.rows = read_csv_rows(collected_);
@@ -841,9 +841,9 @@ std::vector<Column> dry_run_columns() {
   return {{"scenes", "scenes", "", "scenes that the sweep has"},
           {"bytes", "bytes", "B", "size of the file, of HDF5 before compression"},
           {"cpu_time", "cpu time", "s", "processor time of all scenes"},
-          {"cpu_time_error", "cpu time error", "s", "its standard error, by the scatter among the scenes tried", false},
+          {"cpu_time_error", "± cpu time", "s", "its standard error, by the scatter among the scenes tried"},
           {"threads", "threads", "", "threads that share it"},
-          {"time", "time", "s", "processor time over threads"},
+          {"time", "time", "s", "processor time over threads, at least that of the dearest scene tried"},
           {"tried", "tried", "", "scenes that were computed for this"}};
 }
 
@@ -859,7 +859,7 @@ int run_dry(const SweepInput& input, SweepPlan plan, const SweepBody& body, int 
   SceneRunner runner(plan, body, [&] { return interrupt.requested(); });
   const auto count = static_cast<double>(plan.range.count);
   const long long most = std::min(plan.range.count, most_scenes_tried);
-  double sum = 0, squares = 0, bytes = 0, rows = 0;
+  double sum = 0, squares = 0, dearest = 0, bytes = 0, rows = 0;
   ShortfallCount shortfalls(plan.layout, plan.packed);
   long long tried = 0;
   for (; tried < most && sum < most_seconds && !interrupt.requested(); ++tried) {
@@ -869,6 +869,7 @@ int run_dry(const SweepInput& input, SweepPlan plan, const SweepBody& body, int 
     const RangeRows there = runner({place, 1});
     const double took = thread_seconds() - begin;
     sum += took, squares += took * took;
+    dearest = std::fmax(dearest, took);
     shortfalls.add(there.text);
     bytes += static_cast<double>(there.text.size());
     rows += static_cast<double>(std::ranges::count(there.text, '\n'));
@@ -888,7 +889,7 @@ int run_dry(const SweepInput& input, SweepPlan plan, const SweepBody& body, int 
   row.emplace_back(all, digits);
   row.emplace_back(Value(rounded_up(scatter / std::sqrt(n) * count)));
   row.emplace_back(threads);
-  row.emplace_back(all / threads, digits);
+  row.emplace_back(std::fmax(all / threads, dearest), digits);
   row.emplace_back(tried);
   report.grid.rows.push_back(std::move(row));
   report.fields["rows"] = row_objects(report.grid);

@@ -70,9 +70,9 @@ std::vector<std::string> settable_keys() {
   return keys;
 }
 
-bool is_list(const std::string& name) {
+bool is_of_kind(KeyValue::Kind kind, const std::string& name) {
   return std::any_of(all_keys().begin(), all_keys().end(),
-                     [&](const Key& key) { return key.name == name && key.value.kind == KeyValue::Kind::list; });
+                     [&](const Key& key) { return key.name == name && key.value.kind == kind; });
 }
 
 /// How values are drawn.
@@ -127,8 +127,10 @@ Setting read_setting(const std::string& given, const Drawing& drawing) {
     if (setting.axis) return setting;
   }
   setting.number = find_number_key(setting.key);
-  if (setting.text.find(':') != std::string::npos && is_list(setting.key))
+  if (setting.text.find(':') != std::string::npos && is_of_kind(KeyValue::Kind::list, setting.key))
     throw BadInput(fmt::format("--set {}={}: a list cannot be swept; give one value", setting.key, setting.text));
+  if (setting.text.find(',') != std::string::npos && is_of_kind(KeyValue::Kind::name, setting.key))
+    throw BadInput(fmt::format("--set {}={}: names cannot be swept; a sweep for each", setting.key, setting.text));
   if (setting.number == nullptr || setting.text.find_first_of(":,") == std::string::npos) return setting;
   setting.axis = drawing.random ? read_random_axis(setting.key, setting.text, setting.number->is_whole())
                                 : read_grid_axis(setting.key, setting.text, setting.number->is_whole());
@@ -326,6 +328,10 @@ void read_scene(const SweepRequest& request, std::vector<Setting>& settings, Sce
   plan.has_own_limit = values.has("run.impacts") || sets(settings, "run.impacts");
   plan.scene = read_scene_of_any_motion(values, overrides_at(values, settings, &SweepAxis::first), model);
   static_cast<void>(read_scene_of_any_motion(values, overrides_at(values, settings, &SweepAxis::last), model));
+  if (model == Model::continuous) {
+    for (const auto& [key, words] : discrete_law_words(plan.scene))
+      if (sets(settings, key)) plan.in_vain.push_back("warning: " + words);
+  }
   number_attitudes(plan.scene, settings);
   if (plan.scene.sweep) {
     throw BadInput(
@@ -622,7 +628,7 @@ void SweepPlan::put_point(const std::vector<double>& values, Scene& into) const 
 }
 
 std::vector<std::string> SweepPlan::remarks(long long cut, std::optional<long long> warned) const {
-  std::vector<std::string> said;
+  std::vector<std::string> said = in_vain;
   const long long count = warned.value_or(warning->count());
   if (const auto& found = warning->found()) {
     said.push_back(fmt::format("{} of {} scenes warn, column warning; scene {}: {}", count, range.count, found->first,
@@ -637,7 +643,7 @@ std::vector<std::string> SweepPlan::remarks(long long cut, std::optional<long lo
   return said;
 }
 
-std::string SweepPlan::command_of(long long index) const {
+std::string SweepPlan::command_of(long long index, const std::string& column) const {
   std::string command = "clatter sweep " + fixed_words;
   std::vector<double> values;
   points.at(index, values);
@@ -648,6 +654,12 @@ std::string SweepPlan::command_of(long long index) const {
     for (const double value : own.subspan(1)) text += "," + shortest(value);
     command += " --set " + shell_word(axis.key + "=" + (own.size() > 1 ? "[" + text + "]" : text));
     rest = rest.subspan(axis.width());
+  }
+  for (std::size_t i = 0; i < layout.probes.size(); ++i) {
+    const auto& [name, place, part, part_at] = layout.probes[i];
+    if (!column.ends_with("_" + name)) continue;
+    command += fmt::format(" --probe {}:{},{},{}", name, shortest(place.x()), shortest(place.y()), shortest(place.z()));
+    return command + (layout.part(i) ? " --part " + part_text(*layout.part(i)) : "");
   }
   return command + " --rows impact";
 }

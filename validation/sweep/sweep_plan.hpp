@@ -85,15 +85,16 @@ struct SweepPlan {
   /// The scene's file or name and what is set to one value, as words of a command.
   std::string fixed_words;
 
-  /// The command that shows the impacts of one scene.
-  [[nodiscard]] std::string command_of(long long index) const;
+  /// The command that shows the impacts of one scene, or its row where the column is a probe's.
+  [[nodiscard]] std::string command_of(long long index, const std::string& column) const;
   /// The name of a listed attitude, of its place from 0: of a box's 26 its number and the part that points down.
   [[nodiscard]] std::string attitude_name(long long place) const;
   bool numbered_attitudes = false;  ///< the listed ones are a box's 26
   /// Puts the numbers of a point into a scene.
   void put_point(const std::vector<double>& values, Scene& into) const;
-  /// What to say of rows that are whole: how many of its runs warn, and the first, and how many end at a limit that
-  /// nobody gave.
+  std::vector<std::string> in_vain{};  ///< what is set to one value that the model does not read
+  /// What to say of rows that are whole: what is set in vain, how many of its runs warn, and the first, and how many
+  /// end at a limit that nobody gave.
   /// @param cut  scenes that end at run.impacts, where more may follow
   /// @param warned  scenes that warn, where earlier runs computed some; none: those of this run
   [[nodiscard]] std::vector<std::string> remarks(long long cut, std::optional<long long> warned = {}) const;

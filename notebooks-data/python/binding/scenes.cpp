@@ -92,15 +92,29 @@ PlannedRun run_scene(const Scene& scene, const std::function<bool(int)>& seen,
   return validation::run_to_digits(scene, body, observer);
 }
 
-Report single_report(const Scene& scene, const Watch& watch, const numeric::HistoryRecorder& history) {
+/// A report, and what its runs warn of, each once.  That it goes deep into springs stands in the report: soft grounds,
+/// as those of the cases, are asked for by whoever looks at how a contact goes.
+struct Told {
+  Report report;
+  std::vector<std::string> warnings;
+
+  void add(const PlannedRun& run) {
+    for (const std::string& warning : run.warnings)
+      if (warning != run.deep && std::ranges::find(warnings, warning) == warnings.end()) warnings.push_back(warning);
+  }
+};
+
+Told single_report(const Scene& scene, const Watch& watch, const numeric::HistoryRecorder& history) {
   const auto asked = static_cast<std::size_t>(scene.request.impacts);
   const auto seen = [&](int impacts) { return watch.tell(static_cast<std::size_t>(impacts), asked); };
   const auto run = std::make_shared<const PlannedRun>(run_scene(scene, seen, history));
   watch.tell(run->run.impacts.size(), asked);
-  return {[scene, run] { return validation::simulation_report(scene, *run); }};
+  Told told{{[scene, run] { return validation::simulation_report(scene, *run); }}, {}};
+  told.add(*run);
+  return told;
 }
 
-Report swept_report(const Scene& scene, const Watch& watch) {
+Told swept_report(const Scene& scene, const Watch& watch) {
   std::vector<validation::SweptRun> runs;
   const std::vector<double> values = scene.sweep->values();
   for (const double value : values) {
@@ -111,10 +125,12 @@ Report swept_report(const Scene& scene, const Watch& watch) {
   }
   watch.tell(runs.size(), values.size());
   const auto done = std::make_shared<const std::vector<validation::SweptRun>>(std::move(runs));
-  return {[scene, done] { return validation::sweep_report(scene, *done); }};
+  Told told{{[scene, done] { return validation::sweep_report(scene, *done); }}, {}};
+  for (const validation::SweptRun& run : *done) told.add(run.planned);
+  return told;
 }
 
-/// (report, history or None, what is doubted of the scene)
+/// (report, history or None, what is doubted of the scene and what its runs warn of)
 py::tuple simulate(const std::string& name, const std::optional<std::string>& text, const NamedTexts& changes,
                    bool with_history, const py::object& progress) {
   const auto history = with_history ? std::make_shared<Samples>() : nullptr;
@@ -123,8 +139,10 @@ py::tuple simulate(const std::string& name, const std::optional<std::string>& te
   const auto work = [source = SceneSource{name, text, changes}, recorder](const Watch& watch) {
     const Scene scene = source.read(Model::continuous);
     const bool sweeps = scene.sweep.has_value();
-    return std::tuple(sweeps ? swept_report(scene, watch) : single_report(scene, watch, recorder), sweeps,
-                      doubts_of(scene, Model::continuous, {}));
+    Told told = sweeps ? swept_report(scene, watch) : single_report(scene, watch, recorder);
+    std::vector<std::string> said = doubts_of(scene, Model::continuous, {});
+    said.insert(said.end(), told.warnings.begin(), told.warnings.end());
+    return std::tuple(std::move(told.report), sweeps, std::move(said));
   };
   const auto [report, sweeps, doubts] = run_interruptible(work, progress);
   return py::make_tuple(report, history && !sweeps ? py::object(arrays_of(*history)) : py::none(), doubts);
@@ -218,7 +236,8 @@ validation::Report swept(const validation::SweepPlan& plan, bool summary, bool c
   });
   if (together) {
     together->fill(
-        report, [&](long long index) { return commands ? plan.command_of(index) : ""; },
+        report,
+        [&](long long index, const std::string& column) { return commands ? plan.command_of(index, column) : ""; },
         [&](long long place) { return plan.attitude_name(place); });
     if (!commands) report.commands.clear();
   } else {

@@ -146,6 +146,8 @@ def swept_text(name: str, values: Any, called: str | None = None) -> str:
             raise BadArgument(f"{name} {shown(values)}: must be one list of numbers, which no sweep varies; call sweep() for each")
         vectors = [text_of(name, key, part).split("x") for part in parts]
         return ",".join(f"[{','.join(vector)}]" for vector in vectors)
+    if any(map(is_list, parts)):
+        raise BadArgument(f"{name} {shown(values)}: must be a value or one list of values, not a table of them")
     texts = [text_of(name, key, part) for part in parts]
     return f"{texts[0]}:{texts[0]}:1" if len(texts) == 1 and is_number(parts[0]) else ",".join(texts)
 

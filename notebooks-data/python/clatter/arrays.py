@@ -24,13 +24,13 @@ def numpy_for(what: str) -> ModuleType:
     return numpy
 
 
-def numbers(values: Iterable[Any]) -> Array:
+def numbers(values: Iterable[Any], kind: type = float) -> Array:
     """An array of numbers or of rows of numbers; the list itself without NumPy."""
     try:
         numpy = numpy_for("an array")
     except ImportError:
         return list(values)  # type: ignore[return-value]
-    array: Array = numpy.array(list(values), dtype=float)
+    array: Array = numpy.array(list(values), dtype=kind)
     return array
 
 

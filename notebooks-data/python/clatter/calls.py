@@ -200,7 +200,7 @@ def sweep(
     refused or outside the model is a row with its outcome and reason; a warning counts them.
 
     >>> clatter.sweep("phone-corner", orientation=range(19, 27), model="discrete")["impacts"]
-    array([3., 3., 3., 3., 3., 3., 3., 3.])
+    array([3, 3, 3, 3, 3, 3, 3, 3])
     """
     sets = set_texts(values, changes)
     sets += [] if errors else ["run.errors=false"]

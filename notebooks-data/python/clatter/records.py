@@ -20,6 +20,8 @@ def as_array(values: list[Any]) -> Array:
         return numbers([nan] * max(wide) if value is None else value for value in values)
     if any(isinstance(value, (str, bool)) for value in values):
         return words(values)
+    if values and all(type(value) is int for value in values):
+        return numbers(values, int)
     return numbers(nan if value is None else value for value in values)
 
 

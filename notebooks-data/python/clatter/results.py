@@ -270,7 +270,11 @@ class Result(Generic[Row]):
         """A row, some of them, or a column by its name."""
         if isinstance(index, str):
             return self.column(index)
-        return self.rows[index] if isinstance(index, slice) else self._row(index)
+        if isinstance(index, slice):
+            return self.rows[index]
+        if hasattr(index, "__len__"):
+            raise TypeError("rows are taken by a number, a slice or a column's name; pandas.DataFrame(x)[mask] takes a mask")
+        return self._row(index)
 
     def _beside(self) -> tuple[Any, ...]:
         """What it was made from beside the report."""
@@ -315,7 +319,7 @@ class Result(Generic[Row]):
                 return as_record(self._data[name])
             if name in self._columns:
                 raise AttributeError(f"{name} is a column, an array of it is x[{name!r}]; x is this result")
-            raise AttributeError(name if name.startswith("_") else absent(name, (one for one in dir(self) if not one.startswith("_"))))
+            raise AttributeError(name if name.startswith("_") else absent(name, [*(one for one in dir(self) if not one.startswith("_")), *self._columns]))
 
     def to_dict(self) -> dict[str, Any]:
         """The program's JSON as dicts and lists."""
@@ -421,6 +425,11 @@ class Run(Result[OneImpact]):
     def outcome(self) -> str:
         """no-further-impact, impact-limit, at-rest, sustained-contact, evaluation-limit ..."""
         return str(self._data["outcome"])
+
+    @property
+    def warnings(self) -> list[str]:
+        """What the model says beside its numbers; but for depths in springs and facets a call warns of it, too."""
+        return [in_python(words) for words in self._data.get("warnings", [])]
 
     @property
     def total_normal_impulse(self) -> float:

@@ -73,6 +73,7 @@ class Drop(SpaceFolder):
 
     def test_a_list_is_one_value_of_a_sweep_and_no_axis(self):
         self.refused("a list cannot be swept", "sweep", "rod-10", "--set", "drop.velocity=0,0,-1:0,0,-2:3")
+        self.refused("names cannot be swept", "sweep", "rod-10", "--set", "impact.law=newton,poisson")
         done = self.run_program("sweep", "rod-10", "--model", "discrete", "--set", "drop.velocity=0,0,-2", "--set", "drop.angle_deg=10:20:10")
         self.assertEqual(done.returncode, 0, done.stderr)
 
