@@ -404,10 +404,11 @@ PlannedRun run_to_digits(const Scene& scene, const numeric::Body& body, const nu
   bool sinks = false;
   for (const numeric::ImpactRecord& row : planned.run.impacts)
     depth = std::max(depth, row.value.indentation), sinks = sinks || row.submerged;
-  for (const std::string& warning : planned.run.warnings)
+  for (const std::string& warning : planned.run.warnings) {
     planned.warnings.push_back(warning + (sinks ? "" : pad_remark(scene, depth)));
-  planned.deep = springs_warning(scene, depth);
-  if (!planned.deep.empty()) planned.warnings.push_back(planned.deep);
+    if (!sinks && !world.ground.is_pad()) planned.deep = planned.warnings.back();
+  }
+  if (const std::string deep = springs_warning(scene, depth); !deep.empty()) planned.warnings.push_back(deep);
   return planned;
 }
 

@@ -76,7 +76,7 @@ struct PlannedRun {
   int known_impacts = 0;
   std::vector<std::string>
       warnings;        ///< of what the run leaves out although the scene has it, and of bodies that go deep
-  std::string deep{};  ///< which of them says that the body goes deep into springs; empty: none
+  std::string deep{};  ///< which of them says that the body goes deep, but not below the ground; empty: none
   std::optional<FirstTouch> first_touch{};  ///< of a drop with a release
   MotionNumbers sizes{};  ///< of all impacts, against which a number counts as zero; 0 without impacts
 };

@@ -92,8 +92,8 @@ PlannedRun run_scene(const Scene& scene, const std::function<bool(int)>& seen,
   return validation::run_to_digits(scene, body, observer);
 }
 
-/// A report, and what its runs warn of, each once.  That it goes deep into springs stands in the report: soft grounds,
-/// as those of the cases, are asked for by whoever looks at how a contact goes.
+/// A report, and what its runs warn of, each once.  That it goes deep stands in the report: soft grounds, as those of
+/// the cases, are asked for by whoever looks at how a contact goes.
 struct Told {
   Report report;
   std::vector<std::string> warnings;
