@@ -123,6 +123,8 @@ const Argument* find_option(const Command& command, const std::string& name) {
   if (name == "--gravity-number")
     throw BadInput("--gravity-number: is of angles; {} takes --gravity in m/s^2, the number times v_n^2/L",
                    command.name);
+  if (command.name == "report" && name == "--filter")
+    throw BadInput("--filter: is of shock; report judges unfiltered peaks, beside which filtered ones are too mild");
   if (name == "--probe" || name == "--part")
     throw BadInput("{}: is for shock, sweep and report; leave it out of {}", name, command.name);
   const std::vector<std::string> known = command.option_names();

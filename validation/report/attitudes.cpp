@@ -77,12 +77,14 @@ std::size_t axes_of_attitude(int number) {
 }
 constexpr const char* part_names[] = {"", "face", "edge", "corner"};
 
-/// The worst blow of a drop of the sweep, as the sweep itself computes it; without a probe that of the largest force.
+/// The worst blow of a drop of the sweep, with the errors that the sweep leaves out; without a probe that of the
+/// largest force.
 std::optional<Blow> blow_of(const SweepPlan& plan, const SweepBody& body, long long point, const Ranking& ranking) {
   Scene scene = plan.scene;
   std::vector<double> values;
   plan.points.at(point, values);
   plan.put_point(values, scene);
+  scene.request.error_estimates = true;
   const std::vector<Probe>& probes = plan.layout.probes;
   if (!ranking.has_peaks) {
     const ShockRun run = run_shock(scene, probes, {.continuous = false, .sensitivity = false, .count = 2});
@@ -225,13 +227,20 @@ std::optional<AllAttitudes> all_attitudes(const ReportInput& input, const Scene&
   const std::string& by = all.column.name;
   const Ranking ranks = ranking_of(by, layout.probes, input);
   const std::string beyond = by.starts_with(of_landing) ? by.substr(of_landing.size()) : "";
-  const std::size_t curve = place_of("curve_depth"), beyond_value = place_of(beyond),
+  all.is_of_blow =
+      layout.probes.empty() ||
+      std::ranges::any_of(std::array{peak_column, shock_column, margin_column},
+                          [&](std::string_view name) { return (beyond.empty() ? by : beyond).starts_with(name); });
+  const std::size_t curve = place_of("curve_depth"), beyond_value = place_of(beyond), impact = place_of(by + "_impact"),
                     beyond_impact = place_of(beyond + "_impact"),
                     peak = layout.probes.empty() ? columns.size()
                                                  : place_of(std::string(peak_column) + layout.probes[ranks.probe].name);
   std::vector<PackedCell> row(columns.size());
   std::vector<double> values;
   const auto number = [&](std::size_t place) { return place < row.size() ? row[place].number : std::nan(""); };
+  const auto whole = [&](std::size_t place) {
+    return std::isfinite(number(place)) ? static_cast<int>(number(place)) : 0;
+  };
   if (ranks.by == Ranking::By::response) {
     all.column.name.replace(all.column.name.find(margin_column), margin_column.size(), response_column);
     all.column.unit = "g";
@@ -250,7 +259,8 @@ std::optional<AllAttitudes> all_attitudes(const ReportInput& input, const Scene&
     drop.curve_depth = number(curve);
     drop.peak_g = number(peak);
     drop.beyond_value = ranked_number(beyond_value);
-    drop.beyond_impact = std::isfinite(number(beyond_impact)) ? static_cast<int>(number(beyond_impact)) : 0;
+    drop.impact = whole(impact);
+    drop.beyond_impact = whole(beyond_impact);
     all.drops.push_back(drop);
   }
   if (all.drops.empty()) return std::nullopt;
@@ -321,11 +331,6 @@ Grid attitudes_grid(const AllAttitudes& all) {
   const bool has_response = std::ranges::any_of(all.blows, [](const auto& blow) { return blow && blow->response_g; });
   const bool has_velocity = std::ranges::any_of(all.blows, [](const auto& blow) { return blow && blow->velocity > 0; });
   const bool has_depth = std::ranges::any_of(all.blows, [](const auto& blow) { return blow && blow->depth; });
-  // Whether the blow's own numbers have what is ranked by.
-  const bool is_of_blow = std::ranges::all_of(all.worst_of, [&, i = std::size_t{0}](std::size_t drop) mutable {
-    const std::optional<Blow>& blow = all.blows[i++];
-    return !blow || blow->value == all.drops[drop].value;
-  });
   const auto& pad = all.scene.pad.thickness;
   const bool has_share = has_depth && pad;
   Grid grid{attitude_columns(), {}, 1};
@@ -342,7 +347,7 @@ Grid attitudes_grid(const AllAttitudes& all) {
                    : column.name == "response_g"                            ? has_response
                    : column.name == "depth_mm"                              ? has_depth
                    : column.name == "depth_percent"                         ? has_share
-                   : column.name == "worst"                                 ? !is_of_blow
+                   : column.name == "worst"                                 ? !all.is_of_blow
                    : column.name == "verdict"                               ? false  // which margins say
                    : column.name == "largest_peak_g"                        ? has_peaks && !all.is_ranked_by_peak()
                                                                             : column.shown;
@@ -362,22 +367,26 @@ Grid attitudes_grid(const AllAttitudes& all) {
       if (all.is_worse(mildest, one.value)) mildest = one.value;
       largest_peak = std::fmax(largest_peak, one.peak_g);
     }
-    const auto cell = [&](bool there, double value) { return there ? said_cell(value) : Cell(); };
-    const bool is_deep = blow && blow->depth, has_pulse = blow && blow->peak_g > 0 && blow->velocity > 0;
+    const auto cell = [&](bool there, double value, double error = 0) {
+      return there ? said_cell(value, error) : Cell();
+    };
+    const Blow none, &of = blow ? *blow : none;
+    const bool has_pulse = of.peak_g > 0 && of.velocity > 0;
+    const double pulse_ms = has_pulse ? 1e3 * equivalent_pulse(of.velocity, of.peak_g * standard_gravity).duration : 0;
     grid.rows.push_back(
         {Cell(fmt::format("{} {}", part_names[axes_of_attitude(worst.attitude)], orientation_name(worst.attitude + 1))),
          Cell(degrees_off(all.scene, worst.attitude, worst.down), 2),
          blow ? Cell(blow->impact) : Cell(),
-         cell(blow && has_peaks, blow ? blow->peak_g : 0),
-         cell(blow && has_velocity, blow ? blow->velocity : 0),
-         has_pulse ? said_cell(1e3 * equivalent_pulse(blow->velocity, blow->peak_g * standard_gravity).duration)
+         cell(blow && has_peaks, of.peak_g, of.peak_g_error),
+         cell(blow && has_velocity, of.velocity, of.velocity_error),
+         has_pulse ? said_cell(pulse_ms, pulse_ms * (of.peak_g_error / of.peak_g + of.velocity_error / of.velocity))
                    : Cell(),
-         blow && blow->margin ? Cell(blow->margin->verdict()) : Cell(),
-         cell(blow && blow->margin, blow && blow->margin ? blow->margin->value : 0),
-         blow && blow->response_g ? said_cell(*blow->response_g) : Cell(),
-         blow && blow->margin ? deciding_cell(blow->margin->by) : Cell(),
-         cell(is_deep, is_deep ? 1e3 * *blow->depth : 0),
-         cell(is_deep && has_share, is_deep && has_share ? 100 * *blow->depth / *pad : 0),
+         of.margin ? Cell(of.margin->verdict()) : Cell(),
+         of.margin ? said_cell(of.margin->value, of.margin_error) : Cell(),
+         of.response_g ? said_cell(*of.response_g, of.margin_error) : Cell(),
+         of.margin ? deciding_cell(of.margin->by) : Cell(),
+         of.depth ? said_cell(1e3 * *of.depth) : Cell(),
+         of.depth && has_share ? said_cell(100 * *of.depth / *pad) : Cell(),
          said_cell(worst.value),
          said_cell(mildest),
          cell(std::isfinite(largest_peak), largest_peak),

@@ -34,6 +34,7 @@ struct SweptDrop {
   std::array<double, 4> parameters{};  ///< Euler's
   Vector3 down = Vector3::Zero();
   double value = 0;         ///< that it is ranked by
+  int impact = 0;           ///< whose blow has it; 0: not told
   double beyond_value = 0;  ///< the same with the impacts that the ranking leaves out, or NaN
   int beyond_impact = 0;
   double curve_depth = 0;  ///< depth over that of the pad's last point, or NaN
@@ -51,7 +52,8 @@ struct AllAttitudes {
   std::size_t worst = 0;
   Column column;                           ///< by which they are ranked
   std::vector<std::size_t> worst_of;       ///< of each attitude that has a drop: its worst one
-  std::vector<std::optional<Blow>> blows;  ///< of those: the worst of each
+  std::vector<std::optional<Blow>> blows;  ///< of those: the worst of each, with errors
+  bool is_of_blow = true;                  ///< whether the blows have what is ranked by
   Scene scene;                             ///< of the worst
   std::string name;                        ///< of its attitude: "corner -x-y+z down, 3.2° off"
   Report report;                           ///< percentiles, and in its fields the largest of each attitude

@@ -246,7 +246,9 @@ Grid cases_grid(const std::vector<const ReportCase*>& cases) {
     const auto of = [&](const char* name, double unit = 1) {
       const Value* const value = answer.find(name);
       const double* const number = value ? value->number() : nullptr;
-      return !value ? Cell() : number ? said_cell(unit * *number) : Cell(*value);
+      const Value* const error = answer.find(std::string(name) + "_error");
+      const double off = !error ? 0 : error->number() ? *error->number() : unknown_error;
+      return !value ? Cell() : number ? said_cell(unit * *number, unit * off) : Cell(*value);
     };
     const auto& pad = one->found.scene.pad.thickness;
     Row row = cells_of_case(*one);

@@ -53,7 +53,7 @@ bool types_attitude(const ReportInput& input) {
 
 Answer answer_of(const ShockRun& run, const Ranking& ranking) {
   Answer answer;
-  const Run impacts = run.continuous ? run_of(run.continuous->planned.run) : *run.discrete_run;
+  const Run impacts = run.leading_run();
   if (run.probes.empty()) {
     if (!run.continuous) return {.blow = {}, .words = "no probe was named"};
     const double peak = totals(impacts).largest_peak.value;
@@ -67,8 +67,13 @@ Answer answer_of(const ShockRun& run, const Ranking& ranking) {
   const std::string& probe = run.probes[ranking.probe].name;
   answer.words = blow_words(blow, probe, ranking);
   answer.fields = Value::Fields{{"probe", probe}, {"impact", blow.impact}, {"delta_v", blow.velocity}};
+  const auto add_error = [&](const char* name, double value, double error) {
+    answer.fields[name] = error_or_nothing({value, error});
+  };
+  add_error("delta_v_error", blow.velocity, blow.velocity_error);
   if (ranking.has_peaks) {
     answer.fields["peak_g"] = blow.peak_g;
+    add_error("peak_g_error", blow.peak_g, blow.peak_g_error);
     answer.fields["width"] = blow.width;
     answer.fields["pulse_duration"] = equivalent_pulse(blow.velocity, blow.peak_g * standard_gravity).duration;
     answer.fields["depth"] = *blow.depth;
@@ -78,6 +83,7 @@ Answer answer_of(const ShockRun& run, const Ranking& ranking) {
   if (!blow.margin) return answer;
   answer.fields["verdict"] = blow.margin->verdict();
   answer.fields["margin"] = blow.margin->value;
+  add_error("margin_error", blow.margin->value, blow.margin_error);
   answer.fields["decided_by"] = deciding_cell(blow.margin->by).value;
   if (ranking.part->kind == FragilePart::Kind::oscillator)
     answer.fields["response_g"] = ranking.part->fragility / standard_gravity / blow.margin->value;
@@ -151,8 +157,7 @@ std::vector<std::string> notes_of_all(const AllAttitudes& all, const Answer& ans
   constexpr double close = 0.02;  // of numbers to three digits whose errors were not looked for
   const auto place = std::ranges::find(all.worst_of, all.worst) - all.worst_of.begin();
   const std::optional<Blow>& swept = all.blows[static_cast<std::size_t>(place)];
-  const bool is_ranked_by = swept && swept->value == worst.value;  // else by what blows do not have
-  if (answer.blow && is_ranked_by && !(std::fabs(answer.blow->value / worst.value - 1) <= close)) {
+  if (answer.blow && swept && all.is_of_blow && !(std::fabs(answer.blow->value / worst.value - 1) <= close)) {
     notes.push_back(fmt::format("To three digits this drop has {} in place of {}: {}", in_unit(all, worst.value),
                                 in_unit(all, answer.blow->value),
                                 answer.blow->predictable
@@ -160,6 +165,23 @@ std::vector<std::string> notes_of_all(const AllAttitudes& all, const Answer& ans
                                     : fmt::format("impact {} depends on digits that nobody has", answer.blow->impact)));
   }
   return notes;
+}
+
+/// That the drops were followed for so many impacts, and in how many of them the last was the hardest, so that harder
+/// ones may follow; empty: they ended by themselves.
+std::string limit_words(const Findings& found) {
+  const int limit = found.scene.request.impacts;
+  const auto& all = found.all;
+  const bool is_told = all && all->drops[all->worst].impact > 0;
+  const auto at_limit = is_told ? all->count([&](const SweptDrop& drop) { return drop.impact == limit; })
+                                : found.answer.blow && found.answer.blow->impact == limit;
+  if (at_limit > 0)
+    return fmt::format("{} hardest blow is the last one followed, impact {}: later ones may be harder (--impacts)",
+                       is_told ? fmt::format("In {} of {} drops the", at_limit, all->drops.size()) : "The", limit);
+  if (!found.run.ends_at_limit()) return "";
+  return is_told ? fmt::format("In none of {} drops is the hardest blow the last one followed, impact {} (--impacts)",
+                               all->drops.size(), limit)
+                 : fmt::format("Impacts after the {} followed may be harder (--impacts)", limit);
 }
 
 /// What to read of a blow that is short against the part's period, or shorter than a shock machine's; empty: any of it.
@@ -259,8 +281,8 @@ std::optional<Findings> findings_of(const ReportInput& input, const Scene& given
   if (swept) found.all = all_attitudes(input, given, *swept, rank_by);
   found.scene = found.all ? found.all->scene : given;
   const Scene& scene = found.scene;
-  const auto watch = [&](int, long) { return !interrupt.requested(); };
-  found.run = run_shock(scene, probes, request_of(input), {.progress = watch});
+  found.run = run_shock(scene, probes, request_of(input),
+                        {.progress = watched(interrupt, found.all ? "the worst drop" : "the drop", scene)});
   if (interrupt.requested()) return {};
 
   found.report = begun_report("report", fmt::format("{}{}{}",
@@ -295,7 +317,8 @@ std::optional<Findings> findings_of(const ReportInput& input, const Scene& given
     if (is_turned && !probes.empty()) {
       ShockRequest plain = request_of(input);
       plain.sensitivity = false;
-      const Answer own = answer_of(run_shock(given, probes, plain, {.progress = watch}), ranking);
+      const Answer own = answer_of(
+          run_shock(given, probes, plain, {.progress = watched(interrupt, "the drop as given", given)}), ranking);
       const bool is_worse = own.blow && found.answer.blow &&
                             ranking.is_worse(own.blow->value, found.answer.blow->value) &&
                             said(own.blow->value) != said(found.answer.blow->value);
@@ -313,6 +336,7 @@ std::optional<Findings> findings_of(const ReportInput& input, const Scene& given
     found.lead += "; " + overlap;
     fields["overlap"] = overlap;
   }
+  found.notes.push_back(limit_words(found));
   if (found.answer.blow) found.notes.push_back(reading_words(*found.answer.blow, ranking));
   std::erase(found.notes, "");
   for (const std::string& note : assumed_words(scene, model, found.answer.blow.value_or(Blow{.impact = 1})))

@@ -54,20 +54,21 @@ constexpr const char* page_style =
     ".probe{fill:#d62828;stroke:var(--paper)}.rim{fill:none;stroke:var(--line)}.ring{fill:none;stroke:#d62828;"
     "stroke-width:2}.middle{text-anchor:middle}.end{text-anchor:end}"
     "pre{background:var(--box);padding:.6rem;white-space:pre-wrap;overflow-wrap:anywhere;font-size:.8rem}"
-    "@media print{:root{color-scheme:light;--ink:#1a1a1a;--soft:#444;--paper:#fff;--line:#ccc;--box:#f4f4f4;"
-    "--body:#2a6f97}*{print-color-adjust:exact;-webkit-print-color-adjust:exact}body{font-size:9.5pt;max-width:none;"
-    "padding:0}h2{break-after:avoid;margin-top:.8rem}figure,tr,pre{break-inside:avoid}.wide{overflow:visible}"
-    "table{font-size:7.5pt}th,td{padding:.05rem .25rem;white-space:normal}figure.plot svg{max-height:12.2cm}"
-    "h2.case{break-before:page;margin-top:0}p,ul,pre,figure{margin:.25rem "
-    "0}ul{padding-left:1.2rem}p,li{max-width:none;line-height:1.3}"
-    "h2{break-inside:avoid}h2.case{font-size:12pt}.notes "
-    "li{font-size:8.5pt}.brief{break-inside:avoid;flex-wrap:nowrap}.brief>:first-child{flex:5}"
-    ".brief>.beside{flex:3;display:block}.brief p,.brief li,.brief figcaption{font-size:7.5pt;line-height:1.2}.brief "
-    "figure,.brief ul{margin:.1rem 0}.brief figure svg{max-height:2.2cm}h2.brief{font-size:10pt;margin:.4rem 0 .2rem}"
-    ".lines,.wide "
-    "p,figcaption,pre{font-size:7.5pt;line-height:1.25}.beside "
-    "figure{flex-basis:16rem}"
-    ".answer{font-size:13pt}.several{font-size:10.5pt}}@page{size:A4;margin:14mm}";
+    "@media "
+    "print{:root{color-scheme:light;--ink:#1a1a1a;--soft:#444;--paper:#fff;--line:#ccc;--box:#f4f4f4;--body:#2a6f97}*{"
+    "print-color-adjust:exact;-webkit-print-color-adjust:exact}body{font-size:8.5pt;max-width:none;padding:0}"
+    "h2{break-after:avoid;break-inside:avoid;font-size:10.5pt;margin:.7rem 0 "
+    ".2rem}h2.case{font-size:12pt;margin-top:1.2rem}"
+    "figure,tr,pre{break-inside:avoid}.wide{overflow:visible}table{font-size:7.5pt}th,td{padding:.02rem "
+    ".25rem;white-space:normal}"
+    "p,ul,pre,figure,.beside figure{margin:.2rem 0}ul{padding-left:1.2rem}p,li{max-width:none;line-height:1.25}"
+    "figure.plot{display:inline-block;width:49%;vertical-align:top}figure.plot "
+    "svg{max-height:14cm}.beside{break-inside:avoid;flex-wrap:nowrap}.beside svg{max-height:5cm}"
+    ".notes li,.lines,.wide p,figcaption,pre{font-size:7.5pt;line-height:1.2}"
+    ".brief{break-inside:avoid;flex-wrap:nowrap}.brief>:first-child{flex:5}.brief>.beside{flex:3;display:block}.brief "
+    "p,.brief li,.brief figcaption{font-size:7.5pt;line-height:1.2}.brief figure,.brief ul{margin:.1rem 0}.brief "
+    "figure svg{max-height:2.2cm}h2.brief{font-size:10pt;margin:.4rem 0 .2rem}"
+    ".answer{font-size:12pt}.several{font-size:10.5pt}}@page{size:A4;margin:12mm}";
 
 /// Without the declarations that only a file of its own may have.
 std::string svg_element(const std::string& svg) {
@@ -300,7 +301,7 @@ std::string accuracy_html(const Scene& scene, const ShockRun& run) {
 
 /// How the body touches in an impact.
 Eigen::Quaterniond attitude_in(const ShockRun& run, int impact) {
-  const Run impacts = run.continuous ? run_of(run.continuous->planned.run) : *run.discrete_run;
+  const Run impacts = run.leading_run();
   const auto place = static_cast<std::size_t>(impact - 1);
   if (place >= impacts.impacts.size()) return run.scene.touch_attitude();
   const EntryParameters& q = impacts.impacts[place].value.attitude;

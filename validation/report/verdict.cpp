@@ -43,12 +43,15 @@ std::optional<Blow> worst_blow(const std::vector<ShockRow>& rows, const Run& run
             .predictable = worst->predictable,
             .peak_g = worst->value.peak_size / standard_gravity,
             .velocity = worst->value.delta_v_size,
+            .peak_g_error = worst->error.peak_size / standard_gravity,
+            .velocity_error = worst->error.delta_v_size,
             .width = worst->value.width,
             .value = ranking.value_of(*worst)};
   if (ranking.part) {
     const BlowMargin margin = blow_margin(*worst, *ranking.part, ranking.has_peaks);
     if (ranking.part->has_limit()) blow.margin = margin;
     else blow.response_g = response_in_g(*ranking.part, margin.value);
+    blow.margin_error = margin_of(*worst, *ranking.part, ranking.has_peaks).error;
   }
   if (ranking.has_peaks) blow.depth = run.impacts.at(static_cast<std::size_t>(blow.impact) - 1).value.indentation;
   return blow;
@@ -58,9 +61,14 @@ Column pulse_column() {
   return {"pulse_ms", "pulse", "ms", "how long the half sine of this peak and change of velocity is"};
 }
 
-std::string said(double value) {
-  const double unit = value > 0 ? std::pow(10.0, std::floor(std::log10(value)) - 2) : 1;
+std::string said(double value, int digits) {
+  const double unit = value > 0 ? std::pow(10.0, std::floor(std::log10(value)) - digits + 1) : 1;
   return shortest(unit < 1 ? std::round(value / unit) / std::round(1 / unit) : std::round(value / unit) * unit);
+}
+
+Cell said_cell(double value, double error) {
+  const int known = known_cell({value, error}, {3, 0}).digits;
+  return known > 0 ? Cell(value, said(value, known)) : Cell(value, 0);
 }
 
 Cell deciding_cell(BlowMargin::By by) {

@@ -41,8 +41,9 @@ struct Blow {
   bool predictable = true;
   double peak_g = 0;    ///< [g]; 0: the discrete model's
   double velocity = 0;  ///< |ΔV| [m/s]
-  double width = 0;     ///< above a tenth of the peak [s]
-  double value = 0;     ///< that it is ranked by
+  double peak_g_error = 0, velocity_error = 0, margin_error = 0;
+  double width = 0;  ///< above a tenth of the peak [s]
+  double value = 0;  ///< that it is ranked by
   std::optional<BlowMargin> margin{};
   std::optional<double> response_g{};  ///< of a part without a limit, in place of its margin
   std::optional<double> depth{};       ///< of the deepest point [m]
@@ -59,9 +60,10 @@ struct Blow {
 [[nodiscard]] Column pulse_column();
 
 /// Three digits, as one says them: 39000, not 39027.
-[[nodiscard]] std::string said(double value);
-/// The number with all its digits, of which a reader sees three.
-[[nodiscard]] inline Cell said_cell(double value) { return {value, said(value)}; }
+[[nodiscard]] std::string said(double value, int digits = 3);
+/// The number with all its digits, of which a reader sees three, or as few as its error leaves, "?" where it leaves
+/// none.
+[[nodiscard]] Cell said_cell(double value, double error = 0);
 /// "camera takes 2660 g in impact 1, 7.52 m/s, as a half sine of 0.45 ms does; the part of 500 Hz answers with ...".
 [[nodiscard]] std::string blow_words(const Blow& blow, const std::string& probe, const Ranking& ranking);
 /// "19.5 mm deep, 244 % of the pad": empty without a pad.

@@ -87,34 +87,47 @@ void add_ground_block(const std::vector<SceneOverride>& keys, Report& report) {
   report.notes.push_back("or as flags:" + flag_words(keys));
 }
 
-/// A row for each ground.
-std::vector<Column> ground_columns() {
-  std::vector<Column> columns{
-      {"stiffness", "k_G", "N/m³", "of the ground"},
-      {"damping", "c_G", "N·s/m⁴", "of the ground"},
-      {"restitution", "e", "", "by the model: separation over approach speed of the first impact"},
-      {"contact_time", "contact", "s", "by the model: how long the first impact lasts"},
-      {"peak_force", "peak Fₙ", "N", "by the model: largest normal force of the first impact"},
-      {"indentation", "δ", "m",
-       "by the model: depth at which the ground carries the body at rest, in the attitude of the drop"},
-      {"depth", "depth", "m", "by the model: greatest depth of the first impact"},
-      {"depth_percent", "of pad", "%", "the same in parts of --thickness"},
-      {"stiffness_by_first", "∂k/∂1", "", "∂ ln k_G/∂ ln of the first measured number, the second held"},
-      {"stiffness_by_second", "∂k/∂2", "", "∂ ln k_G/∂ ln of the second measured number, the first held"},
-      {"damping_by_first", "", "N·s/m⁴", "∂ c_G/∂ ln of the first measured number, the second held", false},
-      {"damping_by_second", "", "N·s/m⁴", "∂ c_G/∂ ln of the second measured number, the first held", false}};
-  columns.push_back(error_column(columns[0]));
-  columns.push_back(error_column(columns[1]));
+/// A row for the ground that is known by its modulus or its curve, or for each end of a floor's range.
+std::vector<Column> dissipative_columns() {
+  return {{"reduced_modulus", "E*", "Pa", "of an elastic half-space: 1/E* = (1 - ν²)/E of ground and body added"},
+          {"dissipation", "τ", "s/m", "of a half-space or a pad, with a measured restitution"}};
+}
+
+/// A row for each ground that gives two measured numbers.
+std::vector<Column> ground_columns(bool is_half_space) {
+  std::vector<Column> columns = dissipative_columns();
+  if (!is_half_space)
+    columns = {{"stiffness", "k_G", "N/m³", "of the ground"}, {"damping", "c_G", "N·s/m⁴", "of the ground"}};
+  const std::vector<Column> sought = columns;
+  columns.insert(columns.end(),
+                 {{"restitution", "e", "", "by the model: separation over approach speed of the first impact"},
+                  {"contact_time", "contact", "s", "by the model: how long the first impact lasts"},
+                  {"peak_force", "peak Fₙ", "N", "by the model: largest normal force of the first impact"},
+                  {"indentation", "δ", "m",
+                   "by the model: depth at which the ground carries the body at rest, in the attitude of the drop"},
+                  {"depth", "depth", "m", "by the model: greatest depth of the first impact"},
+                  {"depth_percent", "of pad", "%", "the same in parts of --thickness"}});
+  for (std::size_t i = 0; i < sought.size(); ++i) {
+    const auto add = [&](const char* measured, const char* place, const char* other) {
+      columns.push_back({sought[i].name + "_by_" + measured,
+                         i == 0 ? fmt::format("∂{}/∂{}", is_half_space ? "E" : "k", place) : "",
+                         i == 0 ? "" : sought[i].unit,
+                         fmt::format("∂ {}{}/∂ ln of the {} measured number, the {} held", i == 0 ? "ln " : "",
+                                     sought[i].heading, measured, other),
+                         i == 0});
+    };
+    add("first", "1", "second");
+    add("second", "2", "first");
+  }
+  for (const Column& column : sought) columns.push_back(error_column(column));
   return columns;
 }
 
 /// How deep the body goes in the first impact [m].
 double depth_on(const FittedGround& ground, const MeasuredDrop& drop) {
-  numeric::World world = drop.world;
-  world.ground.stiffness = ground.stiffness;
-  world.ground.damping = ground.damping;
-  const numeric::Simulation run = numeric::simulate(
-      *drop.body, world, drop.start, {.impacts = 1, .error_estimates = false, .amplification = false}, {.digits = 5});
+  const numeric::Simulation run =
+      numeric::simulate(*drop.body, world_on(drop, ground.stiffness, ground.damping), drop.start,
+                        {.impacts = 1, .error_estimates = false, .amplification = false}, {.digits = 5});
   return run.impacts.empty() ? std::nan("") : run.impacts.front().value.indentation;
 }
 
@@ -147,10 +160,16 @@ void add_pad_curve(const Scene& scene, const FittedGround& ground, double depth,
 Report ground_report(const Scene& scene, const MeasuredDrop& drop, const MeasuredNumber& first,
                      const MeasuredNumber& second, const GroundFit& fit) {
   Report report = begun_report("ground", "the ground from what was measured");
-  KeyNames unsettled{"ground.stiffness", "ground.damping"};
-  report.head = scene_head(scene, Model::continuous, {}, unsettled);
+  const bool is_half_space = scene.world.ground.is_half_space();
+  report.head =
+      scene_head(scene, Model::continuous, {},
+                 {"ground.stiffness", "ground.damping", "ground.modulus", "ground.dissipation", "ground.restitution"});
   report.head.push_back(fmt::format("measured: {}; {}", words_of(first), words_of(second)));
-  report.grid.columns = ground_columns();
+  const std::string materials = material_words(scene.half_space);
+  report.head.push_back(!is_half_space ? "sought: k_G and c_G of springs"
+                                       : "sought: E* and τ of an elastic half-space" +
+                                             (materials.empty() ? "" : ", in place of " + materials));
+  report.grid.columns = ground_columns(is_half_space);
   for (Column& column : report.grid.columns) {
     if (column.name == "depth_percent") column.shown = scene.pad.thickness.has_value();
   }
@@ -165,16 +184,19 @@ Report ground_report(const Scene& scene, const MeasuredDrop& drop, const Measure
   } else if (fit.solutions.size() > 1) {
     report.notes.push_back(fmt::format("{} grounds give both numbers", fit.solutions.size()));
   }
-  report.notes.emplace_back(
-      "δ: depth under the body at rest; ∂k/∂1, ∂k/∂2: by how many per cent k_G changes with one per cent of the first "
-      "or the second measured number");
-  report.notes.emplace_back(area_words(scene.world.ground.area));
+  report.notes.push_back(fmt::format(
+      "δ: depth under the body at rest; ∂{0}/∂1, ∂{0}/∂2: by how many per cent {1} changes with one per cent of the "
+      "first or the second measured number",
+      is_half_space ? "E" : "k", is_half_space ? "E*" : "k_G"));
+  if (!is_half_space) report.notes.emplace_back(area_words(scene.world.ground.area));
   if (fit.solutions.size() == 1) {
     const FittedGround& ground = fit.solutions.front();
-    add_ground_block({{"ground.stiffness", "", significant(ground.stiffness, 6)},
-                      {"ground.damping", "", significant(ground.damping, 6)},
-                      {"ground.area", "", area_names()[static_cast<std::size_t>(scene.world.ground.area)]}},
-                     report);
+    std::vector<SceneOverride> keys{
+        {is_half_space ? "ground.modulus" : "ground.stiffness", "", significant(ground.stiffness, 6)},
+        {is_half_space ? "ground.dissipation" : "ground.damping", "", significant(ground.damping, 6)}};
+    if (!is_half_space)
+      keys.push_back({"ground.area", "", area_names()[static_cast<std::size_t>(scene.world.ground.area)]});
+    add_ground_block(keys, report);
     if (scene.pad.thickness) add_pad_curve(scene, ground, depth, report);
   }
   report.fields["scene"] = scene_value(scene);
@@ -185,12 +207,6 @@ Report ground_report(const Scene& scene, const MeasuredDrop& drop, const Measure
   report.fields["solutions"] = row_objects(report.grid);
   report.fields["cost"] = Value::Fields{{"runs", fit.runs}};
   return report;
-}
-
-/// A row for the ground that is known by its modulus or its curve, or for each end of a floor's range.
-std::vector<Column> dissipative_columns() {
-  return {{"reduced_modulus", "E*", "Pa", "of an elastic half-space: 1/E* = (1 - ν²)/E of ground and body added"},
-          {"dissipation", "τ", "s/m", "of a half-space or a pad, with a measured restitution"}};
 }
 
 /// A row for each material or end of a floor's range; the last column with a measured restitution alone.
@@ -267,7 +283,8 @@ Report dissipative_report(const Scene& scene, const std::optional<MaterialLoss>&
   const Scene bare;
   for (const Key& key : all_keys()) {
     const std::string_view name = key.name;
-    if (ground.is_pad() || !name.starts_with("ground.") || name == "ground.dissipation") continue;
+    if (ground.is_pad() || !name.starts_with("ground.") || name == "ground.dissipation" || name == "ground.restitution")
+      continue;
     const Value value = key.get(scene);
     if (!value.is_nothing() && value.text() != key.get(bare).text()) keys.push_back({key.name, "", value.text()});
   }
@@ -364,18 +381,20 @@ Report material_report_of(const GroundInput& input, const std::optional<Material
                          source, loss);
 }
 
-/// The scene takes any stiffness: that is sought.
+/// The scene whose ground is sought: its kind is that of the scene, a half-space or else springs of any stiffness.
 Scene scene_of(const GroundInput& input) {
   SceneFlags flags = input.scene;
   flags.texts.at("--restitution").clear();  // which is what was measured
-  for (const char* const flag :
-       {"--stiffness", "--damping", "--ground-modulus", "--dissipation", "--curve", "--floor"}) {
+  for (const char* const flag : {"--stiffness", "--damping", "--dissipation", "--curve"}) {
     if (is_given(flags, flag)) throw BadInput(fmt::format("{}: must be left out: it is what is sought", flag));
   }
-  flags.texts.at("--stiffness") = "1e9";
+  const SceneValues values = scene_values(flags.source);
+  const auto has = [&](const char* key) { return values.has(key) || is_given(flags, key_named(key).flag); };
+  if (values.has("ground.curve") || !(has("ground.modulus") || has("ground.floor")))
+    flags.texts.at("--stiffness") = "1e9";
   Scene scene = read_scene_flags(flags);
   require_level(scene, "ground");
-  scene.world.ground.damping = 0;
+  scene.world.ground.damping = scene.world.ground.dissipation = 0;
   if (scene.sweep) throw BadInput(fmt::format("{}: sweep: ground takes a scene that sweeps nothing", scene.path));
   return scene;
 }
@@ -396,7 +415,8 @@ std::optional<Report> known_ground_report(const GroundInput& input, const std::v
   if (input.modulus || input.poisson || input.thickness() || input.footprint)
     return material_report_of(input, loss_of(input, measured, false));
   if (measured.empty() && input.has("--floor")) return dissipative_report(named_half_space(input), {});
-  if (measured.size() != 1 || !names_ground(input.scene)) return std::nullopt;
+  if (measured.size() != 1 || measured.front().measure != DropMeasure::restitution || !names_ground(input.scene))
+    return std::nullopt;
   const Scene scene = read_scene_flags(input.scene);
   if (!scene.world.ground.has_dissipation()) return std::nullopt;
   if (input.has("--dissipation")) throw BadInput("--dissipation: must be left out: it is what is sought");
@@ -433,7 +453,9 @@ int run_ground(const GroundInput& input) {
   const double gravity = scene.world.gravity > 0 ? scene.world.gravity : standard_gravity;
   const MeasuredDrop drop{&body, scene.world, scene.start(body), body.mass() * gravity};
   const GroundFit fit = fit_ground(drop, measured[0], measured[1]);
-  write_report(choice, ground_report(scene, drop, measured[0], measured[1], fit));
+  Report report = ground_report(scene, drop, measured[0], measured[1], fit);
+  if (scene_values(input.scene.source).has("ground.curve")) report.head.back() += "; the scene's curve does not count";
+  write_report(choice, report);
   if (!fit.solutions.empty()) return 0;
   say("no ground gives both numbers");
   return exit_status(FailureKind::not_computed);
@@ -467,11 +489,15 @@ Command ground_command() {
         "0.5 "
         "--contact-time 5e-4\n"
         "The drop is the scene's: flat, or on one corner, with the speed that was measured.\n"
+        "Of a scene with --floor or --ground-modulus the two numbers give E* and dissipation in place of its own; of "
+        "any "
+        "other, springs.\n"
         "With --floor, --ground-modulus or --curve --measured-e alone gives the dissipation; --floor alone shows "
         "the numbers of its material.\n"
         "Exit status 3 if no ground gives both numbers.";
-    command.columns = {
-        {"ground", [] { return with_more(with_more(ground_columns(), material_columns()), dissipative_columns()); }}};
+    command.columns = {{"ground", [] {
+                          return with_more(with_more(ground_columns(false), material_columns()), ground_columns(true));
+                        }}};
   });
 }
 

@@ -26,17 +26,14 @@ constexpr int grid_points = 21;
 
 double at(const Measures& measures, DropMeasure which) { return measures[static_cast<std::size_t>(which)]; }
 
-/// ∫δ dA when the body is pressed straight down by `depth` [m³].
+/// ∫δ dA when the body is pressed straight down by `depth` [m³], or a half-space's force over E* [m²].
 double pressed_volume(const MeasuredDrop& drop, double depth) {
-  numeric::Ground ground = drop.world.ground;
-  ground.stiffness = 1;
-  ground.damping = 0;
-  numeric::ContactSystem system(*drop.body, ground, 0, drop.world.planar);
+  numeric::ContactSystem system(*drop.body, world_on(drop, 1, 0).ground, 0, drop.world.planar);
   system.begin(drop.start);
   return system.pressed(depth).force;
 }
 
-/// The depth δ with k_G ∫δ dA = m g [m].
+/// The depth δ with k_G ∫δ dA = m g, or the half-space's force [m].
 double indentation_of(const MeasuredDrop& drop, double stiffness) {
   const double volume = drop.weight / stiffness, size = drop.body->radius();
   double high = 1e-6 * size;
@@ -55,9 +52,7 @@ double indentation_of(const MeasuredDrop& drop, double stiffness) {
 
 /// Measures of the first impact; the indentation is left 0.
 Measures impact_measures(const MeasuredDrop& drop, double stiffness, double damping, double tolerance) {
-  numeric::World world = drop.world;
-  world.ground.stiffness = stiffness;
-  world.ground.damping = damping;
+  const numeric::World world = world_on(drop, stiffness, damping);
   const numeric::Request request{.impacts = 1, .error_estimates = false, .amplification = false};
   const numeric::Accuracy accuracy{.method = numeric::Method::rk8pd, .tolerance = tolerance};
   const numeric::Simulation run = numeric::simulate(*drop.body, world, drop.start, request, accuracy);
@@ -72,7 +67,11 @@ Measures impact_measures(const MeasuredDrop& drop, double stiffness, double damp
   return {row.value.restitution, row.value.duration, row.value.peak_force, 0};
 }
 
-double approach_speed(const MeasuredDrop& drop) { return numeric::first_touch(*drop.body, drop.start).approach_speed; }
+/// c_G, or τ, where the loss s is 1.
+double unit_damping(const MeasuredDrop& drop, double stiffness) {
+  const double speed = numeric::first_touch(*drop.body, drop.start).approach_speed;
+  return (drop.world.ground.is_half_space() ? 1 : stiffness) / speed;
+}
 
 /// A loss and how far the second number is off there.
 struct GridPoint {
@@ -83,7 +82,7 @@ struct GridPoint {
 class Search {
  public:
   Search(const MeasuredDrop& drop, const MeasuredNumber& first, const MeasuredNumber& second)
-      : drop_(drop), first_(first), second_(second), speed_(approach_speed(drop)) {
+      : drop_(drop), first_(first), second_(second) {
     // What gives k_G: the indentation does alone, the restitution hardly depends on it.
     if (first_.measure == DropMeasure::restitution || second_.measure == DropMeasure::indentation)
       std::swap(first_, second_);
@@ -121,7 +120,7 @@ class Search {
     return impact_measures(drop_, stiffness, damping(loss, stiffness), tolerance);
   }
 
-  [[nodiscard]] double damping(double loss, double stiffness) const { return loss * stiffness / speed_; }
+  [[nodiscard]] double damping(double loss, double stiffness) const { return loss * unit_damping(drop_, stiffness); }
   [[nodiscard]] const MeasuredNumber& second() const { return second_; }
   [[nodiscard]] long runs() const { return runs_; }
 
@@ -133,15 +132,16 @@ class Search {
   /// ln k_G at which the contact is as deep as its time or force tells.
   [[nodiscard]] double guess() const {
     if (first_.measure == DropMeasure::indentation) return std::log(drop_.weight / pressed_volume(drop_, first_.value));
-    const double momentum = drop_.body->mass() * speed_, turn = std::numbers::pi;
+    const double speed = numeric::first_touch(*drop_.body, drop_.start).approach_speed;
+    const double momentum = drop_.body->mass() * speed, turn = std::numbers::pi;
     const bool by_time = first_.measure == DropMeasure::contact_time;
-    const double depth = by_time ? speed_ * first_.value / turn : momentum * speed_ / first_.value;
+    const double depth = by_time ? speed * first_.value / turn : momentum * speed / first_.value;
     return std::log((by_time ? turn * momentum / first_.value : first_.value) / pressed_volume(drop_, depth));
   }
 
   const MeasuredDrop& drop_;
   MeasuredNumber first_, second_;
-  double speed_, slope_ = 0, log_stiffness_ = 0;
+  double slope_ = 0, log_stiffness_ = 0;
   long runs_ = 0;
 };
 
@@ -196,7 +196,7 @@ std::vector<double> roots_of(Search& search, GroundFit& fit) {
 void add_sensitivities(const MeasuredDrop& drop, const MeasuredNumber& first, const MeasuredNumber& second,
                        FittedGround& ground) {
   constexpr double step = 1e-4;
-  const double speed = approach_speed(drop), unit = ground.stiffness / speed;  // of damping
+  const double unit = unit_damping(drop, ground.stiffness);
   const double shift = step * std::max(ground.damping / unit, 1e-2);
   const bool at_zero = ground.damping < 2 * shift * unit;
   const auto logs = [&](double log_stiffness, double damping) {
@@ -240,6 +240,15 @@ const char* measure_name(DropMeasure measure) {
     case DropMeasure::indentation: return "indentation";
   }
   return "";
+}
+
+numeric::World world_on(const MeasuredDrop& drop, double stiffness, double damping) {
+  numeric::World world = drop.world;
+  numeric::Ground& ground = world.ground;
+  const bool is_half_space = ground.is_half_space();
+  (is_half_space ? ground.modulus : ground.stiffness) = stiffness;
+  (is_half_space ? ground.dissipation : ground.damping) = damping;
+  return world;
 }
 
 Measures measures_of(const MeasuredDrop& drop, double stiffness, double damping) {

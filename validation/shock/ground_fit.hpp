@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// k_G and c_G of the simulator's ground from what can be measured of a drop, or from the layer that the ground is.
+// k_G and c_G of the simulator's ground, or E* and τ of a half-space, from what can be measured of a drop; k_G from the
+// layer that the ground is.
 #pragma once
 
 #include <array>
@@ -24,15 +25,15 @@ struct MeasuredNumber {
 /// The drop that was measured.
 struct MeasuredDrop {
   const numeric::Body* body = nullptr;
-  numeric::World world;  ///< its stiffness and damping are those sought
+  numeric::World world;  ///< its k_G and c_G are sought, or E* and τ where it has a half-space
   numeric::MotionState start;
   double weight = 0;  ///< m g, under which the body indents the ground [N]
 };
 
 /// A ground that gives two measured numbers.
 struct FittedGround {
-  double stiffness = 0;                           ///< k_G [N/m³]
-  double damping = 0;                             ///< c_G [N·s/m⁴]
+  double stiffness = 0;                           ///< k_G [N/m³], or E* of a half-space [Pa]
+  double damping = 0;                             ///< c_G [N·s/m⁴], or τ of a half-space [s/m]
   double stiffness_error = 0, damping_error = 0;  ///< of the solution, not of what was measured
   Measures predicted{};                           ///< by the model, all four
   /// ∂ ln k_G/∂ ln m and ∂ c_G/∂ ln m of the two measured numbers m, the other held.
@@ -46,15 +47,18 @@ struct GroundFit {
   long runs = 0;  ///< of the simulator
 };
 
+/// The world of the drop on a ground of this k_G and c_G, or E* and τ.
+[[nodiscard]] numeric::World world_on(const MeasuredDrop& drop, double stiffness, double damping);
+
 /// All four numbers by the model: the first impact of the drop, by the simulator, and the depth δ at which the body,
-/// pressed straight down in the attitude of the drop, is carried, k_G ∫δ dA = m g.
+/// pressed straight down in the attitude of the drop, is carried, k_G ∫δ dA = m g or as a half-space does.
 /// @throws numeric::NumericalError where the first impact is not one touch that lifts off.
 [[nodiscard]] Measures measures_of(const MeasuredDrop& drop, double stiffness, double damping);
 
-/// All grounds that give both numbers.  One number gives k_G for each loss s = c_G v/k_G: the indentation alone,
-/// contact time and peak force since they go like a power of k_G.  The other is then a function of s alone, of which
-/// values on a coarse grid from s = 0 to 100 (e = 0.01) and its turns tell the brackets of all roots, each then found
-/// to rounding.  Of two turns within one cell of the grid, a factor 1.8 of s, one may be missed.
+/// All grounds that give both numbers.  One number gives k_G, or E*, for each loss s = c_G v/k_G or τ v: the
+/// indentation alone, contact time and peak force since they go like a power of it.  The other is then a function of s
+/// alone, of which values on a coarse grid from s = 0 to 100 (e = 0.01) and its turns tell the brackets of all roots,
+/// each then found to rounding.  Of two turns within one cell of the grid, a factor 1.8 of s, one may be missed.
 /// @throws numeric::NumericalError as measures_of; std::domain_error for numbers that no ground gives: a restitution
 /// outside (0, 1], the others not greater than 0.
 [[nodiscard]] GroundFit fit_ground(const MeasuredDrop& drop, const MeasuredNumber& first, const MeasuredNumber& second);

@@ -26,9 +26,14 @@ LowPass LowPass::of_cut_off(double frequency) { return {.design = frequency / cu
 
 double LowPass::cut_off() const { return design * cut_off_of_design; }
 
+std::string LowPass::name() const {
+  return channel_class > 0 ? "CFC " + shortest(channel_class)
+                           : fmt::format("a low-pass of {} Hz", significant(cut_off(), 4));
+}
+
 std::string LowPass::words() const {
   const std::string passes = "Butterworth, 2 poles forward and back, -3 dB at " + significant(cut_off(), 4) + " Hz";
-  return channel_class > 0 ? fmt::format("CFC {} of SAE J211-1, {}", shortest(channel_class), passes) : passes;
+  return channel_class > 0 ? fmt::format("{} of SAE J211-1, {}", name(), passes) : passes;
 }
 
 std::vector<Vector3> LowPass::filtered(const std::vector<Vector3>& values, double step) const {

@@ -23,6 +23,8 @@ struct LowPass {
   [[nodiscard]] static LowPass of_cut_off(double frequency);
   /// At which both passes together have 1/√2: f_d (√2 − 1)^(1/4) [Hz].
   [[nodiscard]] double cut_off() const;
+  /// "CFC 1000", or "a low-pass of 1650 Hz".
+  [[nodiscard]] std::string name() const;
   /// "CFC 1000 of SAE J211-1, ...".
   [[nodiscard]] std::string words() const;
   /// By (2) in both directions; the first and the last value count as lasting before and after.

@@ -549,11 +549,46 @@ std::string record_name(const MeasuredShock& shock, const ShockRun* simulated) {
   return simulated ? simulated->probes.front().name : std::filesystem::path(shock.record.path).stem().string();
 }
 
-/// Beside blow n, impact n of the simulated probe.
-const ShockRow* beside(const ShockRun* simulated, std::size_t blow) {
-  if (!simulated) return nullptr;
+/// The impact of the drop that stands beside each blow, both in the order of their times from the first on: such that
+/// the relative differences of the times, and `alone` for each blow or impact without another, are least in sum.
+std::vector<const ShockRow*> impacts_beside(const MeasuredShock& shock, const ShockRun* simulated) {
+  constexpr double alone = 0.25;  // so that of two times that stand beside each other none is twice the other
+  std::vector<const ShockRow*> beside(shock.blows.size(), nullptr);
+  if (!simulated) return beside;
   const std::vector<ShockRow>& rows = simulated->rows();
-  return blow < rows.size() ? &rows[blow] : nullptr;
+  const auto apart = [&](std::size_t blow, std::size_t row) {
+    const double of_blow = shock.blows[blow].time - shock.blows.front().time,
+                 of_row = rows[row].start - rows.front().start;
+    return of_blow == of_row ? 0 : std::fabs(of_blow - of_row) / std::max(of_blow, of_row);
+  };
+  std::size_t i = beside.size(), j = rows.size();
+  std::vector<std::vector<double>> least(i + 1, std::vector<double>(j + 1));  // of so many blows and impacts
+  for (std::size_t blow = 0; blow <= i; ++blow) {
+    for (std::size_t row = 0; row <= j; ++row) {
+      double& sum = least[blow][row] = alone * static_cast<double>(blow + row);
+      if (blow > 0 && row > 0)
+        sum = std::min({least[blow - 1][row - 1] + apart(blow - 1, row - 1), least[blow - 1][row] + alone,
+                        least[blow][row - 1] + alone});
+    }
+  }
+  while (i > 0 && j > 0) {
+    if (least[i][j] == least[i - 1][j - 1] + apart(i - 1, j - 1)) beside[--i] = &rows[--j];
+    else if (least[i][j] == least[i - 1][j] + alone) --i;
+    else --j;
+  }
+  return beside;
+}
+
+/// The impacts that stand beside no blow of the record, up to the last that does; empty: none.
+std::string alone_words(const std::vector<const ShockRow*>& beside, const ShockRun* simulated) {
+  std::string numbers;
+  const auto last = std::ranges::find_if(beside.rbegin(), beside.rend(), [](const ShockRow* row) { return row; });
+  for (const ShockRow* row = simulated ? simulated->rows().data() : nullptr; last != beside.rend() && row < *last;
+       ++row) {
+    if (std::ranges::find(beside, row) == beside.end())
+      numbers += (numbers.empty() ? "" : ", ") + std::to_string(row->impact);
+  }
+  return numbers.empty() ? "" : "beside no blow of the record, by their times: impact " + numbers + " of the drop";
 }
 
 /// The rows of the record come first, then those of the drop beside it.
@@ -572,10 +607,10 @@ std::vector<Pulse> pulses_of(const MeasuredShock& shock, const ShockRun* simulat
   return pulses;
 }
 
-Grid blows_of(const MeasuredShock& shock, const ShockRun* simulated) {
+Grid blows_of(const MeasuredShock& shock, const ShockRun* simulated, const std::vector<const ShockRow*>& beside) {
   Grid grid{measured_shock_columns(), {}, 1};
   for (Column& column : grid.columns) {
-    if (!simulated && column.name.starts_with("simulated")) column.shown = false;
+    column.shown = column.shown && (simulated || !column.name.starts_with("simulated"));
   }
   for (std::size_t i = 0; i < shock.blows.size(); ++i) {
     const MeasuredBlow& blow = shock.blows[i];
@@ -598,7 +633,9 @@ Grid blows_of(const MeasuredShock& shock, const ShockRun* simulated) {
     row.push_back(known_or_empty(
         {pulse.duration, v.is_known() && a.is_known() ? pulse.duration * of_both : unknown_error}, shown_digits));
     row.push_back(condition_cell(v, a));
-    const ShockRow* const other = beside(simulated, i);
+    const ShockRow* const other = beside[i];
+    row.push_back(other ? Cell(other->impact) : Cell());
+    row.push_back(other ? Cell(other->start - simulated->rows().front().start, 6) : Cell());
     for (const auto get : {+[](const ShockNumbers& n) { return n.delta_v_size; },
                            +[](const ShockNumbers& n) { return n.peak_size / standard_gravity; },
                            +[](const ShockNumbers& n) { return n.width; }}) {
@@ -723,7 +760,10 @@ std::vector<Column> measured_shock_columns() {
       {"width", "width", "s", "of the blow at a tenth of its peak"},
       {"pulse_duration", "T", "s", "of the half sine with this change of velocity and peak: π |ΔV|/(2 peak)"},
       word_column("condition", "B110", "mildest service condition of JESD22-B110B that covers both; -: beyond all"),
-      {"simulated_delta_v", "sim. |ΔV|", "m/s", "|ΔV| of the simulated probe in the impact of this number"},
+      {"simulated_n", "", "", "number of the simulated impact beside it: the order and the times of both pair them",
+       false},
+      {"simulated_start", "sim. t", "s", "when that begins, after impact 1"},
+      {"simulated_delta_v", "sim. |ΔV|", "m/s", "|ΔV| of the simulated probe in it"},
       {"simulated_peak_g", "sim. peak", "g", "its largest specific force"},
       {"simulated_width", "sim. width", "s", "its width at a tenth of the peak"}};
   for (const std::size_t of : {3U, 7U, 8U, 13U}) columns.push_back(error_column(columns[of]));
@@ -738,13 +778,14 @@ Report measured_shock_report(const MeasuredShock& shock, const ShockRequest& req
                                     significant(record.times.back(), 4), fmt::join(record.remarks, "; ")));
   const std::vector<NamedSpectrum> spectra = named_spectra(shock, simulated);
   const std::vector<Pulse> pulses = pulses_of(shock, simulated);
-  const Grid blows = blows_of(shock, simulated), pulse_rows = pulse_grid(pulses, shown_digits, view.parts);
+  const std::vector<const ShockRow*> beside = impacts_beside(shock, simulated);
+  const Grid blows = blows_of(shock, simulated, beside), pulse_rows = pulse_grid(pulses, shown_digits, view.parts);
   report.grid = view.rows == ShockRows::pulses ? pulse_rows : blows;
   if (view.rows == ShockRows::spectra) {
     report.grid = spectrum_grid(spectra, shown_digits, view);
     report.digest = spectrum_digest({spectra}, shown_digits, view);
   }
-  if (view.rows == ShockRows::pulses || !view.parts.empty()) report.notes = pulse_notes(view.parts, {});
+  if (view.rows == ShockRows::pulses || !view.parts.empty()) report.notes = pulse_notes(view.parts, {}, request.filter);
   if (const std::string least = least_margin_words(pulse_rows, view.parts); !least.empty())
     report.notes.push_back(least);
   if (const std::string axes = compared_axes(spectra); !axes.empty() && view.rows == ShockRows::spectra)
@@ -752,6 +793,7 @@ Report measured_shock_report(const MeasuredShock& shock, const ShockRequest& req
   const std::vector<NamedSpectrum> compared = wholes_of(spectra);
   for (const std::string& words : required_words(compared, view, request.quality)) report.notes.push_back(words);
   report.notes.insert(report.notes.end(), shock.findings.begin(), shock.findings.end());
+  if (const std::string alone = alone_words(beside, simulated); !alone.empty()) report.notes.push_back(alone);
   if (simulated && simulated->continuous) {
     for (const std::string& warning : simulated->continuous->planned.warnings)
       report.notes.push_back("!: warning: beside it: " + warning);

@@ -120,8 +120,7 @@ int run_shock_command(const ShockCommandInput& input) {
   check_files(choice, plot_files(input.plot));
   PlotFile plot(input.plot);
   const CooperativeInterrupt interrupt;
-  const ShockRun run =
-      run_shock(scene, probes, request, {.progress = [&](int, long) { return !interrupt.requested(); }});
+  const ShockRun run = run_shock(scene, probes, request, {.progress = watched(interrupt, "the drop", scene)});
   Report report = shock_report(run, view);
   if (interrupt.requested()) note_interrupt("errors, sensitivities and spectra may be missing", report);
   write_report(choice, report);

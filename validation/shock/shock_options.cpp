@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cctype>
 #include <limits>
+#include <memory>
 #include <sstream>
 
 #include "validation/output/bad_input.hpp"
@@ -236,6 +237,18 @@ int status_of(const Scene& scene, const ShockRun& run) {
   if (why.empty()) return 0;
   say(why);
   return run.continuous ? exit_status(FailureKind::not_computed) : shortfall_status(*run.discrete_run);
+}
+
+std::function<bool(int, long)> watched(const CooperativeInterrupt& interrupt, const std::string& drop,
+                                       const Scene& scene) {
+  const auto impacts = static_cast<std::size_t>(scene.request.impacts);
+  return [&interrupt, drop, impacts, progress = std::make_shared<Progress>()](int done, long evaluations) {
+    constexpr long of_a_second = 100'000;
+    if (evaluations >= of_a_second)
+      progress->show(fmt::format("{}: {} force evaluations, {}", drop, evaluations,
+                                 progress_bar(static_cast<std::size_t>(done), impacts)));
+    return !interrupt.requested();
+  };
 }
 
 }  // namespace clatter::validation

@@ -2,12 +2,14 @@
 // The options of commands that look at points of the body: `shock` and `report`.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "validation/command/command.hpp"
 #include "validation/command/options.hpp"
+#include "validation/output/interrupt.hpp"
 #include "validation/scene/probes.hpp"
 #include "validation/shock/shock_report.hpp"
 #include "validation/shock/shock_run.hpp"
@@ -54,5 +56,11 @@ void add_shock_options(Command& command, ShockInput& input);
 [[nodiscard]] Argument part_argument(Argument::Reader read, const std::string& help, const std::string& group);
 /// Exit status of a run, as that of simulate or of sequence; says why it is not 0.
 [[nodiscard]] int status_of(const Scene& scene, const ShockRun& run);
+
+/// Watches runs of the simulator: says on a terminal how far a long one is, until the watch goes, and ends it once
+/// interrupted.
+/// @param drop  what runs, in words
+[[nodiscard]] std::function<bool(int, long)> watched(const CooperativeInterrupt& interrupt, const std::string& drop,
+                                                     const Scene& scene);
 
 }  // namespace clatter::validation

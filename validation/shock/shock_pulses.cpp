@@ -180,12 +180,14 @@ std::string least_margin_words(const Grid& grid, const std::vector<FragilePart>&
   for (const Row& row : grid.rows) {
     if (std::isfinite(margin_of(row)) && (!worst || margin_of(row) < margin_of(*worst))) worst = &row;
   }
-  if (parts.size() < 2 || !worst) return "";
+  if (parts.empty() || !worst) return "";
   const std::string model = of(*worst, "model").text();
   const bool is_mixed =
       std::ranges::any_of(grid.rows, [&](const Row& row) { return of(row, "model").text() != model; });
-  return fmt::format("least margin of {} parts: {} of {} at {} in impact {}{}", parts.size(),
-                     significant(margin_of(*worst), 4), of(*worst, "part").text(), of(*worst, "probe").text(),
+  const bool is_one = parts.size() == 1, survives = margin_of(*worst) > 1;
+  return fmt::format("{}{}: {} at {} {}, margin {} in impact {}{}", is_one ? "verdict" : "least margin of ",
+                     is_one ? "" : fmt::format("{} parts", parts.size()), of(*worst, "part").text(),
+                     of(*worst, "probe").text(), survives ? "survives" : "fails", significant(margin_of(*worst), 4),
                      of(*worst, "n").text(), is_mixed ? ", " + model : "");
 }
 
@@ -243,7 +245,9 @@ std::string boundary_words(const FragilePart& part) {
 
 }  // namespace
 
-std::vector<std::string> pulse_notes(const std::vector<FragilePart>& parts, const std::vector<Probe>& probes) {
+std::vector<std::string> pulse_notes(const std::vector<FragilePart>& parts, const std::vector<Probe>& probes,
+                                     const std::optional<LowPass>& filter) {
+  const std::string milder = filter ? fmt::format(" (filtered, {}: milder than unfiltered)", filter->name()) : "";
   std::vector<std::string> notes;
   std::string unbound, names;
   for (const FragilePart& part : parts) {
@@ -253,10 +257,11 @@ std::vector<std::string> pulse_notes(const std::vector<FragilePart>& parts, cons
   if (!unbound.empty() && probes.size() > 1)
     notes.push_back(fmt::format("{}: judged at each of {}; --part {}:{} is one at {} alone", unbound, names,
                                 probes.front().name, part_text(parts.front()), probes.front().name));
-  for (const FragilePart& part : parts) notes.push_back(boundary_words(part));
-  std::string ladder =
-      "B110: mildest condition of JESD22-B110B that covers |ΔV| and peak, - beyond all; half sines, "
-      "2AT/π, height without rebound:";
+  for (const FragilePart& part : parts) notes.push_back(boundary_words(part) + milder);
+  std::string ladder = fmt::format(
+      "B110: mildest condition of JESD22-B110B that covers |ΔV| and peak{}, - beyond all; half sines, 2AT/π, height "
+      "without rebound:",
+      milder);
   for (const ServiceCondition& one : service_conditions()) {
     ladder += fmt::format("{} {} {} g {} ms {:.3f} m/s {:.3f} m", one.name == 'H' ? "" : ";", one.name,
                           significant(one.pulse.acceleration / standard_gravity, 4),
@@ -295,6 +300,7 @@ Value pulse_fields(const Grid& grid, const std::vector<FragilePart>& parts) {
   }
   Value fields(Value::Fields{{"blows", row_objects(grid)}, {"service_conditions", conditions}});
   if (parts.size() == 1 && parts.front().has_limit()) fields["damage_boundary"] = boundary_value(parts.front());
+  if (!parts.empty()) fields["message"] = least_margin_words(grid, parts);
   if (parts.size() < 2) return fields;
   for (const FragilePart& part : parts) {
     if (!part.has_limit()) continue;
@@ -302,7 +308,6 @@ Value pulse_fields(const Grid& grid, const std::vector<FragilePart>& parts) {
     boundary["part"] = part_text(part);
     fields["damage_boundaries"].push_back(boundary);
   }
-  fields["message"] = least_margin_words(grid, parts);
   return fields;
 }
 

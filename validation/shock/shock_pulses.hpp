@@ -36,9 +36,11 @@ struct Pulse {
 /// The margins are empty without a part.
 [[nodiscard]] Grid pulse_grid(const std::vector<Pulse>& pulses, int digits, const std::vector<FragilePart>& parts);
 /// The service conditions, the damage boundary of each part, and where the parts are of which nobody said it.
+/// @param filter  of the peaks that are held against them
 [[nodiscard]] std::vector<std::string> pulse_notes(const std::vector<FragilePart>& parts,
-                                                   const std::vector<Probe>& probes);
-/// Which of several parts has the least margin, and in which row of the grid; empty for one.
+                                                   const std::vector<Probe>& probes,
+                                                   const std::optional<LowPass>& filter);
+/// Whether the part survives, with the least margin of all, and in which row of the grid; empty without a margin.
 [[nodiscard]] std::string least_margin_words(const Grid& grid, const std::vector<FragilePart>& parts);
 /// `rows` of the grid, service conditions, damage boundary: of several parts a list of them.
 [[nodiscard]] Value pulse_fields(const Grid& grid, const std::vector<FragilePart>& parts);

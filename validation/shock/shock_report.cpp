@@ -348,7 +348,8 @@ std::string severity_words(const ShockRun& run, std::size_t probe, double severi
 
 std::vector<std::string> notes_of(const ShockRun& run, const ShockView& view) {
   std::vector<std::string> notes;
-  if (view.rows == ShockRows::pulses || !view.parts.empty()) notes = pulse_notes(view.parts, run.probes);
+  if (view.rows == ShockRows::pulses || !view.parts.empty())
+    notes = pulse_notes(view.parts, run.probes, run.request.filter);
   if (run.continuous && view.rows == ShockRows::impacts && !run.request.filter) {
     const numeric::Ground& ground = run.scene.world.ground;
     notes.push_back(
@@ -376,10 +377,10 @@ std::vector<std::string> notes_of(const ShockRun& run, const ShockView& view) {
     notes.push_back(other_law_remark(run.scene, simulation));
     if (run.scene.impact.restitution && !notes.back().empty())
       notes.push_back("the floor's own restitution is --floor-restitution, in both models");
-    notes.push_back(fmt::format("{}: {}", outcome_name(simulation), simulation.message));
-  } else if (run.discrete_run) {
-    notes.push_back(fmt::format("{}: {}", run.discrete_run->outcome, run.discrete_run->message));
   }
+  const Run leading = run.leading_run();
+  notes.push_back(fmt::format("{}: {}{}", leading.outcome, leading.message,
+                              run.ends_at_limit() ? "; later ones may be harder (--impacts)" : ""));
   std::erase(notes, "");
   return notes;
 }
@@ -412,17 +413,15 @@ Value envelopes_value(const ShockRun& run) {
 
 /// How the model that comes first ended.
 void add_outcome(const ShockRun& run, Report& report) {
+  const Run leading = run.leading_run();
+  report.fields["outcome"] = leading.outcome;
+  report.fields["message"] = leading.message;
   if (run.continuous) {
-    const numeric::Simulation& simulation = run.continuous->planned.run;
-    report.fields["outcome"] = outcome_name(simulation);
-    report.fields["message"] = simulation.message;
     report.fields["warnings"] = run.continuous->planned.warnings;
-    const std::string facets = facet_words(run.scene, simulation);
+    const std::string facets = facet_words(run.scene, run.continuous->planned.run);
     if (!facets.empty()) report.fields["warnings"].push_back(facets);
     report.fields["shortfall"] = text_or_nothing(shortfall(run.scene, run.continuous->planned));
   } else {
-    report.fields["outcome"] = run.discrete_run->outcome;
-    report.fields["message"] = run.discrete_run->message;
     report.fields["shortfall"] = text_or_nothing(shortfall(run.scene, *run.discrete_run));
   }
 }

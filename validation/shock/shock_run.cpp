@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "validation/scene/failure.hpp"
+#include "validation/scene/names.hpp"
 
 namespace clatter::validation {
 namespace {
@@ -262,6 +263,10 @@ const ShockRow* ShockRun::discrete_row(int impact, std::size_t probe) const {
   const auto found =
       std::ranges::find_if(discrete, [&](const ShockRow& row) { return row.impact == impact && row.probe == probe; });
   return found == discrete.end() ? nullptr : &*found;
+}
+
+bool ShockRun::ends_at_limit() const {
+  return leading_run().outcome == std::string_view(outcome_name(numeric::Outcome::impact_limit));
 }
 
 const Spectrum* ShockRun::whole(std::size_t probe, bool of_continuous) const {

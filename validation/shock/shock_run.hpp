@@ -59,7 +59,10 @@ struct ShockRun {
   [[nodiscard]] const Spectrum* spectrum(std::size_t probe, bool of_continuous, Blows blows) const;
   /// The spectrum of most impacts.
   [[nodiscard]] const Spectrum* whole(std::size_t probe, bool of_continuous) const;
-  /// The model that comes first: the continuous one where it ran.
+  /// Of the model that comes first: the continuous one where it ran.
+  [[nodiscard]] Run leading_run() const { return continuous ? run_of(continuous->planned.run) : *discrete_run; }
+  /// Whether it ended after as many impacts as were asked for, so that harder ones may follow.
+  [[nodiscard]] bool ends_at_limit() const;
   [[nodiscard]] const std::vector<ShockRow>& rows() const { return continuous ? continuous->rows : discrete; }
   /// The row of that impact and probe to show by the discrete model: none beside another blow of the continuous one.
   [[nodiscard]] const ShockRow* discrete_row(int impact, std::size_t probe) const;

@@ -50,6 +50,22 @@ class Report(EmptyFolder):
             self.assertIn("all 2 impacts listed can be predicted", page)
             self.assertNotIn(" drops; ", page)
 
+    def test_it_says_in_how_many_drops_the_last_impact_followed_is_the_hardest(self):
+        scene = (*BOX, "--restitution", "0.5", *PROBE, "--part", "300:500", "--drops", "52")
+        for impacts in ("1", "4"):
+            found = json_of("report", *scene, "--impacts", impacts)
+            sweep = next(one for one in found["commands"] if one.startswith("clatter sweep"))
+            rows = self.rows(*shlex.split(sweep.replace(" --summary", "").replace(" --rank-by margin_camera", ""))[1:])
+            last = sum(row["margin_camera_impact"] == impacts for row in rows)
+            words = f"In {last} of 52 drops the hardest blow is the last one followed, impact {impacts}: later" if last else "In none of 52 drops"
+            self.assertTrue(any(note.startswith(words) for note in found["answer"]["notes"]), (words, found["answer"]["notes"]))
+        self.assertIn("later ones may be harder (--impacts)", " ".join(run("shock", *BOX, "--angle", "5", "--restitution", "0.5", *PROBE, "--impacts", "1").stdout.split()))
+
+    def test_the_answer_has_the_errors_of_its_blow(self):
+        known = json_of("report", *BOX, "--floor", "concrete", "--floor-restitution", "0.3", *PROBE, "--part", "300:500", "--impacts", "1", "--drops", "26")["answer"]
+        for name in ("margin", "peak_g", "delta_v"):
+            self.assertTrue(0 < known[f"{name}_error"] < 1e-3 * known[name], name)
+
     def test_headline_table_and_margin_are_of_one_blow_of_one_drop_whose_margin_is_the_least(self):
         """Damped and not, with a scatter and without, for each form of a part and either model; the page has their three digits."""
         damped, elastic = ("--stiffness", "1e9", "--damping", "2e8"), ("--floor", "concrete")

@@ -115,6 +115,22 @@ class Measured(EmptyFolder):
         for here, simulated in zip(spectra["measured"], spectra["continuous"], strict=True):
             self.assertLess(abs(here["acceleration"]["maximax"] / simulated["acceleration"]["maximax"] - 1), 1e-5, here)
 
+    def test_impacts_stand_beside_the_blows_of_their_times_whatever_their_numbers(self):
+        self.write("drop.toml", "[drop]\nangle_deg = 0\nspeed = 1\n[world]\ngravity = 9.81\n[body]\nshape = 'box'\nsize = [0.1, 0.05, 0.02]\nmass = 0.1\n"
+                   "[ground]\nstiffness = 1e9\narea = 'projected'\n[run]\nimpacts = 3\n[[probe]]\nname = 'camera'\nplace = [0, 0, 0]\n")
+        # An undamped flat landing comes back after 2 v/g, again and again: the record has no second blow, but a rattle.
+        blows = (0, 0.03, 4 / 9.81)
+        times = np.arange(round(0.45 * 1e5)) / 1e5
+        reading = sum(np.where((times > at + 0.01) & (times < at + 0.0105), 300 * np.sin(np.pi * (times - at - 0.01) / 5e-4), 0) for at in blows)
+        options = ("--against", "drop.toml", "--no-sensitivity", "--frequencies", "100:1000:2")
+        found = self.measure("t (s),a (g)\n" + rows(times, reading), *options)["impacts"]
+        self.assertEqual([row["simulated_n"] for row in found], [1, None, 3])
+        self.assertAlmostEqual(found[2]["simulated_start"], blows[2], delta=1e-3)
+        self.assertIsNone(found[1]["simulated_delta_v"])
+        table = printed("shock", "--measured", "a.csv", *options, cwd=self.folder)
+        self.assertIn("sim. t", table)
+        self.assertIn("beside no blow of the record, by their times: impact 2", table)
+
     def test_the_drop_beside_a_record_has_its_pulses_and_margins_under_the_probe_s_name(self):
         self.write("drop.toml", "[drop]\nangle_deg = 0\nspeed = 2\n[body]\nshape = 'box'\nsize = [0.1, 0.05, 0.02]\nmass = 0.1\n[ground]\n"
                    "stiffness = 1e7\ndamping = 1e6\nthickness = 0.002\n[run]\nimpacts = 1\n"
@@ -272,7 +288,11 @@ class Measured(EmptyFolder):
         point = whole["points"][0]["acceleration"]
         exact = largest_acceleration(right[:, "xyz".index(whole["axis"])], 1 / rate, 800, 10)
         self.assertLess(abs(point["maximax"] - exact), point["error_estimate"] + 1e-4 * exact)
-        self.assertIn("filtered: CFC 1000", " ".join(printed(*drop, "--filter", "CFC1000").split()))
+        words = " ".join(printed(*drop, "--filter", "CFC1000", "--part", "300:500").split())
+        self.assertIn("filtered: CFC 1000", words)
+        self.assertEqual(words.count("filtered, CFC 1000: milder than unfiltered"), 2, "of the part and of B110")
+        self.assertRegex(words, r"verdict: 300:500 at camera (fails|survives), margin \S+ in impact \d")
+        self.refused("--filter: is of shock", "report", "phone-damped", *PROBE, "--filter", "CFC1000", "--output", "a.html")
 
     def test_a_required_spectrum_is_met_or_not_by_decibels_at_its_breakpoints(self):
         largest = 1.768457653993672 * PEAK  # of an undamped oscillator under a half sine, at f T = 0.809936785
