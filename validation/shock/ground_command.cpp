@@ -112,7 +112,7 @@ std::vector<Column> ground_columns(bool is_half_space) {
       columns.push_back({sought[i].name + "_by_" + measured,
                          i == 0 ? fmt::format("∂{}/∂{}", is_half_space ? "E" : "k", place) : "",
                          i == 0 ? "" : sought[i].unit,
-                         fmt::format("∂ {}{}/∂ ln of the {} measured number, the {} held", i == 0 ? "ln " : "",
+                         fmt::format("∂ {}{}/∂ ln of the {} number, the {} held", i == 0 ? "ln " : "",
                                      sought[i].heading, measured, other),
                          i == 0});
     };

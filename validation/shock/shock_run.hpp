@@ -59,7 +59,7 @@ struct ShockRun {
   [[nodiscard]] const Spectrum* spectrum(std::size_t probe, bool of_continuous, Blows blows) const;
   /// The spectrum of most impacts.
   [[nodiscard]] const Spectrum* whole(std::size_t probe, bool of_continuous) const;
-  /// Of the model that comes first: the continuous one where it ran.
+  /// The run of the model that comes first: of the continuous one where it ran.
   [[nodiscard]] Run leading_run() const { return continuous ? run_of(continuous->planned.run) : *discrete_run; }
   /// Whether it ended after as many impacts as were asked for, so that harder ones may follow.
   [[nodiscard]] bool ends_at_limit() const;
