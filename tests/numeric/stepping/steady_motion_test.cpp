@@ -202,9 +202,10 @@ BOOST_AUTO_TEST_CASE(a_body_that_heaves_for_ever_is_said_to) {
 BOOST_AUTO_TEST_CASE(an_impact_that_turns_a_body_back_is_no_rest) {
   const Body crate = box_body({0.3, 0.2, 0.1}, 2);
   const Eigen::Quaterniond attitude(0.8529184862645794, 0.2845568818869075, 0.4373181730657549, 0.0176139792599396);
-  const MotionState start = on_ground(
-      crate,
-      {.attitude = attitude, .velocity = {0.4, -0.2, -2.2979}, .angular_velocity = {0.91728, 1.50755, -0.648194}});
+  const MotionState start =
+      on_ground(crate, {.attitude = attitude,
+                        .velocity = {0.4, -0.2, -2.2979},
+                        .angular_velocity = attitude.conjugate() * Vector3(0.91728, 1.50755, -0.648194)});
   for (const double hardness : {1e10, 1e12}) {
     const World world{.ground = with_friction({.stiffness = hardness}, 0.3)};
     const Simulation run = simulate(crate, world, start, plain_impacts(1), {.digits = 8});
