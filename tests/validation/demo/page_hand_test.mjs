@@ -285,9 +285,14 @@ test("a guess is judged, and the table begins, with the discrete model, even whe
   assert.equal(await page.locator('#impact-table tr[data-model="discrete"]').count(), 3);
   await page.waitForFunction(() => /^A surprise: .*1\.003 N·s/.test(document.getElementById("prediction-reveal").textContent));
 }, { before: () => {
+  // The discrete model is asked once the other has answered.
   const post = Worker.prototype.postMessage;
+  let held = [];
   Worker.prototype.postMessage = function late(data) {
-    setTimeout(() => post.call(this, data), data[0] === "sequence" ? 3000 : 0);
+    const ask = () => post.call(this, data);
+    if (data[0] === "simulate") this.addEventListener("message", () => { held?.forEach((other) => other()); held = null; });
+    if (held && data[0] === "sequence") held.push(ask);
+    else ask();
   };
 } }));
 

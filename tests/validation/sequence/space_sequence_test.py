@@ -45,7 +45,8 @@ class Sequence(SpaceFolder):
         self.assertEqual((all_of_it["outcome"], all_of_it["shortfall"]), ("slides-on", None))  # without friction
         self.assertEqual(len(all_of_it["rest"]["corners"].split(", ")), 4)
         self.assertGreaterEqual(all_of_it["rest"]["latest"], all_of_it["tail"]["end_time"])
-        self.assertGreater(all_of_it["tail"]["end_time_error"], 0)
+        # Of hops whose order is open no error is known.
+        self.assertEqual((all_of_it["impacts"][-1]["predictable"], all_of_it["tail"]["end_time_error"]), (False, None))
 
     def test_where_a_corner_stays_the_run_tells_how_the_body_turns_on_it_and_until_rest_goes_on_from_there(self):
         drop = ("sequence", *CORNER, "--gravity", "9.81", "--restitution", "0")
