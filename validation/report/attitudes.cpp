@@ -152,9 +152,7 @@ std::string name_of_drop(const Scene& scene, int number, const Vector3& down) {
 
 Ranking ranking_of(std::string_view column, const std::vector<Probe>& probes, const ReportInput& input) {
   Ranking ranking{.has_peaks = model_of(input) == Model::continuous};
-  for (std::size_t i = 0; i < probes.size(); ++i) {
-    if (column.ends_with("_" + probes[i].name)) ranking.probe = i;
-  }
+  ranking.probe = probe_of(column, probes).value_or(0);
   if (!probes.empty() && input.part() && input.part()->is_at(probes[ranking.probe].name)) ranking.part = input.part();
   ranking.landing_alone = column.starts_with(of_landing);
   if (ranking.landing_alone) column.remove_prefix(of_landing.size());

@@ -454,6 +454,16 @@ std::size_t RowLayout::first_ranked() const {
   return found == part_at.end() ? 0 : static_cast<std::size_t>(found - part_at.begin());
 }
 
+std::optional<std::size_t> probe_of(std::string_view column, const std::vector<Probe>& probes) {
+  // By all of it: one name may be the end of another.
+  const auto found = std::ranges::find_if(probes, [&](const Probe& probe) {
+    return std::ranges::any_of(probe_numbers(),
+                               [&](const ProbeNumber& number) { return column == number.prefix + probe.name; });
+  });
+  if (found == probes.end()) return std::nullopt;
+  return static_cast<std::size_t>(found - probes.begin());
+}
+
 std::string ranking_column(const RowLayout& layout, std::size_t probe, bool landing_alone) {
   const std::string_view column = layout.part(probe)                  ? margin_column
                                   : layout.model == Model::continuous ? peak_column

@@ -94,6 +94,8 @@ inline constexpr const char* scene_rows_column = "scene_rows";
 /// before the probe's name; and what stands before those of the first landing alone.
 inline constexpr std::string_view peak_column = "peak_g_", shock_column = "delta_v_", margin_column = "margin_",
                                   of_landing = "landing_";
+/// Place of the probe whose number a column is; none: it is no probe's.
+[[nodiscard]] std::optional<std::size_t> probe_of(std::string_view column, const std::vector<Probe>& probes);
 /// The column by which rows are ranked for a probe: its part's margin, else its largest specific force or, without
 /// forces, |ΔV|; on a ground without loss those of the first landing.  A summary takes the one that was asked for, else
 /// that of the first probe, else the largest force or impulse.

@@ -655,13 +655,12 @@ std::string SweepPlan::command_of(long long index, const std::string& column) co
     command += " --set " + shell_word(axis.key + "=" + (own.size() > 1 ? "[" + text + "]" : text));
     rest = rest.subspan(axis.width());
   }
-  for (std::size_t i = 0; i < layout.probes.size(); ++i) {
-    const auto& [name, place, part, part_at] = layout.probes[i];
-    if (!column.ends_with("_" + name)) continue;
-    command += fmt::format(" --probe {}:{},{},{}", name, shortest(place.x()), shortest(place.y()), shortest(place.z()));
-    return command + (layout.part(i) ? " --part " + part_text(*layout.part(i)) : "");
-  }
-  return command + " --rows impact";
+  const std::optional<std::size_t> probe = probe_of(column, layout.probes);
+  if (!probe) return command + " --rows impact";
+  const Probe& point = layout.probes[*probe];
+  const FragilePart* const part = layout.part(*probe);
+  return fmt::format("{} --probe {}:{},{},{}{}", command, point.name, shortest(point.place.x()),
+                     shortest(point.place.y()), shortest(point.place.z()), part ? " --part " + part_text(*part) : "");
 }
 
 std::string SweepPlan::attitude_name(long long place) const {

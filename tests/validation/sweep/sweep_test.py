@@ -166,6 +166,12 @@ class SameAsTheOtherCommands(Folder):
         self.assertGreater(float(rows[0]["delta_v_tip"]), 0)
         for more, is_there in ((("--rows", "impact"), False), (("--probe", "middle:0,0,0"), False), (("--summary",), True)):
             self.assertEqual("delta_v_tip" in self.sweep(*swept, *more), is_there, more)
+        # The command of a probe's largest shows that number, also where one probe's name is the end of another's.
+        two = ("--probe", "tip:0.5,0,0", "--probe", "far_tip:-0.5,0,0")
+        for summed in json.loads(self.sweep(*swept, *two, "--summary", "--format", "json"))["rows"]:
+            if summed["quantity"] in ("delta_v_tip", "delta_v_far_tip"):
+                row, = records(run(*shlex.split(summed["largest_command"])[1:]).stdout)
+                self.assertEqual(float(row[summed["quantity"]]), summed["largest"])
         bare = records(self.sweep(*swept, "--no-errors"))
         self.assertEqual((bare[0]["delta_v_tip"], bare[0]["delta_v_tip_error"]), (rows[0]["delta_v_tip"], ""))
 
