@@ -67,9 +67,10 @@ Measures impact_measures(const MeasuredDrop& drop, double stiffness, double damp
   return {row.value.restitution, row.value.duration, row.value.peak_force, 0};
 }
 
+double approach_speed(const MeasuredDrop& drop) { return numeric::first_touch(*drop.body, drop.start).approach_speed; }
+
 /// c_G, or τ, where the loss s is 1.
-double unit_damping(const MeasuredDrop& drop, double stiffness) {
-  const double speed = numeric::first_touch(*drop.body, drop.start).approach_speed;
+double unit_damping(const MeasuredDrop& drop, double stiffness, double speed) {
   return (drop.world.ground.is_half_space() ? 1 : stiffness) / speed;
 }
 
@@ -82,7 +83,7 @@ struct GridPoint {
 class Search {
  public:
   Search(const MeasuredDrop& drop, const MeasuredNumber& first, const MeasuredNumber& second)
-      : drop_(drop), first_(first), second_(second) {
+      : drop_(drop), first_(first), second_(second), speed_(approach_speed(drop)) {
     // What gives k_G: the indentation does alone, the restitution hardly depends on it.
     if (first_.measure == DropMeasure::restitution || second_.measure == DropMeasure::indentation)
       std::swap(first_, second_);
@@ -120,7 +121,9 @@ class Search {
     return impact_measures(drop_, stiffness, damping(loss, stiffness), tolerance);
   }
 
-  [[nodiscard]] double damping(double loss, double stiffness) const { return loss * unit_damping(drop_, stiffness); }
+  [[nodiscard]] double damping(double loss, double stiffness) const {
+    return loss * unit_damping(drop_, stiffness, speed_);
+  }
   [[nodiscard]] const MeasuredNumber& second() const { return second_; }
   [[nodiscard]] long runs() const { return runs_; }
 
@@ -132,16 +135,15 @@ class Search {
   /// ln k_G at which the contact is as deep as its time or force tells.
   [[nodiscard]] double guess() const {
     if (first_.measure == DropMeasure::indentation) return std::log(drop_.weight / pressed_volume(drop_, first_.value));
-    const double speed = numeric::first_touch(*drop_.body, drop_.start).approach_speed;
-    const double momentum = drop_.body->mass() * speed, turn = std::numbers::pi;
+    const double momentum = drop_.body->mass() * speed_, turn = std::numbers::pi;
     const bool by_time = first_.measure == DropMeasure::contact_time;
-    const double depth = by_time ? speed * first_.value / turn : momentum * speed / first_.value;
+    const double depth = by_time ? speed_ * first_.value / turn : momentum * speed_ / first_.value;
     return std::log((by_time ? turn * momentum / first_.value : first_.value) / pressed_volume(drop_, depth));
   }
 
   const MeasuredDrop& drop_;
   MeasuredNumber first_, second_;
-  double slope_ = 0, log_stiffness_ = 0;
+  double speed_, slope_ = 0, log_stiffness_ = 0;
   long runs_ = 0;
 };
 
@@ -196,7 +198,7 @@ std::vector<double> roots_of(Search& search, GroundFit& fit) {
 void add_sensitivities(const MeasuredDrop& drop, const MeasuredNumber& first, const MeasuredNumber& second,
                        FittedGround& ground) {
   constexpr double step = 1e-4;
-  const double unit = unit_damping(drop, ground.stiffness);
+  const double unit = unit_damping(drop, ground.stiffness, approach_speed(drop));
   const double shift = step * std::max(ground.damping / unit, 1e-2);
   const bool at_zero = ground.damping < 2 * shift * unit;
   const auto logs = [&](double log_stiffness, double damping) {

@@ -378,9 +378,9 @@ std::vector<std::string> notes_of(const ShockRun& run, const ShockView& view) {
     if (run.scene.impact.restitution && !notes.back().empty())
       notes.push_back("the floor's own restitution is --floor-restitution, in both models");
   }
-  const Run leading = run.leading_run();
-  notes.push_back(fmt::format("{}: {}{}", leading.outcome, leading.message,
-                              run.ends_at_limit() ? "; later ones may be harder (--impacts)" : ""));
+  const auto [outcome, message] = run.ending();
+  notes.push_back(
+      fmt::format("{}: {}{}", outcome, message, run.ends_at_limit() ? "; later ones may be harder (--impacts)" : ""));
   std::erase(notes, "");
   return notes;
 }
@@ -413,9 +413,9 @@ Value envelopes_value(const ShockRun& run) {
 
 /// How the model that comes first ended.
 void add_outcome(const ShockRun& run, Report& report) {
-  const Run leading = run.leading_run();
-  report.fields["outcome"] = leading.outcome;
-  report.fields["message"] = leading.message;
+  const auto [outcome, message] = run.ending();
+  report.fields["outcome"] = outcome;
+  report.fields["message"] = message;
   if (run.continuous) {
     report.fields["warnings"] = run.continuous->planned.warnings;
     const std::string facets = facet_words(run.scene, run.continuous->planned.run);

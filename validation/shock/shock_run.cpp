@@ -265,8 +265,14 @@ const ShockRow* ShockRun::discrete_row(int impact, std::size_t probe) const {
   return found == discrete.end() ? nullptr : &*found;
 }
 
+ShockRun::Ending ShockRun::ending() const {
+  if (!continuous) return {discrete_run->outcome, discrete_run->message};
+  const numeric::Simulation& simulation = continuous->planned.run;
+  return {outcome_name(simulation), simulation.message};
+}
+
 bool ShockRun::ends_at_limit() const {
-  return leading_run().outcome == std::string_view(outcome_name(numeric::Outcome::impact_limit));
+  return ending().outcome == std::string_view(outcome_name(numeric::Outcome::impact_limit));
 }
 
 const Spectrum* ShockRun::whole(std::size_t probe, bool of_continuous) const {

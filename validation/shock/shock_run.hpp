@@ -61,6 +61,11 @@ struct ShockRun {
   [[nodiscard]] const Spectrum* whole(std::size_t probe, bool of_continuous) const;
   /// The run of the model that comes first: of the continuous one where it ran.
   [[nodiscard]] Run leading_run() const { return continuous ? run_of(continuous->planned.run) : *discrete_run; }
+  /// How that ended, and in words.
+  struct Ending {
+    std::string outcome, message;
+  };
+  [[nodiscard]] Ending ending() const;
   /// Whether it ended after as many impacts as were asked for, so that harder ones may follow.
   [[nodiscard]] bool ends_at_limit() const;
   [[nodiscard]] const std::vector<ShockRow>& rows() const { return continuous ? continuous->rows : discrete; }
